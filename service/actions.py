@@ -1,0 +1,342 @@
+"""The language contract's actions, as the one type everything that is said must become.
+
+Grammar, language model, voice and typed REST calls meet here and only here. The actions that
+change a world are `sim.actions`; those below steer the session, its pictures and its questions.
+Validation is pydantic's, over plain dataclasses; `None` means "not said" and is left out of JSON.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal, TypeAlias
+
+from annotated_types import Ge, Gt, Le, MaxLen, MinLen
+from pydantic import Discriminator, TypeAdapter
+
+from sim.actions import (
+    Add,
+    Amount,
+    Drive,
+    PlaceableKind,
+    PlannerName,
+    Remove,
+    Reset,
+    RoadType,
+    Scenario,
+    SensorName,
+    SetCount,
+    SetMode,
+    TimeOfDay,
+    Traffic,
+    Weather,
+    Where,
+)
+from sim.kinds import Move
+
+__all__ = ["ACTION", "ACTIONS", "Action", "Where", "dump", "load"]
+
+_STRICT = {"extra": "forbid"}
+
+Ticks = Annotated[int, Ge(1), Le(10_000)]
+Name = Annotated[str, MinLen(1), MaxLen(80)]
+Preference = Literal["avoid_potholes", "smooth_ride", "fastest", "cautious", "balanced"]
+ViewName = Literal["road", "schematic", "occupancy", "plan", "log", "potholes", "sensors", "path", "metrics"]
+MetricName = Literal["crashes", "successes", "success_rate", "steps", "moves", "distance"]
+Parameter = Literal[
+    "weather",
+    "time_of_day",
+    "traffic",
+    "planner",
+    "sensor",
+    "dynamics",
+    "playback_speed",
+    "target_speed_kmh",
+    "step_seconds",
+    "spawn_probability",
+    "pothole_probability",
+    "courtesy",
+    "sensor_noise",
+    "detection_sensitivity",
+    "false_positive_rate",
+    "sensor_range_m",
+    "safety_buffer",
+    "columns",
+    "rows",
+    "seed",
+]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Set:
+    """Give a parameter a value."""
+
+    do: Literal["set"] = "set"
+    parameter: Parameter
+    value: int | float | str
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Adjust:
+    """Change a parameter by a factor, by a signed amount, or simply up or down."""
+
+    do: Literal["adjust"] = "adjust"
+    parameter: Parameter
+    factor: Annotated[float, Gt(0)] | None = None
+    by: float | None = None
+    direction: Literal["up", "down"] | None = None
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Prefer:
+    """How the vehicle should weigh one way of driving against another."""
+
+    do: Literal["prefer"] = "prefer"
+    preference: Preference
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Pause:
+    """Stop the clock."""
+
+    do: Literal["pause"] = "pause"
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Resume:
+    """Start the clock."""
+
+    do: Literal["resume"] = "resume"
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Undo:
+    """Take back the latest change, as if it had never been said."""
+
+    do: Literal["undo"] = "undo"
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Redo:
+    """Say again what was undone last."""
+
+    do: Literal["redo"] = "redo"
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Step:
+    """Run some ticks at once, and stay paused after them."""
+
+    do: Literal["step"] = "step"
+    ticks: Ticks
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rewind:
+    """Go back some ticks."""
+
+    do: Literal["rewind"] = "rewind"
+    ticks: Ticks
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Show:
+    """Show a view."""
+
+    do: Literal["show"] = "show"
+    view: ViewName
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Hide:
+    """Hide a view."""
+
+    do: Literal["hide"] = "hide"
+    view: ViewName
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Ask:
+    """A question; which keys belong to which `about` is the contract's table."""
+
+    do: Literal["ask"] = "ask"
+    about: Literal[
+        "why",
+        "why_not",
+        "what_if",
+        "next",
+        "scene",
+        "status",
+        "metrics",
+        "confidence",
+        "maintenance",
+        "help",
+    ]
+    move: Move | None = None
+    tick: Annotated[int, Ge(0)] | None = None
+    change: tuple[Action, ...] | None = None
+    kind: PlaceableKind | None = None
+    metric: MetricName | None = None
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ScenarioParts:
+    """The keys of `scenario`, as conditions of an evaluation."""
+
+    weather: Weather | None = None
+    time_of_day: TimeOfDay | None = None
+    road: RoadType | None = None
+    traffic: Traffic | None = None
+    potholes: Amount | None = None
+    vehicles: Amount | None = None
+    barriers: Amount | None = None
+    pedestrians: Amount | None = None
+    avs: Amount | None = None
+    planner: PlannerName | None = None
+    sensor: SensorName | None = None
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Evaluate:
+    """Many episodes, compared."""
+
+    do: Literal["evaluate"] = "evaluate"
+    runs: Annotated[int, Ge(1), Le(1_000_000)] | None = None
+    planners: tuple[PlannerName, ...] | None = None
+    scenario: ScenarioParts | None = None
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FindWorst:
+    """The world in which a planner fares worst."""
+
+    do: Literal["find_worst"] = "find_worst"
+    runs: Annotated[int, Ge(1), Le(1_000_000)] | None = None
+    planner: PlannerName | None = None
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Advise:
+    """What to do about a hazard at a distance, at a speed."""
+
+    do: Literal["advise"] = "advise"
+    hazard: PlaceableKind
+    distance_m: Annotated[float, Gt(0)]
+    speed_kmh: Annotated[float, Ge(0)]
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Save:
+    """Keep the session under a name."""
+
+    do: Literal["save"] = "save"
+    name: Name
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Load:
+    """Go on from what was saved under a name."""
+
+    do: Literal["load"] = "load"
+    name: Name
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Record:
+    """Start or stop recording."""
+
+    do: Literal["record"] = "record"
+    on: bool
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Teach:
+    """From now on, a phrase means these actions."""
+
+    do: Literal["teach"] = "teach"
+    phrase: Annotated[str, MinLen(1), MaxLen(80)]
+    meaning: tuple[Action, ...]
+
+    __pydantic_config__ = _STRICT
+
+
+Action: TypeAlias = Annotated[
+    Add
+    | Remove
+    | SetCount
+    | Scenario
+    | Reset
+    | SetMode
+    | Drive
+    | Set
+    | Adjust
+    | Prefer
+    | Pause
+    | Resume
+    | Undo
+    | Redo
+    | Step
+    | Rewind
+    | Show
+    | Hide
+    | Ask
+    | Evaluate
+    | FindWorst
+    | Advise
+    | Save
+    | Load
+    | Record
+    | Teach,
+    Discriminator("do"),
+]
+
+ACTION: TypeAdapter[Action] = TypeAdapter(Action)
+ACTIONS: TypeAdapter[tuple[Action, ...]] = TypeAdapter(tuple[Action, ...])
+
+
+def load(values: Any) -> tuple[Action, ...]:
+    """Actions from JSON values. Raises `pydantic.ValidationError`, naming each bad field."""
+    return ACTIONS.validate_python(values)
+
+
+def dump(actions: tuple[Action, ...]) -> list[dict[str, Any]]:
+    """Actions as JSON values, in the contract's form: what was not said is absent."""
+    values: list[dict[str, Any]] = ACTIONS.dump_python(actions, mode="json", exclude_none=True)
+    return values

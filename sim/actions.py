@@ -1,0 +1,134 @@
+"""What may be done to a world: the actions that a session's log is made of.
+
+Plain dataclasses, one per `do` of the language contract, so that the rules need no validation
+library; the service checks incoming JSON against these same classes (`service/actions.py` adds
+the actions that change no world: asking, pausing, showing). `None` means "not said".
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+from annotated_types import Ge, Gt, Le
+
+from sim.kinds import Mode, Move
+
+PlaceableKind = Literal["pothole", "vehicle", "barrier", "pedestrian", "av"]
+Weather = Literal["clear", "rain", "fog", "snow"]
+TimeOfDay = Literal["day", "dusk", "night", "dawn"]
+RoadType = Literal["highway", "city", "rural"]
+Traffic = Literal["none", "light", "normal", "heavy"]
+PlannerName = Literal["priority", "astar", "dijkstra", "dwa", "rl", "cooperative"]
+SensorName = Literal["perfect", "camera", "lidar", "radar", "fusion"]
+
+MAX_THINGS = 10_000
+"""The largest number of things one action may name; what the road can hold is checked later."""
+
+Amount = Annotated[int, Ge(0), Le(MAX_THINGS)]
+Some = Annotated[int, Ge(1), Le(MAX_THINGS)]
+
+_STRICT = {"extra": "forbid", "strict": False}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Where:
+    """A place, by any of its parts; parts combine ("15 m ahead in the left lane")."""
+
+    lane: Literal["left", "middle", "right"] | Annotated[int, Ge(1)] | None = None
+    row: Annotated[int, Ge(0)] | None = None
+    cell: tuple[int, int] | None = None
+    side: Literal["ahead", "behind", "left", "right"] | None = None
+    distance_m: Annotated[float, Gt(0)] | None = None
+    cells: Annotated[int, Ge(1)] | None = None
+    nearest: Literal[True] | None = None
+    id: str | None = None
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Add:
+    """Put `count` things of a kind on the road."""
+
+    do: Literal["add"] = "add"
+    kind: PlaceableKind
+    count: Some
+    where: Where | None = None
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Remove:
+    """Take `count` things of a kind (or `"all"`) off the road."""
+
+    do: Literal["remove"] = "remove"
+    kind: PlaceableKind | Literal["everything"]
+    count: Some | Literal["all"]
+    where: Where | None = None
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SetCount:
+    """Add or remove until there are exactly `count` things of a kind."""
+
+    do: Literal["set_count"] = "set_count"
+    kind: PlaceableKind
+    count: Amount
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Scenario:
+    """A fresh world; what is not named is at its default."""
+
+    do: Literal["scenario"] = "scenario"
+    weather: Weather | None = None
+    time_of_day: TimeOfDay | None = None
+    road: RoadType | None = None
+    traffic: Traffic | None = None
+    potholes: Amount | None = None
+    vehicles: Amount | None = None
+    barriers: Amount | None = None
+    pedestrians: Amount | None = None
+    avs: Amount | None = None
+    planner: PlannerName | None = None
+    sensor: SensorName | None = None
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Reset:
+    """The present episode from its start, on the road it started with."""
+
+    do: Literal["reset"] = "reset"
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SetMode:
+    """Who drives: a person or the planner."""
+
+    do: Literal["mode"] = "mode"
+    mode: Mode
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Drive:
+    """One move by a person, taken at the next tick that has none yet."""
+
+    do: Literal["drive"] = "drive"
+    move: Move
+
+    __pydantic_config__ = _STRICT
+
+
+WorldAction = Add | Remove | SetCount | Scenario | Reset | SetMode | Drive

@@ -1,0 +1,154 @@
+"""What a session runs with: the table of `world.md`, checked as a whole.
+
+A `Config` that exists is valid: the constructor raises `ConfigError` with *every* bad field.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+from typing import Any, Final, get_args
+
+from sim.actions import PlannerName, RoadType, SensorName, Traffic
+from sim.randomness import MAX_SEED
+from sim.road import Road
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """One thing wrong with one field, in words for a person."""
+
+    field: str
+    message: str
+
+
+class ConfigError(ValueError):
+    """A configuration that cannot be; `problems` names each bad field."""
+
+    def __init__(self, problems: tuple[Problem, ...]) -> None:
+        super().__init__("; ".join(f"{problem.field}: {problem.message}" for problem in problems))
+        self.problems = problems
+
+
+RANGES: Final[dict[str, tuple[float, float]]] = {
+    "columns": (3, 64),
+    "visible_rows": (4, 64),
+    "rows": (4, 512),
+    "cell_m": (0.5, 100.0),
+    "step_seconds": (0.02, 10.0),
+    "spawn_probability": (0.0, 1.0),
+    "pothole_probability": (0.0, 1.0),
+    "potholes": (0, 10_000),
+    "vehicles": (0, 10_000),
+    "barriers": (0, 10_000),
+    "pedestrians": (0, 10_000),
+    "courtesy": (0.0, 1.0),
+    "reset_delay_s": (0.0, 60.0),
+    "seed": (0, MAX_SEED),
+}
+"""Inclusive limits of every number."""
+
+CHOICES: Final[dict[str, tuple[str, ...]]] = {
+    "road": get_args(RoadType),
+    "traffic": get_args(Traffic),
+    "planner": get_args(PlannerName),
+    "sensor": get_args(SensorName),
+}
+"""The words that may stand where a word is asked for."""
+
+_WHOLE: Final = frozenset(
+    ("columns", "visible_rows", "rows", "potholes", "vehicles", "barriers", "pedestrians", "seed")
+)
+_OPTIONAL: Final = frozenset(("potholes", "vehicles", "road", "traffic"))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Config:
+    """Everything a world is made from besides the seed's own draws.
+
+    `potholes` and `vehicles` are exact numbers that replace their probabilities when given;
+    `road` and `traffic` remember which preset the numbers came from (`sim.scenario`).
+    """
+
+    columns: int = 8
+    visible_rows: int = 8
+    rows: int = 30
+    cell_m: float = 5.0
+    step_seconds: float = 0.5
+    spawn_probability: float = 0.68
+    pothole_probability: float = 0.15
+    potholes: int | None = None
+    vehicles: int | None = None
+    barriers: int = 0
+    pedestrians: int = 0
+    courtesy: float = 0.0
+    reset_delay_s: float = 2.0
+    road: RoadType | None = None
+    traffic: Traffic | None = None
+    planner: PlannerName = "priority"
+    sensor: SensorName = "perfect"
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        problems = tuple(self._problems())
+        if problems:
+            raise ConfigError(problems)
+
+    def with_parts(self, **parts: Any) -> Config:
+        """This configuration with some fields changed. Raises `ConfigError`."""
+        unknown = sorted(set(parts) - {field.name for field in fields(self)})
+        if unknown:
+            raise ConfigError(tuple(Problem(name, "is not a setting of a road") for name in unknown))
+        return replace(self, **parts)
+
+    @property
+    def max_ticks(self) -> int:
+        """An episode that lasts longer is STUCK."""
+        return 10 * self.rows
+
+    @property
+    def reset_delay_ticks(self) -> int:
+        """Ticks for which a result stands before the next episode; at least one."""
+        return max(1, -int(-self.reset_delay_s // self.step_seconds))
+
+    @property
+    def geometry(self) -> Road:
+        """The empty road."""
+        return Road.of(self.columns, self.rows)
+
+    def _problems(self) -> list[Problem]:
+        problems = [*self._number_problems(), *self._word_problems()]
+        if not problems:
+            problems += self._room_problems()
+        return problems
+
+    def _number_problems(self) -> list[Problem]:
+        problems = []
+        for name, (low, high) in RANGES.items():
+            value = getattr(self, name)
+            if value is None and name in _OPTIONAL:
+                continue
+            allowed = int if name in _WHOLE else (int, float)
+            if isinstance(value, bool) or not isinstance(value, allowed):
+                problems.append(Problem(name, f"must be a {'whole ' if name in _WHOLE else ''}number"))
+            elif not low <= value <= high:
+                problems.append(Problem(name, f"must be between {low:g} and {high:g}"))
+        return problems
+
+    def _word_problems(self) -> list[Problem]:
+        return [
+            Problem(name, f"must be one of {', '.join(choices)}")
+            for name, choices in CHOICES.items()
+            if getattr(self, name) not in choices and not (name in _OPTIONAL and getattr(self, name) is None)
+        ]
+
+    def _room_problems(self) -> list[Problem]:
+        room = self.columns * (self.rows - 2)
+        counts = {
+            name: getattr(self, name) or 0 for name in ("vehicles", "pedestrians", "barriers", "potholes")
+        }
+        # Drawn things take at most one cell of a row each.
+        drawn = (self.rows - 2) * ((self.vehicles is None) + (self.potholes is None))
+        if sum(counts.values()) + drawn <= room:
+            return []
+        largest = max(counts, key=lambda name: counts[name])
+        return [Problem(largest, f"too many things for the road: it has room for {room - drawn}")]

@@ -1,0 +1,303 @@
+"""Actions on a run: what a person may change, one function an action. All or nothing.
+
+A run is a value: either `apply` answers a new one, or it raises `EditError` and nothing was done.
+While a result stands, a change begins the next episode first, since the road it would touch is
+about to go; what points at a thing on the old road is refused instead.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+from sim.actions import Add, Drive, Remove, Reset, Scenario, SetCount, SetMode, WorldAction
+from sim.config import Config, ConfigError
+from sim.events import Event, EventType
+from sim.generate import lowest_ranked, named
+from sim.kinds import PLACEABLE, Kind, Outcome
+from sim.place import PlaceError, nearest_first, place_for_adding, place_for_finding
+from sim.plan import planner_named
+from sim.randomness import Stream
+from sim.road import bits, board_of
+from sim.run import Run, next_episode, reconfigured, restarted
+from sim.scenario import configured
+from sim.world import Thing, World
+
+MAX_QUEUE = 100
+"""How many moves of a person may wait."""
+
+PLURALS = {
+    Kind.POTHOLE: "potholes",
+    Kind.BARRIER: "barriers",
+    Kind.VEHICLE: "vehicles",
+    Kind.PEDESTRIAN: "pedestrians",
+    Kind.AV: "avs",
+}
+"""How counts are called in changes and configurations."""
+
+
+class EditError(ValueError):
+    """A change that cannot be made. `code` is for programs, the message for a person."""
+
+    def __init__(self, code: str, message: str, field: str) -> None:
+        super().__init__(message)
+        self.code = code
+        self.message = message
+        self.field = field
+        """the key of the action that is the trouble"""
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """One figure that differs: a count (`potholes`), a setting (`config.road`), `mode`, `queue`."""
+
+    path: str
+    before: Any
+    after: Any
+
+
+@dataclass(frozen=True, slots=True)
+class Applied:
+    """What an action has done."""
+
+    action: WorldAction
+    run: Run
+    changes: tuple[Change, ...] = ()
+    added: tuple[Thing, ...] = ()
+    removed: tuple[Thing, ...] = ()
+    events: tuple[Event, ...] = ()
+
+
+def apply(run: Run, action: WorldAction) -> Applied:
+    """The run with an action done at its present tick. Raises `EditError`."""
+    begun = run
+    events: tuple[Event, ...] = ()
+    if run.world.outcome is not Outcome.RUNNING and isinstance(action, Add | Remove | SetCount | Drive):
+        _refuse_what_is_gone(action)
+        begun, event = next_episode(run)
+        events = (event,)
+    applied = _apply(begun, action)
+    return replace(applied, changes=_differences(run, applied.run), events=(*events, *applied.events))
+
+
+def _apply(run: Run, action: WorldAction) -> Applied:
+    match action:
+        case Add():
+            return _add(run, action)
+        case Remove():
+            return _remove(run, action)
+        case SetCount():
+            return _set_count(run, action)
+        case Scenario():
+            return _scenario(run, action)
+        case Reset():
+            begun, event = restarted(run)
+            return Applied(action, begun, events=(event,))
+        case SetMode():
+            return Applied(action, replace(run, mode=action.mode, queue=()))
+        case Drive():
+            if len(run.queue) >= MAX_QUEUE:
+                raise EditError("too-many", f"{MAX_QUEUE} moves are waiting already.", "move")
+            return Applied(action, replace(run, queue=(*run.queue, action.move)))
+
+
+def _add(run: Run, action: Add) -> Applied:
+    kind = _placeable(action.kind)
+    where, world = action.where, run.world
+    try:
+        place = place_for_adding(where, action.count, world, run.config.cell_m)
+    except PlaceError as error:
+        raise EditError("outside-road", str(error), "where") from None
+    if place.cells.bit_count() == 1 and action.count == 1:
+        (cell,) = bits(place.cells)
+        _refuse_occupied(world, kind, cell)
+        return _placed(run, action, kind, [cell])
+    free = place.cells & ~world.occupied
+    if free.bit_count() < action.count:
+        there = " there" if where else " between start and goal"
+        raise EditError(
+            "does-not-fit",
+            f"{_many(action.count, kind)} {_do(action.count)} not fit: "
+            f"{free.bit_count()} {'cell is' if free.bit_count() == 1 else 'cells are'} free{there}.",
+            "count",
+        )
+    if place.ordered:
+        cells = nearest_first(bits(free), world)[: action.count]
+    else:
+        cells = lowest_ranked(free, action.count, _draws(run))
+    return _placed(run, action, kind, cells)
+
+
+def _placed(run: Run, action: Add | SetCount, kind: Kind, cells: list[int]) -> Applied:
+    """New things in these cells; movers face a random way."""
+    world = run.world
+    board = board_of(cells)
+    last = dict(world.numbered)
+    table = named(kind, cells, last)
+    heading = _draws(run).narrow(1)
+    right = board_of([cell for cell in cells if heading.below(2, cell)]) if kind.moves else 0
+    after = replace(
+        world,
+        potholes=world.potholes | (board if kind is Kind.POTHOLE else 0),
+        barriers=world.barriers | (board if kind is Kind.BARRIER else 0),
+        pedestrians=world.pedestrians | (board if kind is Kind.PEDESTRIAN else 0),
+        right=world.right | right,
+        left=world.left | (board & ~right if kind.moves else 0),
+        movers={**world.movers, **table} if kind.moves else world.movers,
+        hazards=world.hazards if kind.moves else {**world.hazards, **table},
+        numbered=last,
+    )
+    events = tuple(
+        Event(after.tick, EventType.DISABLED, after.episode, (after.movers[cell],), after.road.cell(cell))
+        for cell in bits(after.disabled & ~world.disabled)
+    )
+    added = tuple(thing for name in table.values() if (thing := after.find(name)))
+    return Applied(action, _edited(run, after), added=added, events=events)
+
+
+def _remove(run: Run, action: Remove) -> Applied:
+    world, where = run.world, action.where
+    kinds = PLACEABLE if action.kind == "everything" else (_placeable(action.kind),)
+    try:
+        place = place_for_finding(where, world, run.config.cell_m)
+    except PlaceError as error:
+        raise EditError("outside-road", str(error), "where") from None
+    if where is not None and where.id is not None:
+        found = [_thing(world, where.id, kinds)]
+    else:
+        near = {cell: rank for rank, cell in enumerate(nearest_first(bits(place.cells), world))}
+        found = sorted(
+            (
+                thing
+                for thing in world.things()
+                if thing.kind in kinds and world.road.index(thing.cell) in near
+            ),
+            key=lambda thing: near[world.road.index(thing.cell)],
+        )
+    if action.count == "all":
+        return _taken(run, action, found)
+    there = " there" if where is not None and not where.nearest else " on the road"
+    if not found:
+        raise EditError("none-there", f"There is no {_noun(1, action.kind)}{there}.", "kind")
+    if len(found) < action.count:
+        are = (
+            f"is only one {_noun(1, action.kind)}"
+            if len(found) == 1
+            else f"are only {_many(len(found), action.kind)}"
+        )
+        raise EditError("too-few", f"There {are}{there}.", "count")
+    return _taken(run, action, found[: action.count])
+
+
+def _taken(run: Run, action: Remove | SetCount, things: list[Thing]) -> Applied:
+    after = run.world.without({thing.id for thing in things})
+    return Applied(action, _edited(run, after), removed=tuple(things))
+
+
+def _set_count(run: Run, action: SetCount) -> Applied:
+    kind = _placeable(action.kind)
+    more = action.count - run.world.count(kind)
+    if more > 0:
+        applied = _add(run, Add(kind=action.kind, count=more))
+        return replace(applied, action=action)
+    if more == 0:
+        return Applied(action, run)
+    going = lowest_ranked(run.world.board(kind), -more, _draws(run))
+    names = [run.world.id_at(cell, kind) for cell in going]
+    return _taken(run, action, [thing for name in names if (thing := run.world.find(name))])
+
+
+def _scenario(run: Run, action: Scenario) -> Applied:
+    if planner_named(action.planner or "priority") is None:
+        raise EditError("not-available", f"The planner {action.planner} is not available yet.", "planner")
+    if action.avs is not None and action.avs > 1:
+        raise EditError("not-available", "More than one autonomous vehicle is not available yet.", "avs")
+    try:
+        config = configured(run.config, action)
+    except ConfigError as error:
+        problem = error.problems[0]
+        raise EditError(
+            "does-not-fit", f"{problem.field.capitalize()}: {problem.message}.", problem.field
+        ) from None
+    begun, event = reconfigured(run, config)
+    return Applied(action, begun, events=(event,))
+
+
+def _placeable(word: str) -> Kind:
+    kind = Kind(word)
+    if kind is Kind.AV:
+        raise EditError("not-available", "Other autonomous vehicles are not available yet.", "kind")
+    return kind
+
+
+def _thing(world: World, name: str, kinds: tuple[Kind, ...]) -> Thing:
+    thing = world.find(name)
+    if thing is None:
+        raise EditError("none-there", f"There is no {name} on the road.", "where")
+    if thing.kind not in kinds:
+        raise EditError("none-there", f"{name} is not a {kinds[0]}.", "where")
+    return thing
+
+
+def _refuse_what_is_gone(action: Add | Remove | SetCount | Drive) -> None:
+    """A place that points at a thing points at the road whose episode has ended."""
+    if isinstance(action, Remove) and action.where is not None and (action.where.nearest or action.where.id):
+        raise EditError(
+            "none-there", "The episode has just ended; what you point at goes with its road.", "where"
+        )
+
+
+def _refuse_occupied(world: World, kind: Kind, cell: int) -> None:
+    """One cell was named: only a pothole under a mover may share it."""
+    blocked = world.occupied & ~world.moving if kind is Kind.POTHOLE else world.occupied
+    bit = 1 << cell
+    if not bit & blocked and not (kind is Kind.POTHOLE and bit & world.disabled):
+        return
+    column, row = world.road.cell(cell)
+    if bit & world.board(Kind.AV):
+        who = "the autonomous vehicle"
+    else:
+        who = world.movers.get(cell) or world.hazards[cell]
+    raise EditError("occupied", f"Cell ({column}, {row}) is taken by {who}.", "where")
+
+
+def _draws(run: Run) -> Stream:
+    return Stream.of(run.config.seed, "edit", run.edits)
+
+
+def _edited(run: Run, world: World) -> Run:
+    return replace(run, world=world, edits=run.edits + 1)
+
+
+def _differences(before: Run, after: Run) -> tuple[Change, ...]:
+    """Every figure that a change has changed."""
+    changes = []
+    if before.world.episode != after.world.episode:
+        changes.append(Change("episode", before.world.episode, after.world.episode))
+    counts = after.world.counts()
+    for kind, count in before.world.counts().items():
+        if count != counts[kind]:
+            changes.append(Change(PLURALS[kind], count, counts[kind]))
+    for field in fields(Config):
+        was, now = getattr(before.config, field.name), getattr(after.config, field.name)
+        if was != now:
+            changes.append(Change(f"config.{field.name}", was, now))
+    if before.mode is not after.mode:
+        changes.append(Change("mode", before.mode, after.mode))
+    if before.queue != after.queue:
+        changes.append(Change("queue", before.queue, after.queue))
+    return tuple(changes)
+
+
+def _noun(count: int, kind: str) -> str:
+    if kind == "everything":
+        return "thing" if count == 1 else "things"
+    return kind if count == 1 else PLURALS[Kind(kind)]
+
+
+def _many(count: int, kind: str) -> str:
+    return f"{count} {_noun(count, kind)}"
+
+
+def _do(count: int) -> str:
+    return "does" if count == 1 else "do"

@@ -1,0 +1,35 @@
+"""What happened, in data: for the log, the stream, the metrics and the store alike. No words."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from sim.kinds import Cell, Move
+
+
+class EventType(StrEnum):
+    """What kind of thing happened."""
+
+    EPISODE_STARTED = "episode_started"
+    ARRIVED = "arrived"
+    CRASHED = "crashed"
+    STUCK = "stuck"
+    HELD_BACK = "held_back"
+    """a person's move was not taken because its cell would not be free"""
+    DISABLED = "disabled"
+    """a pothole was put under a mover, which stays in it"""
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """Something worth a line in the log, at the tick of the world in which it is so."""
+
+    tick: int
+    type: EventType
+    episode: int
+    ids: tuple[str, ...] = ()
+    cell: Cell | None = None
+    move: Move | None = None
+    how: str | None = None
+    """for a crash: `hit` or `swap`"""

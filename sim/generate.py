@@ -1,0 +1,90 @@
+"""A road from a configuration, a seed and the number of an episode.
+
+Every kind draws from a stream of its own, so that asking for another number of potholes leaves
+the cars where they were. An exact number takes the free cells of lowest random rank: one more
+adds one and moves none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from sim.config import Config
+from sim.kinds import Kind
+from sim.randomness import Stream
+from sim.road import Board, Road, bits, board_of
+from sim.world import World
+
+_PRESENCE, _COLUMN = 0, 1
+
+
+def generate(
+    config: Config, episode: int, *, tick: int = 0, numbered: Mapping[Kind, int] | None = None
+) -> World:
+    """The world in which an episode begins, at `tick`; ids go on from `numbered`."""
+    road = config.geometry
+    taken = 0
+
+    def furnish(kind: Kind, count: int | None, probability: float) -> Board:
+        nonlocal taken
+        stream = Stream.of(config.seed, f"spawn {kind}", episode)
+        free = road.between & ~taken
+        chosen = (
+            _one_a_row(road, free, probability, stream) if count is None else _exactly(free, count, stream)
+        )
+        taken |= chosen
+        return chosen
+
+    vehicles = furnish(Kind.VEHICLE, config.vehicles, config.spawn_probability)
+    pedestrians = furnish(Kind.PEDESTRIAN, config.pedestrians, 0.0)
+    barriers = furnish(Kind.BARRIER, config.barriers, 0.0)
+    potholes = furnish(Kind.POTHOLE, config.potholes, config.pothole_probability)
+
+    heading = Stream.of(config.seed, "heading", episode)
+    right = board_of([cell for cell in bits(vehicles | pedestrians) if heading.below(2, cell)])
+    last = dict(numbered or {})
+    return World(
+        road=road,
+        tick=tick,
+        episode=episode,
+        episode_start=tick,
+        avs=(road.start,),
+        potholes=potholes,
+        barriers=barriers,
+        right=right,
+        left=(vehicles | pedestrians) & ~right,
+        pedestrians=pedestrians,
+        movers=named(Kind.VEHICLE, bits(vehicles), last) | named(Kind.PEDESTRIAN, bits(pedestrians), last),
+        hazards=named(Kind.POTHOLE, bits(potholes), last) | named(Kind.BARRIER, bits(barriers), last),
+        numbered=last,
+    )
+
+
+def named(kind: Kind, cells: Iterable[int], last: dict[Kind, int]) -> dict[int, str]:
+    """New ids for these cells; `last` remembers the highest number given."""
+    table = {}
+    for cell in cells:
+        last[kind] = last.get(kind, 0) + 1
+        table[cell] = f"{kind}-{last[kind]}"
+    return table
+
+
+def lowest_ranked(free: Board, count: int, stream: Stream) -> list[int]:
+    """`count` cells of a board, at random: those of lowest rank in the stream."""
+    return sorted(bits(free), key=stream.word)[:count]
+
+
+def _exactly(free: Board, count: int, stream: Stream) -> Board:
+    return board_of(lowest_ranked(free, count, stream))
+
+
+def _one_a_row(road: Road, free: Board, probability: float, stream: Stream) -> Board:
+    """One thing in each row with that probability, in a free cell of the row."""
+    board = 0
+    for row in range(1, road.rows - 1):
+        draws = stream.narrow(row)
+        if draws.uniform(_PRESENCE) < probability:
+            cells = list(bits(free & road.row(row)))
+            if cells:
+                board |= 1 << cells[draws.below(len(cells), _COLUMN)]
+    return board

@@ -1,0 +1,46 @@
+"""What a tick has come to. The judge knows no planner and no forecast, only before and after.
+
+It reads the tables of ids, not the boards that moved them, so that it is a second opinion on the
+rules as well as on the driving. All defects are listed, not the first.
+"""
+
+from __future__ import annotations
+
+from sim.kinds import Kind, Outcome
+from sim.world import Cause, World
+
+
+def collisions(before: World, after: World) -> tuple[Cause, ...]:
+    """Every collision of an autonomous vehicle in the tick from `before` to `after`."""
+    was = {name: cell for cell, name in before.movers.items()}
+    found = []
+    for number, (start, end) in enumerate(zip(before.avs, after.avs, strict=True)):
+        place = after.road.cell(end)
+        if end in after.hazards:
+            name = after.hazards[end]
+            found.append(Cause("hit", _kind(name), (name,), place))
+        if end in after.movers:
+            name = after.movers[end]
+            found.append(Cause("hit", _kind(name), (name,), place))
+        passed = after.movers.get(start)
+        if start != end and passed is not None and was[passed] == end:
+            found.append(Cause("swap", _kind(passed), (passed,), place))
+        for other in range(number):
+            met = after.avs[other] == end
+            if met or (after.avs[other] == start != end == before.avs[other]):
+                how = "hit" if met else "swap"
+                found.append(Cause(how, Kind.AV, (f"av-{other + 1}", f"av-{number + 1}"), place))
+    return tuple(found)
+
+
+def outcome(after: World, crashes: tuple[Cause, ...], max_ticks: int) -> Outcome:
+    """How the episode stands after a tick with these collisions."""
+    if crashes:
+        return Outcome.CRASH
+    if all(cell < after.road.columns for cell in after.avs):
+        return Outcome.SUCCESS
+    return Outcome.STUCK if after.episode_tick > max_ticks else Outcome.RUNNING
+
+
+def _kind(name: str) -> Kind:
+    return Kind(name.rpartition("-")[0])

@@ -1,0 +1,62 @@
+"""Counts over a session's episodes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from sim.kinds import Move, Outcome
+
+_LATERAL = frozenset((Move.LEFT, Move.RIGHT))
+_DIAGONAL = frozenset((Move.FORWARD_LEFT, Move.FORWARD_RIGHT))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Metrics:
+    """What a session's vehicle has done so far; an episode counts once it has ended."""
+
+    successes: int = 0
+    crashes: int = 0
+    stuck: int = 0
+    forward: int = 0
+    lateral: int = 0
+    diagonal: int = 0
+    stay: int = 0
+    distance_m: float = 0.0
+    """length of the path driven, from cell centre to cell centre"""
+    last_episode_ticks: int | None = None
+    """ticks the latest episode that ended took"""
+
+    @property
+    def episodes(self) -> int:
+        """Episodes that have ended."""
+        return self.successes + self.crashes + self.stuck
+
+    @property
+    def steps(self) -> int:
+        """Decisions taken."""
+        return self.forward + self.lateral + self.diagonal + self.stay
+
+    @property
+    def success_rate(self) -> float | None:
+        """Successes per ended episode; None before the first has ended."""
+        return self.successes / self.episodes if self.episodes else None
+
+    def after_move(self, move: Move, cell_m: float) -> Metrics:
+        """With one more decision taken."""
+        if move is Move.FORWARD:
+            return replace(self, forward=self.forward + 1, distance_m=self.distance_m + cell_m)
+        if move in _LATERAL:
+            return replace(self, lateral=self.lateral + 1, distance_m=self.distance_m + cell_m)
+        if move in _DIAGONAL:
+            return replace(self, diagonal=self.diagonal + 1, distance_m=self.distance_m + cell_m * 2**0.5)
+        return replace(self, stay=self.stay + 1)
+
+    def after_end(self, outcome: Outcome, ticks: int) -> Metrics:
+        """With one more episode ended."""
+        return replace(
+            self,
+            successes=self.successes + (outcome is Outcome.SUCCESS),
+            crashes=self.crashes + (outcome is Outcome.CRASH),
+            stuck=self.stuck + (outcome is Outcome.STUCK),
+            last_episode_ticks=ticks,
+        )

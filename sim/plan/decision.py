@@ -1,0 +1,59 @@
+"""What a planner hands on: a move, and for every move what spoke for or against it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from sim.forecast import Verdict
+from sim.kinds import Cell, Move
+
+
+@dataclass(frozen=True, slots=True)
+class Option:
+    """One move as the planner saw it."""
+
+    move: Move
+    cell: Cell | None
+    """where it leads; None is off the road"""
+    reason: Verdict
+    """what the step would meet"""
+    cost: float | None
+    """the lower the better, in the planner's own measure; None means not to be had"""
+    causes: tuple[str, ...]
+    """ids of the things that would be met"""
+
+    @property
+    def verdict(self) -> str:
+        """`free`, `blocked` or `off_road`."""
+        if self.reason is Verdict.OFF_ROAD:
+            return "off_road"
+        return "blocked" if self.reason.blocks else "free"
+
+
+@dataclass(frozen=True, slots=True)
+class Decision:
+    """The decision taken in the world of `tick`; it leads to the world of `tick + 1`."""
+
+    tick: int
+    av: str
+    planner: str
+    """name of the planner, or `manual` when a person chose"""
+    move: Move
+    options: tuple[Option, ...]
+    """all six moves, the most preferred first"""
+    asked: Move | None = None
+    """what a person asked for; it was held back if it differs from `move`"""
+
+    @property
+    def held_back(self) -> bool:
+        """Whether a person's move was not taken because its cell would not be free."""
+        return self.asked is not None and self.asked is not self.move
+
+    def option(self, move: Move) -> Option:
+        """The trace of one move."""
+        return next(option for option in self.options if option.move is move)
+
+    @property
+    def chosen(self) -> Option:
+        """The trace of the move taken."""
+        return self.option(self.move)

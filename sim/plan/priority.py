@@ -1,0 +1,55 @@
+"""`priority`: the rule planner. Forward, then left or right, then a diagonal, then stay.
+
+Structure: one tick of forecast; the first move in a fixed order whose cell will be free.
+Guarantees: never a step into a cell that will be taken while another move is free.
+Simplifications: no memory and no look-ahead, so that it may swing left and right before a wall
+for ever (a livelock, ended as STUCK), and may stand where a mover arrives (`stay` is the last
+resort, free or not). Left is tried before right, so a mirrored road is mirrored only for a
+planner that prefers right.
+Source: the pygame study this project grew from; see "Planners" in the project's rules.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+from sim.config import Config
+from sim.forecast import Forecast
+from sim.kinds import Move
+from sim.plan.decision import Decision, Option
+
+ORDER: Final = (
+    Move.FORWARD,
+    Move.LEFT,
+    Move.RIGHT,
+    Move.FORWARD_LEFT,
+    Move.FORWARD_RIGHT,
+    Move.STAY,
+)
+
+
+def options_in_order(forecast: Forecast) -> tuple[Option, ...]:
+    """Every move with what it would meet; its cost is its place in the order."""
+    options = []
+    for rank, move in enumerate(ORDER):
+        end = forecast.road.moved(forecast.ego, move)
+        reason, causes = forecast.expect(forecast.ego, end)
+        cell = None if end is None else forecast.road.cell(end)
+        options.append(Option(move, cell, reason, None if reason.blocks else float(rank), causes))
+    return tuple(options)
+
+
+class PriorityPlanner:
+    """The first move of `ORDER` whose cell will be free; staying when there is none."""
+
+    name = "priority"
+
+    def horizon(self, config: Config) -> int:  # noqa: ARG002 - the same for every road
+        """One tick."""
+        return 1
+
+    def decide(self, forecast: Forecast, config: Config) -> Decision:  # noqa: ARG002 - no preferences
+        """The move and the six verdicts."""
+        options = options_in_order(forecast)
+        move = next((option.move for option in options if option.cost is not None), Move.STAY)
+        return Decision(forecast.tick, forecast.ego_id, self.name, move, options)

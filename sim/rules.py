@@ -1,0 +1,105 @@
+"""The rules of motion: the only copy.
+
+Written in `& | ~ << >>` alone, so that the same lines serve Python's integers (one world, any
+size) and machine words cut at row boundaries (many worlds, compiled). All movers decide at once:
+no order of ids matters, and a mirrored road behaves as the mirror image.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Final, NamedTuple
+
+from sim.road import Board
+
+PEDESTRIAN_PERIOD: Final = 2
+"""Ticks a pedestrian needs for one cell; an obstacle vehicle needs one."""
+
+
+class Motion(NamedTuple):
+    """Where all movers are after a tick, by heading, and which of those cells were entered."""
+
+    right: Board
+    left: Board
+    came_right: Board
+    """cells entered by a step to the right (from column − 1)"""
+    came_left: Board
+    """cells entered by a step to the left (from column + 1)"""
+
+
+def pedestrians_walk(episode_tick: int) -> bool:
+    """Whether pedestrians step in the tick that begins at `episode_tick`."""
+    return episode_tick % PEDESTRIAN_PERIOD == PEDESTRIAN_PERIOD - 1
+
+
+def move_movers(
+    right: Board,
+    left: Board,
+    resting: Board,
+    fixed: Board,
+    yielding: Board,
+    vehicles: Board,
+    left_edge: Board,
+    right_edge: Board,
+) -> Motion:
+    """One tick of all movers at once.
+
+    A mover wants the next cell in its heading. It is blocked by the edge, by `fixed`, by any
+    mover standing there now, or by another mover that wants the same cell (then both are). The
+    blocked turn round and want the other side under the same test, cells already won counting
+    as taken; blocked again, they stay and face the new way. `resting` movers (disabled, or
+    between two steps) keep cell and heading. A mover in `yielding` counts the cells of
+    `vehicles` (the autonomous ones) as blocked as well.
+    """
+    open_cells = ~(right | left | fixed)
+    yields_right = yielding << 1 & vehicles
+    yields_left = yielding >> 1 & vehicles
+    going_right = right & ~resting
+    going_left = left & ~resting
+
+    want_right = (going_right & ~right_edge) << 1
+    want_left = (going_left & ~left_edge) >> 1
+    free = open_cells & ~(want_right & want_left)
+    won_right = want_right & free & ~yields_right
+    won_left = want_left & free & ~yields_left
+    turned_left = going_right & ~(won_right >> 1)
+    turned_right = going_left & ~(won_left << 1)
+
+    open_cells &= ~(won_right | won_left)
+    want_left = (turned_left & ~left_edge) >> 1
+    want_right = (turned_right & ~right_edge) << 1
+    free = open_cells & ~(want_right & want_left)
+    late_left = want_left & free & ~yields_left
+    late_right = want_right & free & ~yields_right
+
+    came_right = won_right | late_right
+    came_left = won_left | late_left
+    return Motion(
+        right=came_right | turned_right & ~(late_right >> 1) | right & resting,
+        left=came_left | turned_left & ~(late_left << 1) | left & resting,
+        came_right=came_right,
+        came_left=came_left,
+    )
+
+
+def swapped(start: Board, end: Board, came_right: Board, came_left: Board) -> Board:
+    """`start` if a vehicle going from `start` to `end` (one cell each) passes through a mover.
+
+    Movers only move sideways, so only a sideways move can be met: the mover enters `start`
+    from `end` in the same tick.
+    """
+    return end << 1 & start & came_right | end >> 1 & start & came_left
+
+
+def followed_board(board: Board, motion: Motion) -> Board:
+    """A subset of the movers, moved along with them."""
+    gone_right = board & motion.came_right >> 1
+    gone_left = board & motion.came_left << 1
+    return gone_right << 1 | gone_left >> 1 | board & ~gone_right & ~gone_left
+
+
+def followed_table(table: Mapping[int, str], motion: Motion) -> dict[int, str]:
+    """A table of movers by cell index, moved along with them."""
+    gone_right = motion.came_right >> 1
+    gone_left = motion.came_left << 1
+    return {cell + (gone_right >> cell & 1) - (gone_left >> cell & 1): name for cell, name in table.items()}

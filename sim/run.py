@@ -1,0 +1,158 @@
+"""A session's state as one value, and one tick of it: perceive → forecast → plan → commit → judge.
+
+`advance` is a pure function: the same run in gives the same tick out, on every machine.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from sim.config import Config
+from sim.courtesy import yielding
+from sim.events import Event, EventType
+from sim.forecast import foretell
+from sim.generate import generate
+from sim.judge import collisions, outcome
+from sim.kinds import Kind, Mode, Move, Outcome
+from sim.metrics import Metrics
+from sim.perceive import perceive
+from sim.plan import Decision, planner_named
+from sim.plan.manual import obey
+from sim.rules import followed_board, followed_table, move_movers, pedestrians_walk
+from sim.world import World
+
+_END_EVENTS = {
+    Outcome.SUCCESS: EventType.ARRIVED,
+    Outcome.CRASH: EventType.CRASHED,
+    Outcome.STUCK: EventType.STUCK,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """A world with all that decides how it goes on."""
+
+    config: Config
+    world: World
+    mode: Mode = Mode.AUTO
+    queue: tuple[Move, ...] = ()
+    """moves a person asked for, taken one a tick"""
+    metrics: Metrics = field(default_factory=Metrics)
+    edits: int = 0
+    """changes made so far; numbers the stream random places are drawn from"""
+
+    @staticmethod
+    def start(config: Config) -> Run:
+        """The first episode's beginning."""
+        return Run(config, generate(config, 1))
+
+
+@dataclass(frozen=True, slots=True)
+class Tick:
+    """What one tick led to. There is no decision while a result stands."""
+
+    run: Run
+    decision: Decision | None
+    events: tuple[Event, ...]
+
+
+def decide(run: Run) -> Decision | None:
+    """The decision the present state leads to; None once the episode has ended."""
+    world, config = run.world, run.config
+    if world.outcome is not Outcome.RUNNING:
+        return None
+    planner = planner_named(config.planner)
+    if planner is None:
+        raise LookupError(f"no planner is called {config.planner!r}")
+    forecast = foretell(perceive(world, config), planner.horizon(config))
+    planned = planner.decide(forecast, config)
+    if run.queue:
+        return obey(planned, run.queue[0])
+    return obey(planned, Move.STAY) if run.mode is Mode.MANUAL else planned
+
+
+def advance(run: Run) -> Tick:
+    """One tick."""
+    decision = decide(run)
+    if decision is None:
+        return _hold(run)
+    before = run.world
+    after = commit(before, decision.move, run.config)
+    crashes = collisions(before, after)
+    result = outcome(after, crashes, run.config.max_ticks)
+    metrics = run.metrics.after_move(decision.move, run.config.cell_m)
+    events = []
+    if decision.held_back and decision.asked is not None:
+        blocked = decision.option(decision.asked)
+        events.append(
+            Event(
+                after.tick, EventType.HELD_BACK, after.episode, blocked.causes, blocked.cell, decision.asked
+            )
+        )
+    if result is not Outcome.RUNNING:
+        cause = crashes[0] if crashes else None
+        after = replace(after, outcome=result, ended=after.tick, cause=cause)
+        metrics = metrics.after_end(result, after.episode_tick)
+        ids, cell, how = (cause.ids, cause.cell, cause.how) if cause else ((), None, None)
+        events.append(Event(after.tick, _END_EVENTS[result], after.episode, ids, cell, decision.move, how))
+    return Tick(replace(run, world=after, metrics=metrics, queue=run.queue[1:]), decision, tuple(events))
+
+
+def commit(world: World, move: Move, config: Config) -> World:
+    """Everything moved at once, nothing judged: the world one tick later."""
+    road = world.road
+    disabled = world.disabled
+    resting = disabled if pedestrians_walk(world.episode_tick) else disabled | world.pedestrians
+    motion = move_movers(
+        world.right,
+        world.left,
+        resting,
+        world.fixed,
+        yielding(world, config),
+        world.board(Kind.AV),
+        road.left_edge,
+        road.right_edge,
+    )
+    target = road.moved(world.av, move)
+    if target is None:
+        raise ValueError(f"{move} leads off the road")
+    return replace(
+        world,
+        tick=world.tick + 1,
+        avs=(target, *world.avs[1:]),
+        right=motion.right,
+        left=motion.left,
+        pedestrians=followed_board(world.pedestrians, motion),
+        movers=followed_table(world.movers, motion),
+    )
+
+
+def next_episode(run: Run) -> tuple[Run, Event]:
+    """The following episode's beginning, at the present tick."""
+    return _begin(run, run.config, run.world.episode + 1)
+
+
+def restarted(run: Run) -> tuple[Run, Event]:
+    """The present episode's beginning again, at the present tick."""
+    return _begin(run, run.config, run.world.episode)
+
+
+def reconfigured(run: Run, config: Config) -> tuple[Run, Event]:
+    """A fresh road of another configuration, at the present tick."""
+    return _begin(run, config, run.world.episode + 1)
+
+
+def _begin(run: Run, config: Config, episode: int) -> tuple[Run, Event]:
+    world = generate(config, episode, tick=run.world.tick, numbered=run.world.numbered)
+    event = Event(world.tick, EventType.EPISODE_STARTED, episode)
+    return replace(run, config=config, world=world, queue=()), event
+
+
+def _hold(run: Run) -> Tick:
+    """The result stands for a while; then the next episode begins."""
+    world = replace(run.world, tick=run.world.tick + 1)
+    held = replace(run, world=world, queue=())
+    if world.ended is not None and world.tick - world.ended < run.config.reset_delay_ticks:
+        return Tick(held, None, ())
+    begun, event = next_episode(held)
+    return Tick(begun, None, (event,))

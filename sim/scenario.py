@@ -1,0 +1,55 @@
+"""From a scenario's words to a configuration: road presets and traffic levels, one table each.
+
+A scenario renews what it can name (road, traffic, counts, planner, sensor) and keeps the rest:
+the grid, the clock, the seed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+from sim.actions import RoadType, Scenario, Traffic
+from sim.config import Config
+
+
+@dataclass(frozen=True, slots=True)
+class RoadPreset:
+    """What a type of road is furnished with where the scenario does not say."""
+
+    spawn_probability: float
+    pothole_probability: float
+    pedestrians: int
+    barriers: int
+
+
+ROADS: Final[dict[RoadType | None, RoadPreset]] = {
+    None: RoadPreset(spawn_probability=0.68, pothole_probability=0.15, pedestrians=0, barriers=0),
+    "highway": RoadPreset(spawn_probability=0.68, pothole_probability=0.05, pedestrians=0, barriers=0),
+    "city": RoadPreset(spawn_probability=0.55, pothole_probability=0.15, pedestrians=4, barriers=3),
+    "rural": RoadPreset(spawn_probability=0.30, pothole_probability=0.30, pedestrians=1, barriers=1),
+}
+
+TRAFFIC: Final[dict[Traffic, float]] = {"none": 0.0, "light": 0.34, "normal": 0.68, "heavy": 0.90}
+"""Spawn probability of an obstacle vehicle in each row."""
+
+
+def configured(config: Config, scenario: Scenario) -> Config:
+    """The configuration of a scenario, everything it does not name at its default.
+
+    Raises `ConfigError` where the road cannot hold what was asked.
+    """
+    preset = ROADS[scenario.road]
+    spawn = TRAFFIC[scenario.traffic] if scenario.traffic else preset.spawn_probability
+    return config.with_parts(
+        road=scenario.road,
+        traffic=scenario.traffic,
+        spawn_probability=spawn,
+        pothole_probability=preset.pothole_probability,
+        potholes=scenario.potholes,
+        vehicles=scenario.vehicles,
+        barriers=preset.barriers if scenario.barriers is None else scenario.barriers,
+        pedestrians=preset.pedestrians if scenario.pedestrians is None else scenario.pedestrians,
+        planner=scenario.planner or "priority",
+        sensor=scenario.sensor or "perfect",
+    )

@@ -1,0 +1,165 @@
+"""Time that can be walked: a configuration and the actions with the tick at which each took effect.
+
+That list *is* the session; every state is derived from it by replay, and snapshots along the way
+only save time. Undo shortens the list and replays to the present tick, as if the latest change
+had never been said; redo lengthens it again.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from sim.actions import WorldAction
+from sim.config import Config
+from sim.edit import Applied, apply
+from sim.plan import Decision
+from sim.run import Run, Tick, advance, decide
+
+SNAPSHOT_TICKS = 64
+MAX_SNAPSHOTS = 256
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One action of the log. Entries of one `sequence` were said together."""
+
+    sequence: int
+    tick: int
+    action: WorldAction
+
+
+@dataclass(frozen=True, slots=True)
+class _Snapshot:
+    """The state on reaching a tick, before the actions of that tick; `entries` were applied."""
+
+    tick: int
+    run: Run
+    entries: int
+
+
+class Timeline:
+    """A session's log and its present state. `copy()` is cheap: states are values and shared."""
+
+    def __init__(self, config: Config) -> None:
+        """A session at tick 0."""
+        self.config = config
+        self.run = Run.start(config)
+        self.entries: list[Entry] = []
+        self._undone: list[list[Entry]] = []
+        self._interval = SNAPSHOT_TICKS
+        self._snapshots = [_Snapshot(0, self.run, 0)]
+
+    @property
+    def tick(self) -> int:
+        """The present tick."""
+        return self.run.world.tick
+
+    @property
+    def can_undo(self) -> bool:
+        """Whether there is a change to take back."""
+        return bool(self.entries)
+
+    @property
+    def can_redo(self) -> bool:
+        """Whether there is an undone change to say again."""
+        return bool(self._undone)
+
+    def copy(self) -> Timeline:
+        """A timeline that goes its own way from here."""
+        twin = Timeline.__new__(Timeline)
+        twin.config = self.config
+        twin.run = self.run
+        twin.entries = list(self.entries)
+        twin._undone = list(self._undone)
+        twin._interval = self._interval
+        twin._snapshots = list(self._snapshots)
+        return twin
+
+    def advance(self) -> Tick:
+        """One tick on."""
+        tick = advance(self.run)
+        self._arrive(tick.run)
+        return tick
+
+    def apply(self, sequence: int, actions: Sequence[WorldAction]) -> list[Applied]:
+        """Change the world at the present tick; all of the actions or, on `EditError`, none."""
+        run, done = self.run, []
+        for action in actions:
+            applied = apply(run, action)
+            run = applied.run
+            done.append(applied)
+        self.run = run
+        self.entries += [Entry(sequence, self.tick, action) for action in actions]
+        if actions:
+            self._undone.clear()
+        return done
+
+    def undo(self) -> list[Entry]:
+        """Take back the latest change; its entries, or an empty list if there is none."""
+        if not self.entries:
+            return []
+        sequence = self.entries[-1].sequence
+        taken = [entry for entry in self.entries if entry.sequence == sequence]
+        self._undone.append(taken)
+        self._replace_log(self.entries[: -len(taken)], taken[0].tick)
+        return taken
+
+    def redo(self) -> list[Entry]:
+        """Say the latest undone change again, at the ticks it was said; its entries, or an empty list."""
+        if not self._undone:
+            return []
+        again = self._undone.pop()
+        self._replace_log(self.entries + again, again[0].tick)
+        return again
+
+    def at(self, tick: int) -> Run:
+        """The state at a past tick, after the actions of that tick. Raises `IndexError`."""
+        if not 0 <= tick <= self.tick:
+            raise IndexError(f"tick {tick} is not between 0 and {self.tick}")
+        if tick == self.tick:
+            return self.run
+        run, position = self._nearest(tick)
+        while True:
+            run, position = self._apply_due(run, position)
+            if run.world.tick == tick:
+                return run
+            run = advance(run).run
+
+    def decision(self, tick: int) -> Decision | None:
+        """The decision taken at a tick (None while a result stood), derived anew. Raises `IndexError`."""
+        return decide(self.at(tick))
+
+    def _arrive(self, run: Run) -> None:
+        self.run = run
+        if run.world.tick % self._interval == 0:
+            self._snapshots.append(_Snapshot(run.world.tick, run, len(self.entries)))
+            if len(self._snapshots) > MAX_SNAPSHOTS:
+                self._interval *= 2
+                self._snapshots = [shot for shot in self._snapshots if shot.tick % self._interval == 0]
+
+    def _nearest(self, tick: int) -> tuple[Run, int]:
+        shot = self._snapshots[bisect_right(self._snapshots, tick, key=lambda shot: shot.tick) - 1]
+        return shot.run, shot.entries
+
+    def _apply_due(self, run: Run, position: int) -> tuple[Run, int]:
+        while position < len(self.entries) and self.entries[position].tick == run.world.tick:
+            run = apply(run, self.entries[position].action).run
+            position += 1
+        return run, position
+
+    def _replace_log(self, entries: list[Entry], since: int) -> None:
+        """Make `entries` the log, which differs from `since` on, and replay to the present tick."""
+        present = self.tick
+        self.entries = entries
+        self._snapshots = [shot for shot in self._snapshots if shot.tick <= since]
+        run, position = self._nearest(since)
+        while True:
+            run, position = self._apply_due(run, position)
+            self.run = run
+            if run.world.tick == present:
+                return
+            run = advance(run).run
+            if run.world.tick % self._interval == 0 and run.world.tick > self._snapshots[-1].tick:
+                self._snapshots.append(_Snapshot(run.world.tick, run, position))
