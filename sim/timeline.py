@@ -8,7 +8,8 @@ had never been said; redo lengthens it again.
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Sequence
+from collections import deque
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from sim.actions import WorldAction
@@ -19,6 +20,8 @@ from sim.run import Run, Tick, advance, decide
 
 SNAPSHOT_TICKS = 64
 MAX_SNAPSHOTS = 256
+RECENT_RUNS = 8
+"""States kept as they were, for questions about what has just been done."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +53,7 @@ class Timeline:
         self._undone: list[list[Entry]] = []
         self._interval = SNAPSHOT_TICKS
         self._snapshots = [_Snapshot(0, self.run, 0)]
+        self._recent: deque[Run] = deque(maxlen=RECENT_RUNS)
 
     @property
     def tick(self) -> int:
@@ -75,10 +79,12 @@ class Timeline:
         twin._undone = list(self._undone)
         twin._interval = self._interval
         twin._snapshots = list(self._snapshots)
+        twin._recent = self._recent.copy()
         return twin
 
     def advance(self) -> Tick:
         """One tick on."""
+        self._recent.append(self.run)
         tick = advance(self.run)
         self._arrive(tick.run)
         return tick
@@ -120,11 +126,18 @@ class Timeline:
             raise IndexError(f"tick {tick} is not between 0 and {self.tick}")
         if tick == self.tick:
             return self.run
-        run, position = self._nearest(tick)
-        while True:
+        back = tick - self.tick + len(self._recent)
+        if back >= 0:
+            return self._recent[back]
+        return next(self.between(tick, tick + 1))
+
+    def between(self, first: int, stop: int) -> Iterator[Run]:
+        """The states at the ticks from `first` up to but without `stop`, in order, replayed in one go."""
+        run, position = self._nearest(first)
+        while run.world.tick < stop:
             run, position = self._apply_due(run, position)
-            if run.world.tick == tick:
-                return run
+            if run.world.tick >= first:
+                yield run
             run = advance(run).run
 
     def decision(self, tick: int) -> Decision | None:
@@ -153,6 +166,7 @@ class Timeline:
         """Make `entries` the log, which differs from `since` on, and replay to the present tick."""
         present = self.tick
         self.entries = entries
+        self._recent.clear()
         self._snapshots = [shot for shot in self._snapshots if shot.tick <= since]
         run, position = self._nearest(since)
         while True:

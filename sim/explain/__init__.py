@@ -1,0 +1,19 @@
+"""Why a decision was taken, proved: every claim is a re-run of perceive → forecast → plan.
+
+`query` finds the decision that is meant, `causes` and `contrast` prove what brought it about,
+`facts` is what they answer. Words come last and elsewhere.
+"""
+
+from sim.explain.facts import Cause, Counterfactual, Explanation, QuestionError, Role, Verified
+from sim.explain.query import why, why_not
+
+__all__ = [
+    "Cause",
+    "Counterfactual",
+    "Explanation",
+    "QuestionError",
+    "Role",
+    "Verified",
+    "why",
+    "why_not",
+]

@@ -1,0 +1,135 @@
+"""The things a decision hangs on: a smallest set that brings it about, each one tried by removal.
+
+A set is *enough* if, with nothing else on the road, the move is the same; the causes are such a set
+from which nothing can be spared. A cause is *necessary* if taking it away, and nothing else, changes
+the move. One that is not has a stand-in (the decision is overdetermined): then the causes are looked
+for among the necessary things first, and if those are not enough, the cause is told with its group,
+the things that must go together for the move to change.
+
+This is the but-for test and its repair for overdetermination as in Halpern & Pearl, "Causes and
+explanations: a structural-model approach" (British Journal for the Philosophy of Science, 2005), with
+the deterministic world as the model. Sets are found by deletion in shrinking chunks (Zeller &
+Hildebrandt, "Simplifying and isolating failure-inducing input", 2002), so no single member can be
+spared; whether any smaller part would do is then tried outright.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from itertools import combinations
+
+from sim.explain.facts import Cause, Counterfactual, Explanation, Role, Verified
+from sim.explain.rerun import Rerun
+from sim.kinds import Move
+from sim.place import nearest_first
+from sim.plan import Decision
+from sim.run import Run
+from sim.world import World
+
+MAX_TRIED = 8
+"""Sets up to this size have every part of them tried."""
+
+
+def explain_why(run: Run, decision: Decision) -> Explanation:
+    """Why `decision` was taken in `run`."""
+    rerun = Rerun(run)
+    fact = decision.move
+    names = _telling_first(run.world, decision)
+    enough = spared(names, lambda kept: rerun.keeping(kept) is fact)
+    if any(rerun.without([name]) is fact for name in enough):  # some have a stand-in
+        enough = _of_necessary(rerun, fact, names) or enough
+    enough, minimal = _smallest(rerun, fact, enough)
+    groups = {name: _group(rerun, fact, name, names, enough) for name in enough}
+    causes = _ranked(run, decision, enough, groups)
+    told = dict.fromkeys(cause.group for cause in causes)
+    return Explanation(
+        about="why",
+        decision=decision,
+        foil=None,
+        causes=causes,
+        verified=Verified(
+            necessary=all(cause.necessary for cause in causes),
+            sufficient=rerun.keeping(enough) is fact,
+            minimal=minimal,
+        ),
+        counterfactuals=tuple(Counterfactual(group, (), rerun.without(group)) for group in told),
+        reruns=rerun.count,
+    )
+
+
+def spared(names: Sequence[str], holds: Callable[[Sequence[str]], bool]) -> list[str]:
+    """What is left of `names` when all that can be spared (the last first) is, one by one in the end.
+
+    `holds` is true of `names`, and of the answer.
+    """
+    kept = list(names)
+    size = len(kept)
+    while size:
+        dropped = False
+        for end in range(len(kept), 0, -size):
+            fewer = kept[: max(0, end - size)] + kept[end:]
+            if holds(fewer):
+                kept, dropped = fewer, True
+        if not (dropped and size == 1):
+            size //= 2
+    return kept
+
+
+def _telling_first(world: World, decision: Decision) -> list[str]:
+    """Every thing's id: first those that stand in the way, in the order of preference; then the nearest."""
+    direct = [name for option in decision.options for name in option.causes]
+    cells = nearest_first({*world.movers, *world.hazards}, world)
+    near = [table[cell] for cell in cells for table in (world.movers, world.hazards) if cell in table]
+    return list(dict.fromkeys([*direct, *near]))
+
+
+def _of_necessary(rerun: Rerun, fact: Move, names: list[str]) -> list[str]:
+    """A set that is enough and of necessary things alone, or an empty list if there is none."""
+    necessary = [name for name in names if rerun.without([name]) is not fact]
+    if rerun.keeping(necessary) is not fact:
+        return []
+    return spared(necessary, lambda kept: rerun.keeping(kept) is fact)
+
+
+def _group(rerun: Rerun, fact: Move, name: str, names: list[str], enough: list[str]) -> tuple[str, ...]:
+    """The things that must go with a cause for the move to change; the cause alone if it is necessary.
+
+    There are such: without the cause and all that is not one, the others are not enough.
+    """
+    if rerun.without([name]) is not fact:
+        return (name,)
+    stand_ins = [other for other in names if other not in enough]
+    return (name, *spared(stand_ins, lambda gone: rerun.without([name, *gone]) is not fact))
+
+
+def _smallest(rerun: Rerun, fact: Move, enough: list[str]) -> tuple[list[str], bool]:
+    """The smallest part that is enough as well, and whether no part of that can be (all were tried).
+
+    Of a set larger than `MAX_TRIED` only single members are known not to be spared.
+    """
+    if len(enough) > MAX_TRIED:
+        return enough, False
+    parts = (part for size in range(len(enough)) for part in combinations(enough, size))
+    smaller = next((list(part) for part in parts if rerun.keeping(part) is fact), None)
+    return smaller or enough, True
+
+
+def _ranked(
+    run: Run, decision: Decision, enough: list[str], groups: dict[str, tuple[str, ...]]
+) -> tuple[Cause, ...]:
+    """The causes, those that block the most preferred move first."""
+    if decision.held_back:
+        hindered = [option for option in decision.options if option.move is decision.asked]
+    else:
+        moves = [option.move for option in decision.options]
+        hindered = list(decision.options[: moves.index(decision.move)])
+    causes = []
+    for name in enough:
+        thing = run.world.find(name)
+        if thing is not None:
+            blocked = tuple(option.move for option in hindered if name in option.causes)
+            role = Role.BLOCKS if blocked else Role.DRIVES
+            group = groups[name]
+            causes.append(Cause(name, thing.kind, thing.cell, role, blocked, group == (name,), group))
+    order = [option.move for option in hindered]
+    return tuple(sorted(causes, key=lambda cause: order.index(cause.moves[0]) if cause.moves else len(order)))

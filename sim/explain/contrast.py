@@ -1,0 +1,91 @@
+"""Why not another move: the smallest change of the road after which that move is made.
+
+First by taking away what stands in its way; if it is not made even then, because a move that comes
+before it is free, by putting barriers into those moves' cells as well. A change is only stated if
+the decision, run again with it, is the move asked about.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from sim.explain.causes import spared
+from sim.explain.facts import Cause, Counterfactual, Explanation, Role, Verified
+from sim.explain.rerun import Rerun
+from sim.kinds import Cell, Move
+from sim.plan import Decision
+from sim.run import Run
+
+MAX_ROUNDS = 8
+"""How often clearing a cell may let another thing into it before clearing is given up."""
+
+
+def explain_why_not(run: Run, decision: Decision, foil: Move) -> Explanation:
+    """Why `foil` was not the move of `decision` in `run`."""
+    rerun = Rerun(run)
+    cleared = _cleared(rerun, decision, foil)
+    freed = rerun.without(cleared) is foil
+    if freed:
+        cleared = spared(cleared, lambda names: rerun.without(names) is foil)
+    walls = [] if freed else _walls(rerun, cleared, foil)
+    counterfactuals = []
+    if freed or walls:
+        counterfactuals.append(Counterfactual(tuple(cleared), tuple(walls), foil))
+    elif cleared:
+        counterfactuals.append(Counterfactual(tuple(cleared), (), rerun.without(cleared)))
+    causes = _causes(run, decision, foil, cleared, freed)
+    return Explanation(
+        about="why_not",
+        decision=decision,
+        foil=foil,
+        causes=causes,
+        verified=_verified(rerun, foil, cleared, freed),
+        counterfactuals=tuple(counterfactuals),
+        reruns=rerun.count,
+    )
+
+
+def _cleared(rerun: Rerun, decision: Decision, foil: Move) -> list[str]:
+    """The things to take away until the foil's cell will be free."""
+    cleared: list[str] = []
+    seen = decision
+    for _ in range(MAX_ROUNDS):
+        blockers = [name for name in seen.option(foil).causes if name not in cleared]
+        if not blockers:
+            break
+        cleared += blockers
+        seen = rerun.decision_without(cleared)
+    return cleared
+
+
+def _walls(rerun: Rerun, cleared: Sequence[str], foil: Move) -> list[Cell]:
+    """Cells of free moves that come before the foil, if barriers in them make it the move taken."""
+    seen = rerun.decision_without(cleared)
+    if seen.option(foil).cell is None or seen.asked is not None:
+        return []
+    order = [option.move for option in seen.options]
+    before = seen.options[: order.index(foil)]
+    cells = [option.cell for option in before if option.verdict == "free" and option.cell is not None]
+    return cells if cells and rerun.with_barriers(cleared, cells) is foil else []
+
+
+def _causes(
+    run: Run, decision: Decision, foil: Move, cleared: Sequence[str], freed: bool
+) -> tuple[Cause, ...]:
+    direct = decision.option(foil).causes
+    causes = []
+    for name in cleared:
+        thing = run.world.find(name)
+        if thing is not None:
+            role = Role.BLOCKS if name in direct else Role.FOLLOWS
+            moves = (foil,) if name in direct else ()
+            alone = freed and len(cleared) == 1
+            causes.append(Cause(name, thing.kind, thing.cell, role, moves, alone, tuple(cleared)))
+    return tuple(causes)
+
+
+def _verified(rerun: Rerun, foil: Move, cleared: Sequence[str], freed: bool) -> Verified:
+    if not cleared or not freed:
+        return Verified(None, None, None)
+    spare = any(rerun.without([other for other in cleared if other != name]) is foil for name in cleared)
+    return Verified(necessary=not spare, sufficient=True, minimal=not spare)

@@ -1,0 +1,89 @@
+"""What an explanation states, in data. Whatever is said of a decision is said from these values."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from sim.kinds import Cell, Kind, Move
+from sim.plan import Decision
+
+
+class QuestionError(ValueError):
+    """A question about something that is not so: a tick that never was, a move never made.
+
+    `code` is for programs and sayings, `facts` are what a sentence about it needs.
+    """
+
+    def __init__(self, code: str, **facts: object) -> None:
+        super().__init__(f"{code}: {facts}")
+        self.code = code
+        self.facts = facts
+
+
+class Role(StrEnum):
+    """What part a thing has in a decision."""
+
+    BLOCKS = "blocks"
+    """it would have been met by a move preferred to the one taken"""
+    DRIVES = "drives"
+    """it made another cause go or stay where it blocks"""
+    FOLLOWS = "follows"
+    """it would stand in the way once the others were gone"""
+
+
+@dataclass(frozen=True, slots=True)
+class Cause:
+    """One thing a decision hangs on."""
+
+    id: str
+    kind: Kind
+    cell: Cell
+    """where it was when the decision was taken"""
+    role: Role
+    moves: tuple[Move, ...]
+    """the moves it stands in the way of, if its role is `blocks`"""
+    necessary: bool
+    """whether the decision flips when this thing alone is taken away"""
+    group: tuple[str, ...]
+    """the things that must go together for the decision to flip: this one, and its stand-ins if any"""
+
+
+@dataclass(frozen=True, slots=True)
+class Counterfactual:
+    """What was decided when the tick was run again on a changed road."""
+
+    removed: tuple[str, ...]
+    added: tuple[Cell, ...]
+    """cells a barrier was put in"""
+    move: Move
+
+
+@dataclass(frozen=True, slots=True)
+class Verified:
+    """What re-running has shown of the causes; None where nothing is claimed."""
+
+    necessary: bool | None
+    """taking away any one of them changes the decision (for `why_not`: leaving any one keeps it)"""
+    sufficient: bool | None
+    """with nothing but them on the road it is the same (for `why_not`: without them the move is made)"""
+    minimal: bool | None
+    """no part of them would do"""
+
+
+@dataclass(frozen=True, slots=True)
+class Explanation:
+    """The answer to why, or why not, in facts."""
+
+    about: str
+    """`why` or `why_not`"""
+    decision: Decision
+    foil: Move | None
+    """the move asked about in `why_not`"""
+    causes: tuple[Cause, ...]
+    """the most telling first"""
+    verified: Verified
+    counterfactuals: tuple[Counterfactual, ...]
+    """one for each cause or group, in the order of the causes"""
+    reruns: int
+    """how often the decision was run again for this answer"""
