@@ -1,0 +1,53 @@
+// @ts-check
+/** What a person can do without words: each act's key, label and typed actions, once for buttons and keys. */
+
+/** @typedef {import("./state.js").State} State */
+/** @typedef {import("./protocol.js").Action} Action */
+
+/**
+ * @typedef {object} Act
+ * @property {string} name
+ * @property {string} key  as `KeyboardEvent.key` has it
+ * @property {string} keyName  as people call it
+ * @property {(state: State) => {label: string, icon: string, actions: Action[]}} now  what it does in this state
+ */
+
+const STEP = { do: "step", ticks: 1 };
+
+/** @type {Act[]} */
+export const ACTS = [
+  {
+    name: "undo",
+    key: "u",
+    keyName: "U",
+    now: () => ({ label: "Undo", icon: "undo", actions: [{ do: "undo" }] }),
+  },
+  {
+    name: "clock",
+    key: " ",
+    keyName: "Space",
+    now: (state) =>
+      state.world?.paused
+        ? { label: "Resume", icon: "play", actions: [{ do: "resume" }] }
+        : { label: "Pause", icon: "pause", actions: [{ do: "pause" }] },
+  },
+  {
+    name: "step",
+    key: "ArrowRight",
+    keyName: "→",
+    now: (state) => ({
+      label: "Step",
+      icon: "step",
+      actions: state.world?.paused === false ? [{ do: "pause" }, STEP] : [STEP],
+    }),
+  },
+  {
+    name: "reset",
+    key: "r",
+    keyName: "R",
+    now: () => ({ label: "Reset", icon: "reset", actions: [{ do: "reset" }] }),
+  },
+];
+
+/** The question what can be said. */
+export const HELP = { label: "What can I say?", actions: [{ do: "ask", about: "help" }] };

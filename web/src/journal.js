@@ -1,0 +1,103 @@
+// @ts-check
+/**
+ * The driving log as lines: quiet ones for ticks, louder ones for what happened or was changed.
+ *
+ * Ticks that say the same thing share a line ("41–44"), so that an uneventful drive does not push
+ * what matters out of sight.
+ */
+
+/** @typedef {import("./protocol.js").LogEvent} LogEvent */
+
+/**
+ * @typedef {object} Line
+ * @property {string} key  unique and stable
+ * @property {"tick" | "event" | "change"} tone
+ * @property {string} type  the event's type, or "tick", or "change"
+ * @property {number} from  the first tick the line speaks of
+ * @property {number} to  the last
+ * @property {string} text
+ * @property {number} number  of the event in the session's log; 0 when it has none
+ */
+
+export const LOG_LINES = 400;
+
+/** Event types that only repeat what a tick's narration says. */
+const TOLD_BY_TICK = new Set(["moved"]);
+
+/** Event types that only repeat what a change's own line says. */
+const TOLD_BY_CHANGE = new Set(["edited", "said", "command", "changed"]);
+
+/**
+ * Lines for events, leaving out those already there.
+ * @param {Line[]} log
+ * @param {LogEvent[]} events
+ * @returns {Line[]}
+ */
+export function logEvents(log, events) {
+  const known = log.reduce((latest, line) => Math.max(latest, line.number), 0);
+  const fresh = events.filter((event) => event.number > known && !TOLD_BY_TICK.has(event.type));
+  if (fresh.length === 0) return log;
+  return trimmed([...log, ...fresh.map(lineOf)]);
+}
+
+/**
+ * @param {Line[]} log
+ * @param {import("./protocol.js").TickMessage} message
+ * @returns {Line[]}
+ */
+export function logTick(log, message) {
+  const text = message.narration;
+  let next = log;
+  if (text) {
+    const tick = message.decision?.tick ?? message.tick - 1;
+    const last = log.at(-1);
+    next =
+      last && last.tone === "tick" && last.text === text && last.to === tick - 1
+        ? [...log.slice(0, -1), { ...last, to: tick }]
+        : trimmed([
+            ...log,
+            { key: `t${tick}.${message.sequence}`, tone: "tick", type: "tick", from: tick, to: tick, text, number: 0 },
+          ]);
+  }
+  return logEvents(next, message.events ?? []);
+}
+
+/**
+ * @param {Line[]} log
+ * @param {import("./protocol.js").ChangedMessage} message
+ * @returns {Line[]}
+ */
+export function logChange(log, message) {
+  const { tick } = message.state;
+  const text = message.text ? `“${message.text}” ${message.reply}` : message.reply;
+  const events = message.events ?? [];
+  const number = events.reduce((latest, event) => Math.max(latest, event.number), 0);
+  /** @type {Line} */
+  const line = { key: `c${message.sequence}`, tone: "change", type: "change", from: tick, to: tick, text, number };
+  const others = events.filter(({ type }) => !TOLD_BY_CHANGE.has(type) && !TOLD_BY_TICK.has(type));
+  return trimmed([...log, line, ...others.map(lineOf)]);
+}
+
+/**
+ * @param {LogEvent} event
+ * @returns {Line}
+ */
+function lineOf(event) {
+  return {
+    key: `e${event.number}`,
+    tone: "event",
+    type: event.type,
+    from: event.tick,
+    to: event.tick,
+    text: event.text,
+    number: event.number,
+  };
+}
+
+/**
+ * @param {Line[]} log
+ * @returns {Line[]}
+ */
+function trimmed(log) {
+  return log.length > LOG_LINES ? log.slice(-LOG_LINES) : log;
+}

@@ -1,0 +1,118 @@
+// @ts-check
+/**
+ * Where the page is put together: the session in the address, the connection, the state, the panels.
+ *
+ * Nothing else knows more than one of them. Messages and what the person does become events, events
+ * become the next state, and the loop shows it with the next frame.
+ */
+
+import { byId } from "./dom.js";
+import { watchKeys } from "./keys.js";
+import { createLoop } from "./loop.js";
+import { createPanels } from "./panels/index.js";
+import { createSession, findSession, hashOfSession, sessionInHash } from "./sessions.js";
+import { Connection } from "./socket.js";
+import { INITIAL, reduce } from "./state.js";
+import { watchPreferences } from "./theme.js";
+
+/** @typedef {import("./state.js").State} State */
+/** @typedef {import("./protocol.js").Action} Action */
+
+/**
+ * @typedef {object} Page  what panels may ask for
+ * @property {(text: string) => void} say  send a sentence
+ * @property {(actions: Action[], label: string, quiet?: boolean) => void} act  send typed actions; quiet ones are
+ *   listed as talk only when they changed something or were refused
+ * @property {(highlight: import("./state.js").Highlight | null) => void} highlight
+ * @property {() => void} startSession
+ * @property {() => void} reconnect  now rather than after the pause
+ * @property {() => State} state
+ */
+
+let state = INITIAL;
+let shown = INITIAL;
+let exchanges = 0;
+/** @type {Connection | null} */
+let connection = null;
+
+/** @param {import("./state.js").Event} event */
+function dispatch(event) {
+  const next = reduce(state, event);
+  if (next === state) return;
+  state = next;
+  loop.wake(true);
+}
+
+/**
+ * @param {string} label
+ * @param {boolean} quiet
+ * @param {(id: string) => import("./protocol.js").ClientMessage} message
+ */
+function send(label, quiet, message) {
+  exchanges += 1;
+  const id = `c${exchanges}`;
+  dispatch({ type: "said", id, text: label, quiet });
+  if (!connection?.send(message(id))) dispatch({ type: "unsent", id });
+}
+
+/** @type {Page} */
+const page = {
+  say: (text) => send(text, false, (id) => ({ type: "command", id, text })),
+  act: (actions, label, quiet = false) => send(label, quiet, (id) => ({ type: "actions", id, actions })),
+  highlight: (highlight) => dispatch({ type: "highlight", highlight }),
+  startSession: () => void startSession(),
+  reconnect: () => void connection?.open(),
+  state: () => state,
+};
+
+const panels = createPanels(page);
+const loop = createLoop({
+  update() {
+    const before = shown;
+    shown = state;
+    for (const panel of panels) panel.update?.(state, before);
+  },
+  draw(now) {
+    let moving = false;
+    for (const panel of panels) moving = (panel.draw?.(now) ?? false) || moving;
+    return moving;
+  },
+});
+
+/** Follow the session that the address names, or start one when it names none. */
+function followAddress() {
+  const id = sessionInHash(location.hash);
+  if (id === null) return startSession();
+  if (id === connection?.session) return;
+  connection?.close();
+  dispatch({ type: "session", id });
+  connection = new Connection(id, {
+    page: location,
+    find: findSession,
+    onMessage: dispatch,
+    onPhase: (phase) => dispatch({ type: "phase", phase }),
+  });
+  void connection.open();
+}
+
+async function startSession() {
+  try {
+    const session = await createSession();
+    location.hash = hashOfSession(session.id);
+  } catch (error) {
+    dispatch({ type: "trouble", text: error instanceof Error ? error.message : String(error) });
+  }
+}
+
+watchKeys(page, byId("words"));
+watchPreferences(() => {
+  for (const panel of panels) panel.repaint?.();
+  loop.wake(true);
+});
+new ResizeObserver(() => {
+  for (const panel of panels) panel.repaint?.();
+  loop.wake();
+}).observe(byId("road"));
+addEventListener("hashchange", followAddress);
+addEventListener("online", page.reconnect);
+followAddress();

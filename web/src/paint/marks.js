@@ -1,0 +1,135 @@
+// @ts-check
+/** What is drawn on top to explain: the trail, the move under way, rings around causes, the impact. */
+
+/** @typedef {CanvasRenderingContext2D} Pen */
+/** @typedef {import("../theme.js").Palette} Palette */
+
+/**
+ * Where the vehicle has been, fading with age. Units are cells; (0, 0) is the centre of cell [0, 0].
+ * @param {Pen} pen
+ * @param {[number, number][]} cells  oldest first
+ * @param {Palette} palette
+ */
+export function drawTrail(pen, cells, palette) {
+  pen.fillStyle = palette.accent;
+  cells.forEach(([column, row], at) => {
+    pen.globalAlpha = 0.5 * ((at + 1) / cells.length) ** 1.6;
+    pen.beginPath();
+    pen.arc(column, row, 0.05, 0, 2 * Math.PI);
+    pen.fill();
+  });
+  pen.globalAlpha = 1;
+}
+
+/**
+ * The move under way: a band to the cell it leads to, ending in an arrow head; standing still is a
+ * bar across.
+ * @param {Pen} pen  in cells
+ * @param {[number, number]} from
+ * @param {[number, number]} to
+ * @param {number} progress  0–1; the band fades as the move ends
+ * @param {Palette} palette
+ */
+export function drawMove(pen, from, to, progress, palette) {
+  const alpha = 1 - Math.max(0, progress - 0.7) / 0.3;
+  if (alpha <= 0) return;
+  const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+  const length = Math.hypot(dx, dy);
+  pen.save();
+  pen.translate(from[0], from[1]);
+  pen.globalAlpha = alpha;
+  pen.lineCap = "round";
+  pen.lineJoin = "round";
+  if (length < 0.01) {
+    pen.strokeStyle = palette.danger;
+    pen.lineWidth = 0.07;
+    pen.beginPath();
+    pen.moveTo(-0.22, -0.56);
+    pen.lineTo(0.22, -0.56);
+    pen.stroke();
+    pen.restore();
+    return;
+  }
+  pen.rotate(Math.atan2(dy, dx));
+  const reach = length + 0.5;
+  const band = pen.createLinearGradient(0, 0, reach, 0);
+  band.addColorStop(0, "transparent");
+  band.addColorStop(1, palette.accent);
+  pen.strokeStyle = band;
+  pen.globalAlpha = alpha * 0.34;
+  pen.lineWidth = 0.4;
+  pen.lineCap = "butt";
+  pen.beginPath();
+  pen.moveTo(0, 0);
+  pen.lineTo(reach - 0.22, 0);
+  pen.stroke();
+  pen.globalAlpha = alpha * 0.95;
+  pen.strokeStyle = palette.accent;
+  pen.lineCap = "round";
+  pen.lineWidth = 0.075;
+  pen.beginPath();
+  pen.moveTo(reach - 0.15, -0.16);
+  pen.lineTo(reach, 0);
+  pen.lineTo(reach - 0.15, 0.16);
+  pen.stroke();
+  pen.restore();
+}
+
+/**
+ * A ring around something that matters to the decision.
+ * @param {Pen} pen  in cells, centred on it
+ * @param {string} colour
+ * @param {number} alpha
+ * @param {number} radius
+ */
+export function drawRing(pen, colour, alpha, radius = 0.49) {
+  pen.save();
+  pen.globalAlpha = alpha * 0.14;
+  pen.fillStyle = colour;
+  pen.beginPath();
+  pen.arc(0, 0, radius, 0, 2 * Math.PI);
+  pen.fill();
+  pen.globalAlpha = alpha;
+  pen.strokeStyle = colour;
+  pen.lineWidth = 0.045;
+  pen.stroke();
+  pen.restore();
+}
+
+/**
+ * A cell that is spoken of, outlined.
+ * @param {Pen} pen  in cells, centred on it
+ * @param {string} colour
+ */
+export function drawCell(pen, colour) {
+  pen.save();
+  pen.strokeStyle = colour;
+  pen.lineWidth = 0.04;
+  pen.setLineDash([0.14, 0.09]);
+  pen.beginPath();
+  pen.roundRect(-0.46, -0.46, 0.92, 0.92, 0.1);
+  pen.stroke();
+  pen.restore();
+}
+
+/**
+ * Where the vehicle was hit.
+ * @param {Pen} pen  in cells, centred on it
+ * @param {number} progress  0–1 since it happened
+ * @param {Palette} palette
+ */
+export function drawImpact(pen, progress, palette) {
+  const size = 0.45 + 0.3 * progress;
+  pen.save();
+  pen.fillStyle = palette.danger;
+  pen.globalAlpha = 0.8 - 0.35 * progress;
+  pen.beginPath();
+  for (let at = 0; at < 22; at++) {
+    const radius = at % 2 === 0 ? size : size * (0.55 + 0.12 * ((at * 7) % 3));
+    const angle = (at / 22) * 2 * Math.PI;
+    pen.lineTo(Math.cos(angle) * radius, Math.sin(angle) * radius);
+  }
+  pen.closePath();
+  pen.fill();
+  pen.restore();
+}

@@ -1,0 +1,124 @@
+// @ts-check
+/** One thing of any kind in its pose: which painter, which sprite, which shadow. */
+
+import { paintBarrier, paintPothole } from "./hazards.js";
+import { drawSignal, lookOf, paintBeams, paintEgo, paintVehicle, paintVehicleShadow, paintWarning } from "./vehicle.js";
+import { drawWalker, paintWalkerShadow } from "./walker.js";
+
+/** @typedef {import("../motion.js").Pose} Pose */
+/** @typedef {import("../protocol.js").Move} Move */
+
+/**
+ * @typedef {object} Scene  what painters work with; the pen's unit is one cell
+ * @property {CanvasRenderingContext2D} pen
+ * @property {import("./sprites.js").Sprites} sprites
+ * @property {import("../theme.js").Palette} palette
+ * @property {number} progress  of the present step, 0–1
+ * @property {number} now  ms
+ */
+
+/** Which way shadows fall, in cells. */
+const SHADOW = { x: 0.045, y: 0.06 };
+const SPRITE_CELLS = 1.3;
+const BEAM_CELLS = 3;
+
+/** @param {{kind: string}} thing */
+export function isFixed({ kind }) {
+  return kind === "pothole" || kind === "barrier";
+}
+
+/**
+ * @param {Scene} scene
+ * @param {Pose} pose
+ * @param {Move | null} move  the autonomous vehicle's present move, shown by its lamps
+ */
+export function drawThing(scene, pose, move) {
+  const { pen } = scene;
+  pen.save();
+  pen.translate(pose.column, pose.row);
+  pen.scale(pose.scale, pose.scale);
+  pen.globalAlpha = pose.alpha;
+  (PAINTERS[pose.thing.kind] ?? drawUnknown)(scene, pose, move);
+  pen.restore();
+}
+
+/** @type {Record<string, (scene: Scene, pose: Pose, move: Move | null) => void>} */
+const PAINTERS = {
+  pothole({ pen, sprites, palette }, { thing }) {
+    sprites.stamp(pen, thing.id, SPRITE_CELLS, (brush) => paintPothole(brush, thing.id, palette));
+  },
+
+  barrier({ pen, sprites, palette }, { thing }) {
+    sprites.stamp(pen, thing.id, SPRITE_CELLS, (brush) => paintBarrier(brush, thing.id, palette));
+  },
+
+  vehicle({ pen, sprites, palette }, { thing, facing }) {
+    const look = lookOf(thing.id, thing.disabled);
+    const skew = thing.disabled ? 0.22 : 0;
+    shadowed(pen, facing + skew, () =>
+      sprites.stamp(pen, `shadow ${look.body}`, SPRITE_CELLS, (brush) => paintVehicleShadow(brush, look.body, palette)),
+    );
+    pen.save();
+    pen.rotate(facing + skew);
+    if (palette.lamps > 0 && !thing.disabled) beams(pen, sprites, palette);
+    sprites.stamp(pen, look.key, SPRITE_CELLS, (brush) => paintVehicle(brush, look));
+    pen.restore();
+    if (thing.disabled) sprites.stamp(pen, "warning", SPRITE_CELLS, paintWarning);
+  },
+
+  pedestrian({ pen, sprites, palette }, { thing, facing, stride }) {
+    shadowed(pen, facing, () =>
+      sprites.stamp(pen, "shadow walker", SPRITE_CELLS, (brush) => paintWalkerShadow(brush, palette)),
+    );
+    pen.save();
+    pen.rotate(facing);
+    drawWalker(pen, thing.id, stride, thing.disabled);
+    pen.restore();
+  },
+
+  av({ pen, sprites, palette, progress }, { facing }, move) {
+    const heading = facing - Math.PI / 2;
+    shadowed(pen, heading, () =>
+      sprites.stamp(pen, "shadow ego", SPRITE_CELLS, (brush) => paintVehicleShadow(brush, "ego", palette)),
+    );
+    pen.rotate(heading);
+    beams(pen, sprites, palette);
+    sprites.stamp(pen, "ego", SPRITE_CELLS, paintEgo);
+    if (move === "stay") drawSignal(pen, "brake");
+    else if (move && move !== "forward" && blinks(progress)) drawSignal(pen, move.endsWith("left") ? "left" : "right");
+  },
+};
+
+/** Two blinks a step. @param {number} progress */
+function blinks(progress) {
+  return progress < 1 && (progress * 4) % 2 < 1.2;
+}
+
+/**
+ * @param {CanvasRenderingContext2D} pen
+ * @param {number} facing
+ * @param {() => void} stamp
+ */
+function shadowed(pen, facing, stamp) {
+  pen.save();
+  pen.translate(SHADOW.x, SHADOW.y);
+  pen.rotate(facing);
+  stamp();
+  pen.restore();
+}
+
+/**
+ * @param {CanvasRenderingContext2D} pen
+ * @param {import("./sprites.js").Sprites} sprites
+ * @param {import("../theme.js").Palette} palette
+ */
+function beams(pen, sprites, palette) {
+  sprites.stamp(pen, "beams", BEAM_CELLS, (brush) => paintBeams(brush, palette.lamps));
+}
+
+/** A kind this page does not know yet is still seen. @param {Scene} scene */
+function drawUnknown({ pen, palette }) {
+  pen.strokeStyle = palette.danger;
+  pen.lineWidth = 0.06;
+  pen.strokeRect(-0.3, -0.3, 0.6, 0.6);
+}

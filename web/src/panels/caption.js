@@ -1,0 +1,25 @@
+// @ts-check
+/** One line under the road: the move under way and its reason. */
+
+import { make, setText } from "../dom.js";
+import { MOVES } from "../words.js";
+
+/**
+ * @param {HTMLElement} host
+ * @returns {import("./index.js").Panel}
+ */
+export function createCaption(host) {
+  const arrow = make("span", { class: "caption-arrow", "aria-hidden": "true" });
+  const text = make("span", { class: "caption-text" });
+  host.append(arrow, text);
+
+  return {
+    update({ decision, narration, world }, before) {
+      if (decision === before.decision && world === before.world) return;
+      const move = decision && MOVES[decision.move];
+      setText(arrow, move?.arrow ?? "");
+      setText(text, narration ?? (move ? `Moving ${move.name}` : ""));
+      host.dataset.move = decision?.move ?? "";
+    },
+  };
+}

@@ -1,0 +1,69 @@
+// @ts-check
+/** The box to talk in: Enter sends, ↑ and ↓ bring back what was said, Escape clears. */
+
+import { make } from "../dom.js";
+import { History, localHistory } from "../history.js";
+import { icon } from "../icons.js";
+
+const LONGEST_TEXT = 2_000;
+
+/**
+ * @param {HTMLElement} host  a form
+ * @param {import("../main.js").Page} page
+ * @returns {import("./index.js").Panel}
+ */
+export function createCommand(host, page) {
+  const history = new History(localHistory());
+  const words = make("input", {
+    id: "words",
+    class: "words",
+    type: "text",
+    placeholder: "Say what should happen, or ask why",
+    autocomplete: "off",
+    autocapitalize: "off",
+    spellcheck: false,
+    enterKeyHint: "send",
+    maxLength: LONGEST_TEXT,
+    "aria-label": "Say what should happen, or ask why",
+    "aria-keyshortcuts": "/",
+  });
+  const hint = make("kbd", { class: "hint", "aria-hidden": "true" }, "/");
+  const send = make("button", { class: "button strong icon send", type: "submit", "aria-label": "Send" }, icon("send"));
+  host.append(make("div", { class: "words-box" }, words, hint), send);
+
+  host.addEventListener("submit", (event) => {
+    event.preventDefault();
+    const text = words.value.trim();
+    if (text === "") return;
+    history.add(text);
+    words.value = "";
+    page.say(text);
+  });
+
+  words.addEventListener("keydown", (event) => {
+    if (event.isComposing) return;
+    if (event.key === "ArrowUp") bring(history.back(words.value));
+    else if (event.key === "ArrowDown") bring(history.forth());
+    else if (event.key === "Escape") {
+      if (words.value === "") words.blur();
+      words.value = "";
+    } else return;
+    event.preventDefault();
+  });
+
+  /** @param {string | null} text */
+  function bring(text) {
+    if (text === null) return;
+    words.value = text;
+    words.setSelectionRange(text.length, text.length);
+  }
+
+  return {
+    update({ talk }) {
+      host.classList.toggle(
+        "waiting",
+        talk.some(({ standing, quiet }) => standing === "pending" && !quiet),
+      );
+    },
+  };
+}

@@ -1,0 +1,135 @@
+// @ts-check
+/** One exchange as an element: the words, the reply, what changed, or why nothing did. */
+
+import { make } from "../dom.js";
+import { changesOf } from "../talk.js";
+import { markWords, plain, valueWords } from "../words.js";
+import { answerElement } from "./answer.js";
+
+/** @typedef {import("../talk.js").Exchange} Exchange */
+/** @typedef {import("../main.js").Page} Page */
+/** @typedef {import("../protocol.js").CommandResult} CommandResult */
+/** @typedef {import("../protocol.js").Problem} Problem */
+
+/**
+ * @param {Exchange} exchange
+ * @param {Page} page
+ * @param {boolean} undoable  whether this is the change that undo would take back
+ * @returns {HTMLElement}
+ */
+export function exchangeElement(exchange, page, undoable) {
+  const { said, standing, result, problem } = exchange;
+  const element = make("article", { class: "exchange", "data-standing": standing, "data-id": exchange.id });
+  element.append(make("p", { class: "said" }, ...sentence(said, problem?.unparsed ?? [])));
+  if (standing === "pending") element.append(make("p", { class: "reply pending" }, dots()));
+  if (standing === "unknown") {
+    const text = "The connection was lost before an answer came. The road shows whether it was done.";
+    element.append(make("p", { class: "reply" }, text));
+  }
+  if (result) element.append(...resultParts(result, page, undoable));
+  if (problem) element.append(...problemParts(problem, page));
+  return element;
+}
+
+/**
+ * @param {CommandResult} result
+ * @param {Page} page
+ * @param {boolean} undoable
+ */
+function resultParts(result, page, undoable) {
+  const parts = [];
+  for (const { from, to } of result.corrections ?? []) {
+    parts.push(make("p", { class: "correction" }, "Read “", make("s", {}, from), "” as “", make("b", {}, to), "”."));
+  }
+  if (result.answer) parts.push(answerElement(result.answer, result.reply, page));
+  else parts.push(make("p", { class: "reply" }, result.reply));
+  const changes = changesOf(result);
+  if (changes.length > 0) {
+    const list = make("ul", { class: "changes", "aria-label": "What changed" });
+    for (const { path, before, after } of changes) list.append(changeElement(path, before, after));
+    if (undoable) {
+      const undo = make(
+        "button",
+        { class: "button quiet small", type: "button", onclick: () => page.act([{ do: "undo" }], "Undo", true) },
+        "Undo",
+      );
+      list.append(make("li", { class: "change-undo" }, undo));
+    }
+    parts.push(list);
+  }
+  return parts;
+}
+
+/**
+ * @param {string} path
+ * @param {unknown} before
+ * @param {unknown} after
+ */
+function changeElement(path, before, after) {
+  return make(
+    "li",
+    { class: "change" },
+    `${plain(path)} `,
+    make("span", { class: "before" }, valueWords(before)),
+    " → ",
+    make("span", { class: "after" }, valueWords(after)),
+  );
+}
+
+/**
+ * @param {Problem} problem
+ * @param {Page} page
+ */
+function problemParts(problem, page) {
+  /** @type {HTMLElement[]} */
+  const parts = [make("p", { class: "reply" }, problem.detail || problem.title)];
+  const errors = (problem.errors ?? []).filter(({ message }) => message && message !== problem.detail);
+  if (errors.length > 0) {
+    parts.push(make("ul", { class: "errors" }, ...errors.map(({ message }) => make("li", {}, message))));
+  }
+  const choices = problem.choices ?? [];
+  const suggestions = problem.suggestions ?? [];
+  if (choices.length > 0) {
+    parts.push(
+      offers(
+        "Choices",
+        choices.map(({ text, actions }) => offer(text, () => page.act(actions, text))),
+      ),
+    );
+  }
+  if (suggestions.length > 0) {
+    parts.push(
+      make("p", { class: "offers-title" }, "You could say"),
+      offers(
+        "Suggestions",
+        suggestions.map((text) => offer(text, () => page.say(text))),
+      ),
+    );
+  }
+  return parts;
+}
+
+/** @param {string} name @param {HTMLElement[]} buttons */
+function offers(name, buttons) {
+  return make("div", { class: "offers", role: "group", "aria-label": name }, ...buttons);
+}
+
+/** @param {string} text @param {() => void} onclick */
+function offer(text, onclick) {
+  return make("button", { class: "button offer", type: "button", onclick }, text);
+}
+
+/**
+ * The words said, those not understood marked.
+ * @param {string} said
+ * @param {string[]} unparsed
+ */
+function sentence(said, unparsed) {
+  return markWords(said, unparsed).map(({ text, marked }) =>
+    marked ? make("mark", { title: "not understood" }, text) : text,
+  );
+}
+
+function dots() {
+  return make("span", { class: "dots", role: "img", "aria-label": "waiting for the answer" });
+}

@@ -1,0 +1,45 @@
+// @ts-check
+/** The panels of the page, each in a file of its own; a new panel is a file and a line here. */
+
+import { byId } from "../dom.js";
+import { createAnnouncer } from "./announcer.js";
+import { createCaption } from "./caption.js";
+import { createCommand } from "./command.js";
+import { createConnectionBadge } from "./connection.js";
+import { createControls } from "./controls.js";
+import { createLog } from "./log.js";
+import { createRoad } from "./road.js";
+import { createSchematic } from "./schematic.js";
+import { createStatus } from "./status.js";
+import { createTalk } from "./talk.js";
+import { createVerdict } from "./verdict.js";
+
+/** @typedef {import("../state.js").State} State */
+
+/**
+ * @typedef {object} Panel  any of these; all are called at most once a frame
+ * @property {(state: State, before: State) => void} [update]  the state has changed
+ * @property {(now: number) => boolean} [draw]  draw what moves; whether there is more to come
+ * @property {() => void} [repaint]  size or colours have changed
+ */
+
+/**
+ * @param {import("../main.js").Page} page
+ * @returns {Panel[]}
+ */
+export function createPanels(page) {
+  byId("new-session").addEventListener("click", () => page.startSession());
+  return [
+    createRoad(byId("road")),
+    createVerdict(byId("road"), page),
+    createSchematic(byId("schematic")),
+    createStatus(byId("status")),
+    createCaption(byId("caption")),
+    createControls(byId("controls"), byId("help"), page),
+    createLog(byId("log")),
+    createTalk(byId("talk"), page),
+    createCommand(byId("command"), page),
+    createConnectionBadge(byId("connection"), page),
+    createAnnouncer(byId("announcer")),
+  ];
+}

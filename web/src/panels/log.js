@@ -1,0 +1,72 @@
+// @ts-check
+/** The driving log: newest last, following the newest unless the reader has scrolled up. */
+
+import { make, setText } from "../dom.js";
+
+/** @typedef {import("../journal.js").Line} Line */
+
+const NEAR_END_PX = 24;
+
+/**
+ * @param {HTMLElement} host
+ * @returns {import("./index.js").Panel}
+ */
+export function createLog(host) {
+  const list = make("ol", { class: "log-lines", tabIndex: 0, "aria-label": "Driving log, newest last" });
+  const newest = make(
+    "button",
+    { class: "button small newest", type: "button", hidden: true, onclick: () => follow(true) },
+    "Newest ↓",
+  );
+  host.append(list, newest);
+  /** @type {Map<string, {line: Line, row: HTMLElement}>} */
+  const rows = new Map();
+  let following = true;
+
+  list.addEventListener("scroll", () => {
+    following = list.scrollHeight - list.scrollTop - list.clientHeight < NEAR_END_PX;
+    newest.hidden = following;
+  });
+
+  /** @param {boolean} on */
+  function follow(on) {
+    following = on;
+    newest.hidden = on;
+    if (on) list.scrollTop = list.scrollHeight;
+  }
+
+  return {
+    update({ log }, before) {
+      if (log === before.log) return;
+      const kept = new Set(log.map(({ key }) => key));
+      for (const [key, { row }] of rows) {
+        if (kept.has(key)) continue;
+        row.remove();
+        rows.delete(key);
+      }
+      for (const line of log) {
+        const known = rows.get(line.key);
+        if (known?.line === line) continue;
+        if (known) setText(/** @type {Element} */ (known.row.firstElementChild), ticks(line));
+        const row = known?.row ?? list.appendChild(rowOf(line));
+        rows.set(line.key, { line, row });
+      }
+      if (following) follow(true);
+    },
+  };
+}
+
+/** @param {Line} line */
+function rowOf(line) {
+  return make(
+    "li",
+    { class: "log-line", "data-tone": line.tone, "data-type": line.type },
+    make("span", { class: "log-tick" }, ticks(line)),
+    make("span", { class: "log-text" }, line.text),
+  );
+}
+
+/** @param {Line} line */
+function ticks({ from, to }) {
+  return from === to ? String(from) : `${from}–${to}`;
+}

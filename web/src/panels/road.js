@@ -1,0 +1,134 @@
+// @ts-check
+/** The road as the vehicle's follower sees it: canvas, scrolling, everything gliding between ticks. */
+
+import { Camera, viewOf } from "../camera.js";
+import { make } from "../dom.js";
+import { ease, Stage } from "../motion.js";
+import { drawCell, drawImpact, drawMove, drawRing, drawTrail } from "../paint/marks.js";
+import { Sprites } from "../paint/sprites.js";
+import { drawLines, laySurface, surfaceTile } from "../paint/surface.js";
+import { drawThing, isFixed } from "../paint/things.js";
+import { readPalette, wantsStillness } from "../theme.js";
+import { describe, egoOf } from "../world.js";
+
+/** @typedef {import("../state.js").State} State */
+/** @typedef {import("../motion.js").Pose} Pose */
+
+/** More pixels than this a cell cannot be told apart, and cost frames. */
+const LARGEST_RATIO = 2;
+const LONGEST_FRAME_S = 0.1;
+
+/**
+ * @param {HTMLElement} host
+ * @returns {import("./index.js").Panel}
+ */
+export function createRoad(host) {
+  const canvas = make("canvas", { class: "road-canvas", role: "img", "aria-label": "The road" });
+  host.append(canvas);
+  const pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { alpha: false }));
+  const stage = new Stage();
+  const camera = new Camera();
+  const sprites = new Sprites();
+  let palette = readPalette(document.documentElement);
+  /** @type {State | null} */ let state = null;
+  /** @type {import("../camera.js").View | null} */ let view = null;
+  /** @type {HTMLCanvasElement | null} */ let tile = null;
+  let drawnAt = 0;
+
+  /** Fit canvas, view and surface to the room there is. @param {import("../world.js").World} world */
+  function fit(world) {
+    const ratio = Math.min(LARGEST_RATIO, devicePixelRatio || 1);
+    const { clientWidth: width, clientHeight: height } = host;
+    canvas.width = Math.max(1, Math.round(width * ratio));
+    canvas.height = Math.max(1, Math.round(height * ratio));
+    view = viewOf({ width, height, ratio }, world);
+    tile = surfaceTile(view, world.columns, palette);
+    sprites.fit(view.cell * ratio);
+    return { view, tile };
+  }
+
+  return {
+    update(next) {
+      const { world } = next;
+      const before = state?.world;
+      state = next;
+      if (world === null || world === before) return;
+      if (before && (before.columns !== world.columns || before.visibleRows !== world.visibleRows)) view = null;
+      if (before && before.episode !== world.episode) camera.top = null;
+      stage.receive(world, performance.now(), wantsStillness());
+      canvas.setAttribute("aria-label", describe(world));
+    },
+
+    repaint() {
+      palette = readPalette(document.documentElement);
+      sprites.clear();
+      view = tile = null;
+    },
+
+    draw(now) {
+      const world = state?.world;
+      if (!state || !world) return false;
+      const fitted = view && tile ? { view, tile } : fit(world);
+      const ego = egoOf(world);
+      const egoPose = ego && stage.pose(ego.id, now);
+      const elapsedS = wantsStillness() ? Infinity : Math.min(LONGEST_FRAME_S, (now - drawnAt) / 1000);
+      drawnAt = now;
+      const scrolling = camera.follow(egoPose?.row ?? world.rows - 1, world, fitted.view, elapsedS);
+      const top = camera.top ?? 0;
+      const { cell, left, ratio, visibleRows } = fitted.view;
+
+      pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+      laySurface(pen, fitted.tile, fitted.view, top);
+      drawLines(pen, fitted.view, top, world, palette);
+
+      // From here on one unit is a cell, and whole numbers are the centres of cells.
+      pen.setTransform(ratio * cell, 0, 0, ratio * cell, ratio * (left + cell / 2), ratio * cell * (0.5 - top));
+      const seen = stage.poses(now).filter(({ row }) => row > top - 2 && row < top + visibleRows + 1);
+      const progress = stage.progress(now);
+      const scene = { pen, sprites, palette, progress, now };
+      for (const pose of seen) if (isFixed(pose.thing)) drawThing(scene, pose, null);
+      drawTrail(pen, stage.trail.slice(0, -1), palette);
+      drawCauses(seen, progress);
+      if (egoPose && state.decision && world.status === "running") drawIntent(egoPose, progress);
+      const signal = state.decision?.move ?? null;
+      for (const pose of seen) if (!isFixed(pose.thing)) drawThing(scene, pose, signal);
+      if (world.status === "crash" && egoPose) {
+        at(egoPose.column, egoPose.row, () => drawImpact(pen, ease(progress), palette));
+      }
+      drawHighlight(seen);
+      return scrolling || stage.moving(now);
+    },
+  };
+
+  /** @param {Pose[]} seen @param {number} progress */
+  function drawCauses(seen, progress) {
+    const causes = new Set(state?.decision?.causes ?? []);
+    const alpha = 1 - 0.55 * ease(progress);
+    for (const { thing, column, row } of seen) {
+      if (causes.has(thing.id)) at(column, row, () => drawRing(pen, palette.cause, alpha));
+    }
+  }
+
+  /** @param {Pose} ego @param {number} progress */
+  function drawIntent({ thing, column, row }, progress) {
+    drawMove(pen, [column, row], state?.decision?.move === "stay" ? [column, row] : thing.cell, progress, palette);
+  }
+
+  /** @param {Pose[]} seen */
+  function drawHighlight(seen) {
+    if (!state?.highlight) return;
+    const { ids, cells } = state.highlight;
+    for (const [column, row] of cells) at(column, row, () => drawCell(pen, palette.accent));
+    for (const { thing, column, row } of seen) {
+      if (ids.includes(thing.id)) at(column, row, () => drawRing(pen, palette.accent, 1, 0.54));
+    }
+  }
+
+  /** @param {number} column @param {number} row @param {() => void} draw */
+  function at(column, row, draw) {
+    pen.save();
+    pen.translate(column, row);
+    draw();
+    pen.restore();
+  }
+}

@@ -1,0 +1,78 @@
+// @ts-check
+/** The conversation: what was said and what came back; at first, three things to try. */
+
+import { make } from "../dom.js";
+import { changesOf, shown } from "../talk.js";
+import { exchangeElement } from "./exchange.js";
+
+/** @typedef {import("../talk.js").Exchange} Exchange */
+
+const EXAMPLES = [
+  { text: "add five potholes", what: "change the road" },
+  { text: "why did you do that?", what: "ask for a reason" },
+  { text: "simulate a highway with 10 potholes and 2 obstacles", what: "start a new road" },
+];
+const NEAR_END_PX = 40;
+
+/**
+ * @param {HTMLElement} host
+ * @param {import("../main.js").Page} page
+ * @returns {import("./index.js").Panel}
+ */
+export function createTalk(host, page) {
+  const list = make("div", { class: "exchanges", tabIndex: 0, role: "log", "aria-label": "Conversation", "aria-live": "off" });
+  host.append(list);
+  list.append(welcome(page));
+  /** @type {Map<string, {exchange: Exchange, undoable: boolean, element: HTMLElement}>} */
+  const elements = new Map();
+
+  return {
+    update({ talk }, before) {
+      if (talk === before.talk) return;
+      const exchanges = shown(talk);
+      const undoable = talk.findLast(({ result }) => changesOf(result).length > 0)?.id;
+      const kept = new Set(exchanges.map(({ id }) => id));
+      const atEnd = list.scrollHeight - list.scrollTop - list.clientHeight < NEAR_END_PX;
+      if (exchanges.length > 0) list.querySelector(".welcome")?.remove();
+      let grown = false;
+      for (const [id, { element }] of elements) {
+        if (kept.has(id)) continue;
+        element.remove();
+        elements.delete(id);
+      }
+      for (const exchange of exchanges) {
+        const known = elements.get(exchange.id);
+        const canUndo = exchange.id === undoable;
+        if (known?.exchange === exchange && known.undoable === canUndo) continue;
+        const element = exchangeElement(exchange, page, canUndo);
+        if (known) known.element.replaceWith(element);
+        else list.append(element);
+        grown ||= known?.exchange !== exchange;
+        elements.set(exchange.id, { exchange, undoable: canUndo, element });
+      }
+      if (atEnd || grown) list.scrollTop = list.scrollHeight;
+    },
+  };
+}
+
+/** @param {import("../main.js").Page} page */
+function welcome(page) {
+  return make(
+    "div",
+    { class: "welcome" },
+    make("p", { class: "welcome-title" }, "Talk to the road"),
+    make("p", { class: "welcome-text" }, "The blue vehicle drives by itself. Change its world in plain words, and ask it why."),
+    make(
+      "div",
+      { class: "examples" },
+      ...EXAMPLES.map(({ text, what }) =>
+        make(
+          "button",
+          { class: "example", type: "button", onclick: () => page.say(text) },
+          make("span", { class: "example-text" }, text),
+          make("span", { class: "example-what" }, what),
+        ),
+      ),
+    ),
+  );
+}

@@ -1,0 +1,163 @@
+// @ts-check
+/**
+ * Everything the page knows, in one object, and the pure functions that carry it on.
+ *
+ * `reduce(state, event)` answers the next state and changes nothing; an event is a message of the
+ * service or something the person did here. Panels only read. What moves between ticks is not here:
+ * it is presentation, and belongs to the road's own stage (`motion.js`).
+ */
+
+import { logChange, logEvents, logTick } from "./journal.js";
+import { answerExchange, beginExchange, endUnanswered, refuseExchange } from "./talk.js";
+import { worldAfter, worldOf } from "./world.js";
+
+/** @typedef {import("./protocol.js").ServerMessage} ServerMessage */
+/** @typedef {import("./world.js").World} World */
+
+/**
+ * @typedef {object} State
+ * @property {import("./socket.js").Phase} connection  how the stream stands; while it is not "live" the rest is stale
+ * @property {string | null} session  the session's id
+ * @property {string | null} trouble  a sentence when no session could be opened
+ * @property {World | null} world  the road at the latest tick heard of
+ * @property {import("./protocol.js").Decision | null} decision  the latest, as far as the stream tells it
+ * @property {string | null} narration  the latest decision in words
+ * @property {import("./journal.js").Line[]} log  newest last, at most `LOG_LINES`
+ * @property {import("./talk.js").Exchange[]} talk  what was said here and answered, newest last
+ * @property {Highlight | null} highlight  what the reader points at
+ * @property {string | null} announcement  the latest sentence worth reading aloud
+ */
+
+/** @typedef {{ids: string[], cells: import("./protocol.js").Cell[]}} Highlight */
+
+/**
+ * @typedef {{type: "session", id: string}
+ *   | {type: "phase", phase: import("./socket.js").Phase}
+ *   | {type: "trouble", text: string}
+ *   | {type: "said", id: string, text: string, quiet: boolean}
+ *   | {type: "unsent", id: string}
+ *   | {type: "highlight", highlight: Highlight | null}} PageEvent  what happened on this side of the wire
+ */
+
+/** @typedef {ServerMessage | PageEvent} Event */
+
+/** @type {State} before anything has been heard */
+export const INITIAL = {
+  connection: { phase: "opening" },
+  session: null,
+  trouble: null,
+  world: null,
+  decision: null,
+  narration: null,
+  log: [],
+  talk: [],
+  highlight: null,
+  announcement: null,
+};
+
+/** Event types that are worth saying aloud, not only writing down. */
+const SPOKEN = new Set(["crashed", "arrived", "stuck"]);
+
+/**
+ * @param {State} state
+ * @param {Event} event
+ * @returns {State}
+ */
+export function reduce(state, event) {
+  switch (event.type) {
+    case "session":
+      return { ...INITIAL, session: event.id };
+    case "phase":
+      return afterPhase(state, event.phase);
+    case "trouble":
+      return { ...state, trouble: event.text };
+    case "said":
+      return { ...state, talk: beginExchange(state.talk, event) };
+    case "unsent":
+      return { ...state, talk: refuseExchange(state.talk, event.id, NOT_CONNECTED) };
+    case "highlight":
+      return { ...state, highlight: event.highlight };
+    case "hello":
+      return afterHello(state, event);
+    case "tick":
+      return afterTick(state, event);
+    case "changed":
+      return {
+        ...state,
+        world: worldOf(event.state),
+        log: logChange(state.log, event),
+        highlight: null,
+      };
+    case "state":
+      return { ...state, world: worldOf(event.state) };
+    case "result":
+      return {
+        ...state,
+        talk: answerExchange(state.talk, event.id, event.result),
+        announcement: event.result.reply,
+      };
+    case "problem":
+      return {
+        ...state,
+        talk: refuseExchange(state.talk, event.id, event.problem),
+        announcement: event.problem.detail,
+      };
+    case "error":
+      return { ...state, announcement: event.problem.detail };
+    default:
+      return state;
+  }
+}
+
+/** @type {import("./protocol.js").Problem} */
+const NOT_CONNECTED = {
+  type: "about:blank",
+  title: "Not connected",
+  status: 0,
+  detail: "There is no connection to the service just now, so this was not sent. Press ↑ to have it back.",
+};
+
+/**
+ * @param {State} state
+ * @param {import("./socket.js").Phase} phase
+ * @returns {State}
+ */
+function afterPhase(state, phase) {
+  if (phase.phase !== "lost") return { ...state, connection: phase };
+  return { ...state, connection: phase, talk: endUnanswered(state.talk) };
+}
+
+/**
+ * @param {State} state
+ * @param {import("./protocol.js").HelloMessage} hello
+ * @returns {State}
+ */
+function afterHello(state, hello) {
+  return {
+    ...state,
+    session: hello.session.id,
+    trouble: null,
+    world: worldOf(hello.state),
+    decision: hello.decision ?? null,
+    narration: hello.decision?.narration ?? null,
+    log: logEvents(state.log, hello.log ?? []),
+  };
+}
+
+/**
+ * @param {State} state
+ * @param {import("./protocol.js").TickMessage} message
+ * @returns {State}
+ */
+function afterTick(state, message) {
+  if (state.world === null) return state;
+  const spoken = (message.events ?? []).findLast((event) => SPOKEN.has(event.type));
+  return {
+    ...state,
+    world: worldAfter(state.world, message),
+    decision: message.decision ?? null,
+    narration: message.narration ?? null,
+    log: logTick(state.log, message),
+    announcement: spoken ? spoken.text : state.announcement,
+  };
+}

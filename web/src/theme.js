@@ -1,0 +1,70 @@
+// @ts-check
+/** What the reader prefers, and the canvas's colours, which live in `style/tokens.css` like all others. */
+
+/**
+ * @typedef {object} Palette  CSS colours
+ * @property {string} verge
+ * @property {string} vergeDeep
+ * @property {string} asphalt
+ * @property {string} asphaltDeep
+ * @property {string} grain
+ * @property {string} marking
+ * @property {string} edge
+ * @property {string} ink
+ * @property {string} accent
+ * @property {string} danger
+ * @property {string} goal
+ * @property {string} shadow
+ * @property {string} crack
+ * @property {string} hole
+ * @property {string} cause
+ * @property {number} lamps  how much lamps shine, 0–1
+ */
+
+const COLOURS = {
+  verge: "--road-verge",
+  vergeDeep: "--road-verge-deep",
+  asphalt: "--road-asphalt",
+  asphaltDeep: "--road-asphalt-deep",
+  grain: "--road-grain",
+  marking: "--road-marking",
+  edge: "--road-edge",
+  ink: "--road-ink",
+  accent: "--road-accent",
+  danger: "--danger",
+  goal: "--goal",
+  shadow: "--road-shadow",
+  crack: "--road-crack",
+  hole: "--road-hole",
+  cause: "--road-cause",
+};
+
+/**
+ * The palette in force.
+ * @param {Element} root
+ * @returns {Palette}
+ */
+export function readPalette(root) {
+  const style = getComputedStyle(root);
+  const read = (/** @type {string} */ name) => style.getPropertyValue(name).trim();
+  const colours = Object.fromEntries(Object.entries(COLOURS).map(([key, name]) => [key, read(name)]));
+  return /** @type {Palette} */ ({ ...colours, lamps: Number(read("--road-lamps")) });
+}
+
+/**
+ * Whether the reader asked for little motion, now.
+ * @returns {boolean}
+ */
+export function wantsStillness() {
+  return matchMedia("(prefers-reduced-motion: reduce)").matches;
+}
+
+/**
+ * Calls back when colours or motion are preferred otherwise.
+ * @param {() => void} changed
+ */
+export function watchPreferences(changed) {
+  for (const query of ["(prefers-color-scheme: dark)", "(prefers-reduced-motion: reduce)", "(prefers-contrast: more)"]) {
+    matchMedia(query).addEventListener("change", changed);
+  }
+}

@@ -1,0 +1,121 @@
+// @ts-check
+/** Small words of the page's own: moves, reasons, figures, and marking words inside a sentence. */
+
+/** @typedef {import("./protocol.js").Move} Move */
+
+/** Each move's arrow and name. */
+export const MOVES = /** @type {Record<Move, {arrow: string, name: string}>} */ ({
+  forward: { arrow: "↑", name: "forward" },
+  left: { arrow: "←", name: "left" },
+  right: { arrow: "→", name: "right" },
+  forward_left: { arrow: "↖", name: "forward left" },
+  forward_right: { arrow: "↗", name: "forward right" },
+  stay: { arrow: "·", name: "stay" },
+});
+
+const REASONS = /** @type {Record<string, string>} */ ({
+  free: "free",
+  off_road: "off the road",
+  pothole: "a pothole",
+  barrier: "a barrier",
+  mover_enters: "something moves in",
+  mover_stays: "something stands there",
+  mover_swaps: "something comes the other way",
+  disabled_mover: "a disabled vehicle",
+});
+
+/**
+ * A planner's reason in words; one the page does not know is shown as it is spelt.
+ * @param {string} reason
+ */
+export function reasonWords(reason) {
+  return REASONS[reason] ?? plain(reason);
+}
+
+/**
+ * A name from the wire as words: "success_rate" → "success rate".
+ * @param {string} name
+ */
+export function plain(name) {
+  return name.replaceAll("_", " ").replaceAll(".", " ");
+}
+
+/**
+ * A value of a change as text.
+ * @param {unknown} value
+ */
+export function valueWords(value) {
+  if (value === null || value === undefined) return "none";
+  if (value === true) return "on";
+  if (value === false) return "off";
+  if (typeof value === "object") return JSON.stringify(value);
+  return plain(String(value));
+}
+
+/**
+ * @param {number | null} fraction
+ */
+export function percent(fraction) {
+  return fraction === null ? "–" : `${Math.round(fraction * 100)} %`;
+}
+
+/**
+ * Seconds as a clock of minutes: 75.5 → "1:15.5".
+ * @param {number} seconds
+ */
+export function clock(seconds) {
+  const tenths = Math.round(seconds * 10);
+  const minutes = Math.floor(tenths / 600);
+  const rest = ((tenths % 600) / 10).toFixed(1).padStart(4, "0");
+  return `${minutes}:${rest}`;
+}
+
+/**
+ * A sentence cut into pieces, those naming `words` marked. Words are taken in the order given, each
+ * at its next place after the one before, so that only the second "and" is marked when only that one
+ * was not understood; a word out of order is looked for from the start.
+ * @param {string} sentence
+ * @param {string[]} words
+ * @returns {{text: string, marked: boolean}[]}
+ */
+export function markWords(sentence, words) {
+  const lower = sentence.toLowerCase();
+  /** @type {[number, number][]} */
+  const spans = [];
+  let from = 0;
+  for (const word of words) {
+    const at = wholeWord(lower, word.toLowerCase(), from) ?? wholeWord(lower, word.toLowerCase(), 0);
+    if (at === null) continue;
+    spans.push([at, at + word.length]);
+    from = at + word.length;
+  }
+  spans.sort(([a], [b]) => a - b);
+  const pieces = [];
+  let end = 0;
+  for (const [start, stop] of spans) {
+    if (start < end) continue;
+    if (start > end) pieces.push({ text: sentence.slice(end, start), marked: false });
+    pieces.push({ text: sentence.slice(start, stop), marked: true });
+    end = stop;
+  }
+  if (end < sentence.length) pieces.push({ text: sentence.slice(end), marked: false });
+  return pieces;
+}
+
+/**
+ * Where `word` stands as a word of its own, from a position on.
+ * @param {string} text
+ * @param {string} word
+ * @param {number} from
+ * @returns {number | null}
+ */
+function wholeWord(text, word, from) {
+  if (word === "") return null;
+  const partOfWord = /[\p{L}\p{N}]/u;
+  for (let at = text.indexOf(word, from); at !== -1; at = text.indexOf(word, at + 1)) {
+    const before = text[at - 1] ?? " ";
+    const after = text[at + word.length] ?? " ";
+    if (!partOfWord.test(before) && !partOfWord.test(after)) return at;
+  }
+  return null;
+}
