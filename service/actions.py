@@ -89,6 +89,10 @@ class Adjust:
 
     __pydantic_config__ = _STRICT
 
+    def __post_init__(self) -> None:
+        if [self.factor, self.by, self.direction].count(None) != 2:
+            raise ValueError("say exactly one of 'factor', 'by' and 'direction'")
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Prefer:
@@ -200,6 +204,25 @@ class Ask:
     metric: MetricName | None = None
 
     __pydantic_config__ = _STRICT
+
+    def __post_init__(self) -> None:
+        may, must = _ASKED_WITH.get(self.about, ((), ()))
+        for key in ("move", "tick", "change", "kind", "metric"):
+            said = getattr(self, key) is not None
+            if said and key not in may:
+                raise ValueError(f"'{key}' does not belong to a question about {self.about}")
+            if not said and key in must:
+                raise ValueError(f"a question about {self.about} needs '{key}'")
+
+
+_ASKED_WITH: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
+    "why": (("move", "tick"), ()),
+    "why_not": (("move", "tick"), ("move",)),
+    "what_if": (("change",), ("change",)),
+    "scene": (("kind",), ()),
+    "metrics": (("metric",), ()),
+}
+"""The keys that a question may name, and those it must."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -77,7 +77,7 @@ def apply(run: Run, action: WorldAction) -> Applied:
         begun, event = next_episode(run)
         events = (event,)
     applied = _apply(begun, action)
-    return replace(applied, changes=_differences(run, applied.run), events=(*events, *applied.events))
+    return replace(applied, changes=differences(run, applied.run), events=(*events, *applied.events))
 
 
 def _apply(run: Run, action: WorldAction) -> Applied:
@@ -269,7 +269,7 @@ def _edited(run: Run, world: World) -> Run:
     return replace(run, world=world, edits=run.edits + 1)
 
 
-def _differences(before: Run, after: Run) -> tuple[Change, ...]:
+def differences(before: Run, after: Run) -> tuple[Change, ...]:
     """Every figure that a change has changed."""
     changes = []
     if before.world.episode != after.world.episode:

@@ -32,4 +32,4 @@ class Event:
     cell: Cell | None = None
     move: Move | None = None
     how: str | None = None
-    """for a crash: `hit` or `swap`"""
+    """for a crash `hit` or `swap`, for a move held back what it would have met (`Verdict`)"""

@@ -6,7 +6,7 @@ rules as well as on the driving. All defects are listed, not the first.
 
 from __future__ import annotations
 
-from sim.kinds import Kind, Outcome
+from sim.kinds import Kind, Outcome, kind_of
 from sim.world import Cause, World
 
 
@@ -18,13 +18,13 @@ def collisions(before: World, after: World) -> tuple[Cause, ...]:
         place = after.road.cell(end)
         if end in after.hazards:
             name = after.hazards[end]
-            found.append(Cause("hit", _kind(name), (name,), place))
+            found.append(Cause("hit", kind_of(name), (name,), place))
         if end in after.movers:
             name = after.movers[end]
-            found.append(Cause("hit", _kind(name), (name,), place))
+            found.append(Cause("hit", kind_of(name), (name,), place))
         passed = after.movers.get(start)
         if start != end and passed is not None and was[passed] == end:
-            found.append(Cause("swap", _kind(passed), (passed,), place))
+            found.append(Cause("swap", kind_of(passed), (passed,), place))
         for other in range(number):
             met = after.avs[other] == end
             if met or (after.avs[other] == start != end == before.avs[other]):
@@ -40,7 +40,3 @@ def outcome(after: World, crashes: tuple[Cause, ...], max_ticks: int) -> Outcome
     if all(cell < after.road.columns for cell in after.avs):
         return Outcome.SUCCESS
     return Outcome.STUCK if after.episode_tick > max_ticks else Outcome.RUNNING
-
-
-def _kind(name: str) -> Kind:
-    return Kind(name.rpartition("-")[0])

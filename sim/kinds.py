@@ -32,6 +32,11 @@ class Kind(StrEnum):
         return self in HAZARDS
 
 
+def kind_of(name: str) -> Kind:
+    """The kind of the thing with this id ("vehicle-7"). Raises `ValueError`."""
+    return Kind(name.rpartition("-")[0])
+
+
 HAZARDS = (Kind.POTHOLE, Kind.BARRIER)
 MOVERS = (Kind.VEHICLE, Kind.PEDESTRIAN)
 PLACEABLE = (*HAZARDS, *MOVERS)

@@ -86,7 +86,13 @@ def advance(run: Run) -> Tick:
         blocked = decision.option(decision.asked)
         events.append(
             Event(
-                after.tick, EventType.HELD_BACK, after.episode, blocked.causes, blocked.cell, decision.asked
+                after.tick,
+                EventType.HELD_BACK,
+                after.episode,
+                blocked.causes,
+                blocked.cell,
+                decision.asked,
+                blocked.reason,
             )
         )
     if result is not Outcome.RUNNING:

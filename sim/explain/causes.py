@@ -111,7 +111,7 @@ def _smallest(rerun: Rerun, fact: Move, enough: list[str]) -> tuple[list[str], b
         return enough, False
     parts = (part for size in range(len(enough)) for part in combinations(enough, size))
     smaller = next((list(part) for part in parts if rerun.keeping(part) is fact), None)
-    return smaller or enough, True
+    return (enough if smaller is None else smaller), True
 
 
 def _ranked(
@@ -121,8 +121,7 @@ def _ranked(
     if decision.held_back:
         hindered = [option for option in decision.options if option.move is decision.asked]
     else:
-        moves = [option.move for option in decision.options]
-        hindered = list(decision.options[: moves.index(decision.move)])
+        hindered = list(decision.preferred)
     causes = []
     for name in enough:
         thing = run.world.find(name)

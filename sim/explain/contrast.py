@@ -63,8 +63,7 @@ def _walls(rerun: Rerun, cleared: Sequence[str], foil: Move) -> list[Cell]:
     seen = rerun.decision_without(cleared)
     if seen.option(foil).cell is None or seen.asked is not None:
         return []
-    order = [option.move for option in seen.options]
-    before = seen.options[: order.index(foil)]
+    before = seen.options[: seen.options.index(seen.option(foil))]
     cells = [option.cell for option in before if option.verdict == "free" and option.cell is not None]
     return cells if cells and rerun.with_barriers(cleared, cells) is foil else []
 

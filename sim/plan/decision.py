@@ -49,6 +49,11 @@ class Decision:
         """Whether a person's move was not taken because its cell would not be free."""
         return self.asked is not None and self.asked is not self.move
 
+    @property
+    def preferred(self) -> tuple[Option, ...]:
+        """The moves that come before the one taken."""
+        return self.options[: self.options.index(self.chosen)]
+
     def option(self, move: Move) -> Option:
         """The trace of one move."""
         return next(option for option in self.options if option.move is move)

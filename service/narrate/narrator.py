@@ -1,0 +1,89 @@
+"""One door to all that is said: decisions, events, replies, answers."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from service.narrate.answers import Answers
+from service.narrate.replies import Replies
+from service.narrate.sayings import Sayings
+from service.sessions.facts import Asked, Fact
+from sim.events import Event, EventType
+from sim.kinds import Move
+from sim.plan import Decision
+from sim.run import Run
+
+
+class Narrator:
+    """Words for facts, in one language."""
+
+    def __init__(self, sayings: Sayings) -> None:
+        """`sayings`: the language's."""
+        self._sayings = sayings
+        self._replies = Replies(sayings)
+        self._answers = Answers(sayings)
+
+    @classmethod
+    def load(cls, code: str = "en", folder: Path | None = None) -> Narrator:
+        """A narrator of the language `code`."""
+        return cls(Sayings.load(code, folder))
+
+    def decision(self, decision: Decision, run: Run) -> str:  # noqa: ARG002 - later words will look round
+        """What the vehicle does at a tick and why, in one line."""
+        first, chosen = decision.options[0], decision.chosen
+        name = self._sayings.move(decision.move, "name").capitalize()
+        if decision.asked is not None:
+            return self._asked(decision, decision.asked, name)
+        if decision.move is first.move:
+            return self._say("first_choice")
+        if decision.move is not Move.STAY:
+            return self._say("other", move=name, reason=self._sayings.reason(first, "now"))
+        if chosen.verdict == "free":
+            return self._say("no_way")
+        return self._say("no_safe_way", reason=self._sayings.reason(chosen, "now"))
+
+    def event(self, event: Event, run: Run) -> str:
+        """One line of the log."""
+        key = f"crashed_{event.how}" if event.type is EventType.CRASHED else str(event.type)
+        ticks = run.world.episode_tick
+        reason = ""
+        if event.type is EventType.HELD_BACK and event.move is not None:
+            place = self._sayings.move(event.move, "place")
+            reason = self._sayings.say(
+                "words",
+                "reasons",
+                event.how or "free",
+                "then",
+                who=self._sayings.joined(event.ids),
+                place=place,
+            )
+        return self._sayings.say(
+            "log",
+            "events",
+            key,
+            episode=event.episode,
+            ticks=ticks,
+            seconds=f"{ticks * run.config.step_seconds:g}",
+            who=self._sayings.joined(event.ids),
+            where="" if event.cell is None else self._sayings.where(event.cell),
+            move="" if event.move is None else self._sayings.move(event.move, "name"),
+            reason=reason,
+        )
+
+    def done(self, facts: tuple[Fact, ...]) -> str:
+        """The reply: what was done, in a sentence for each fact."""
+        return self._replies.done(facts)
+
+    def answer(self, asked: Asked) -> dict[str, Any]:
+        """The answer to a question, as JSON values."""
+        return self._answers.answer(asked)
+
+    def _asked(self, decision: Decision, asked: Move, name: str) -> str:
+        if decision.held_back:
+            reason = self._sayings.reason(decision.option(asked), "now")
+            return self._say("held_back", move=self._sayings.move(asked, "name"), reason=reason)
+        return self._say("asked", move=name)
+
+    def _say(self, key: str, **parts: object) -> str:
+        return self._sayings.say("log", "decisions", key, **parts)

@@ -1,0 +1,106 @@
+"""What an utterance did, as a reply: a sentence for each thing done, with the figures that changed."""
+
+from __future__ import annotations
+
+from service.narrate.sayings import Sayings
+from service.sessions.facts import Asked, Fact, PauseSet, Stepped, Undone
+from sim.actions import Add, Drive, Remove, Reset, Scenario, SetCount, SetMode
+from sim.edit import Applied, Change
+from sim.events import EventType
+from sim.kinds import Mode
+from sim.run import Run
+
+
+class Replies:
+    """Replies in one language."""
+
+    def __init__(self, sayings: Sayings) -> None:
+        """`sayings`: the language's."""
+        self._sayings = sayings
+
+    def done(self, facts: tuple[Fact, ...]) -> str:
+        """A sentence for each fact; questions are answered elsewhere."""
+        return " ".join(sentence for fact in facts if (sentence := self._done(fact)))
+
+    def _done(self, fact: Fact) -> str:
+        match fact:
+            case Applied():
+                return self._applied(fact)
+            case PauseSet(before=before, paused=paused):
+                key = "pause" if paused else "resume"
+                return self._say(f"{key}_already" if before is paused else key)
+            case Stepped(ticks=ticks):
+                key = "step_one" if len(ticks) == 1 else "step_many"
+                return self._say(key, count=len(ticks), tick=fact.first_tick + len(ticks))
+            case Undone():
+                key = "redo" if fact.again else "undo"
+                told = self._diff(fact.changes)
+                return self._say(key, diff=told) if told else self._say(f"{key}_plain")
+            case Asked():
+                return ""
+
+    def _applied(self, applied: Applied) -> str:
+        match applied.action:
+            case Add():
+                said = self._moved("add", applied)
+            case Remove(kind=kind) if not applied.removed:
+                said = self._say("remove_none", things=self._sayings.things(kind, 2))
+            case Remove():
+                said = self._moved("remove", applied)
+            case SetCount(kind=kind, count=count):
+                are = self._sayings.say("replies", "are", "one" if count == 1 else "many")
+                changed = bool(applied.changes)
+                said = self._say(
+                    "set_count" if changed else "set_count_already",
+                    are=are,
+                    count=count,
+                    things=self._sayings.things(kind, count),
+                    diff=self._diff(applied.changes),
+                )
+            case Scenario():
+                return self._scenario(applied.run)
+            case Reset():
+                return self._say("reset")
+            case SetMode(mode=mode):
+                changed = any(change.path == "mode" for change in applied.changes)
+                return self._say(f"mode_{mode}" if changed else "mode_already")
+            case Drive(move=move):
+                key = "drive" if applied.run.mode is Mode.MANUAL else "drive_then_auto"
+                said = self._say(key, move=self._sayings.move(move, "do"))
+        started = any(event.type is EventType.EPISODE_STARTED for event in applied.events)
+        return f"{self._say('road_first')} {said}" if started else said
+
+    def _moved(self, key: str, applied: Applied) -> str:
+        """Things added or removed: one by its id and place, several by their number."""
+        things = applied.added or applied.removed
+        diff = self._diff(applied.changes)
+        if len(things) == 1:
+            where = self._sayings.where(things[0].cell)
+            return self._say(f"{key}_one", id=things[0].id, where=where, diff=diff)
+        kinds = {thing.kind for thing in things}
+        noun = next(iter(kinds)) if len(kinds) == 1 else "everything"
+        named = self._sayings.things(noun, len(things))
+        return self._say(f"{key}_many", count=len(things), things=named, diff=diff)
+
+    def _scenario(self, run: Run) -> str:
+        road = self._sayings.say("replies", "roads", run.config.road or "none")
+        contents = [
+            self._say("contents", count=count, things=self._sayings.things(kind, count))
+            for kind, count in run.world.counts().items()
+            if count
+        ]
+        if not contents:
+            return self._say("scenario_empty", road=road)
+        return self._say("scenario", road=road, contents=self._sayings.joined(contents))
+
+    def _diff(self, changes: tuple[Change, ...]) -> str:
+        """The counts that changed."""
+        told = [
+            self._say("diff", path=change.path, before=change.before, after=change.after)
+            for change in changes
+            if isinstance(change.before, int) and not change.path.startswith("config.")
+        ]
+        return ", ".join(told)
+
+    def _say(self, key: str, **parts: object) -> str:
+        return self._sayings.say("replies", key, **parts)

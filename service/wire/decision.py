@@ -1,0 +1,48 @@
+"""Decisions as JSON values: with the whole trace, or in the few words of a tick message."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sim.plan import Decision, Option
+
+
+def decision_json(decision: Decision, narration: str) -> dict[str, Any]:
+    """A decision with its trace: the `Decision` of the interface."""
+    return {
+        "tick": decision.tick,
+        "planner": decision.planner,
+        "move": decision.move,
+        "asked": decision.asked,
+        "options": [option_json(option) for option in decision.options],
+        "narration": narration,
+    }
+
+
+def brief_decision_json(decision: Decision) -> dict[str, Any]:
+    """A decision without its options.
+
+    `reason` and `causes` are those of the most preferred move: why it was taken, or what kept the
+    vehicle from it.
+    """
+    preferred = decision.options[0]
+    return {
+        "tick": decision.tick,
+        "planner": decision.planner,
+        "move": decision.move,
+        "reason": preferred.reason,
+        "causes": preferred.causes,
+    }
+
+
+def option_json(option: Option) -> dict[str, Any]:
+    """One move with what spoke for or against it."""
+    """One move of a trace."""
+    return {
+        "move": option.move,
+        "cell": option.cell,
+        "verdict": option.verdict,
+        "cost": option.cost,
+        "reason": option.reason,
+        "causes": option.causes,
+    }

@@ -1,0 +1,51 @@
+"""The structured part of an explanation as JSON values: all that its words were made from."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from service import actions as contract
+from service.wire.decision import option_json
+from sim.actions import Add, Remove, Where
+from sim.explain import Cause, Counterfactual, Explanation
+from sim.kinds import kind_of
+
+Json = dict[str, Any]
+
+
+def explanation_json(explanation: Explanation) -> Json:
+    """Causes, alternatives, proofs; every `change` is a list of actions to try it with at that tick."""
+    decision, verified = explanation.decision, explanation.verified
+    flips = [_flip_json(flip) for flip in explanation.counterfactuals]
+    return {
+        "tick": decision.tick,
+        "move": decision.move,
+        "foil": explanation.foil,
+        "causes": [_cause_json(cause) for cause in explanation.causes],
+        "alternatives": [option_json(option) for option in decision.options],
+        "verified": {
+            "necessary": verified.necessary,
+            "sufficient": verified.sufficient,
+            "minimal": verified.minimal,
+        },
+        "counterfactual": flips[0] if flips else None,
+        "evidence": {"counterfactuals": flips, "reruns": explanation.reruns},
+    }
+
+
+def _cause_json(cause: Cause) -> Json:
+    return {
+        "id": cause.id,
+        "kind": cause.kind,
+        "cell": cause.cell,
+        "role": cause.role,
+        "moves": cause.moves,
+        "necessary": cause.necessary,
+        "group": cause.group,
+    }
+
+
+def _flip_json(flip: Counterfactual) -> Json:
+    removed = [Remove(kind=kind_of(name).value, count=1, where=Where(id=name)) for name in flip.removed]
+    added = [Add(kind="barrier", count=1, where=Where(cell=cell)) for cell in flip.added]
+    return {"change": contract.dump((*removed, *added)), "decision": flip.move}

@@ -1,0 +1,100 @@
+"""A world at a tick, and the figures beside it, as JSON values."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from sim.kinds import Kind
+from sim.metrics import Metrics
+from sim.run import Run
+from sim.world import Thing, World
+
+Json = dict[str, Any]
+
+
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """What of a session is not in its run: who it is and how it stands."""
+
+    session: str
+    paused: bool
+    sequence: int
+
+
+def state_json(standing: Standing, run: Run) -> Json:
+    """Everything there is to see at one tick: the `State` of the interface."""
+    world, config = run.world, run.config
+    things = list(world.things())
+    return {
+        "session": standing.session,
+        "tick": world.tick,
+        "time_s": round(world.tick * config.step_seconds, 6),
+        "episode": world.episode,
+        "episode_tick": world.episode_tick,
+        "status": world.outcome,
+        "cause": cause_json(world),
+        "columns": world.road.columns,
+        "rows": world.road.rows,
+        "visible_rows": config.visible_rows,
+        "step_seconds": config.step_seconds,
+        "paused": standing.paused,
+        "mode": run.mode,
+        "planner": config.planner,
+        "vehicles": vehicles_json(world),
+        "movers": [_mover_json(thing) for thing in things if thing.kind.moves],
+        "hazards": [_hazard_json(thing) for thing in things if thing.kind.fixed],
+        "metrics": metrics_json(run.metrics),
+        "digest": world.digest(),
+        "sequence": standing.sequence,
+    }
+
+
+def cause_json(world: World) -> Json | None:
+    """What a crash was with; None when there was none."""
+    cause = world.cause
+    if cause is None:
+        return None
+    return {"kind": cause.kind, "how": cause.how, "ids": cause.ids, "cell": cause.cell}
+
+
+def vehicles_json(world: World) -> list[Json]:
+    """The autonomous vehicles, in order."""
+    return [
+        {"id": world.id_at(index, Kind.AV), "kind": Kind.AV, "cell": world.road.cell(index)}
+        for index in world.avs
+    ]
+
+
+def metrics_json(metrics: Metrics) -> Json:
+    """A session's figures."""
+    return {
+        "episodes": metrics.episodes,
+        "successes": metrics.successes,
+        "crashes": metrics.crashes,
+        "stuck": metrics.stuck,
+        "success_rate": metrics.success_rate,
+        "steps": metrics.steps,
+        "moves": {
+            "forward": metrics.forward,
+            "lateral": metrics.lateral,
+            "diagonal": metrics.diagonal,
+            "stay": metrics.stay,
+        },
+        "distance_m": round(metrics.distance_m, 3),
+        "last_episode_ticks": metrics.last_episode_ticks,
+    }
+
+
+def _mover_json(thing: Thing) -> Json:
+    return {
+        "id": thing.id,
+        "kind": thing.kind,
+        "cell": thing.cell,
+        "heading": thing.heading,
+        "disabled": thing.disabled,
+    }
+
+
+def _hazard_json(thing: Thing) -> Json:
+    return {"id": thing.id, "kind": thing.kind, "cell": thing.cell}
