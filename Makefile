@@ -1,0 +1,55 @@
+# One command each; every target sets up what it needs, and does so quickly the second time.
+
+PYTHON ?= $(shell command -v python3.11 || command -v python3)
+VENV   ?= .venv
+BIN    := $(VENV)/bin
+HOST   ?= 127.0.0.1
+PORT   ?= 8000
+
+.DEFAULT_GOAL := help
+.PHONY: help setup run test check format bench clean
+
+help: ## what can be made
+	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 10
+
+setup: $(VENV)/.ready-dev ## everything for running and for development
+
+run: $(VENV)/.ready-run ## the service; prints its address
+	@$(BIN)/roadtalk serve --host $(HOST) --port $(PORT)
+
+test: check ## all checks and all tests
+	$(BIN)/python -m pytest -n auto --dist loadgroup
+
+check: $(VENV)/.ready-dev ## style and types
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+
+format: $(VENV)/.ready-dev ## rewrite the code in the project's style
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+bench: $(VENV)/.ready-dev ## measured figures, in one run
+	$(BIN)/python -m bench
+
+clean: ## take away what was set up
+	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache .hypothesis
+
+# With uv where it is at hand, else with venv and pip. The stamps make the second time quick.
+$(VENV)/bin/python:
+	@if command -v uv >/dev/null; then uv venv --quiet --python $(PYTHON) $(VENV); else $(PYTHON) -m venv $(VENV); fi
+
+$(VENV)/.ready-run: pyproject.toml | $(VENV)/bin/python
+	@echo "Setting up (once; a minute or less) ..."
+	@$(call install,.)
+	@touch $@
+
+$(VENV)/.ready-dev: pyproject.toml | $(VENV)/bin/python
+	@echo "Setting up for development (once; a minute or less) ..."
+	@$(call install,.[dev])
+	@touch $@ $(VENV)/.ready-run
+
+define install
+if command -v uv >/dev/null; then uv pip install --quiet --python $(BIN)/python -e '$(1)'; \
+else $(BIN)/python -m pip install --quiet --disable-pip-version-check -e '$(1)'; fi
+endef
