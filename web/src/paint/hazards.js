@@ -88,21 +88,21 @@ export function paintPothole(pen, id, palette) {
   pen.strokeStyle = palette.crack;
   for (const crack of cracksOf(id)) {
     for (let at = 1; at < crack.length; at++) {
-      pen.lineWidth = 0.026 * (1 - (at - 1) / crack.length);
+      pen.lineWidth = 0.022 * (1 - (at - 1) / crack.length);
+      pen.globalAlpha = 0.9 - 0.55 * ((at - 1) / crack.length);
       pen.beginPath();
       pen.moveTo(...crack[at - 1]);
       pen.lineTo(...crack[at]);
       pen.stroke();
     }
   }
-  pen.fillStyle = palette.crack;
-  pen.globalAlpha = 0.4;
-  blob(pen, scaled(1.12));
+  pen.fillStyle = palette.asphaltDeep;
+  pen.globalAlpha = 0.85;
+  blob(pen, scaled(1.22));
   pen.fill();
-  pen.globalAlpha = 1;
   pen.fillStyle = palette.edge;
-  pen.globalAlpha = 0.5;
-  blob(pen, scaled(1.02, 0, 0.014));
+  pen.globalAlpha = 0.28;
+  blob(pen, scaled(1.02, 0, 0.016));
   pen.fill();
   pen.globalAlpha = 1;
   const depth = pen.createRadialGradient(0.02, 0.05, 0.03, 0, 0, 0.38);

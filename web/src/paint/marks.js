@@ -13,7 +13,7 @@
 export function drawTrail(pen, cells, palette) {
   pen.fillStyle = palette.accent;
   cells.forEach(([column, row], at) => {
-    pen.globalAlpha = 0.5 * ((at + 1) / cells.length) ** 1.6;
+    pen.globalAlpha = 0.85 * ((at + 1) / cells.length) ** 1.3;
     pen.beginPath();
     pen.arc(column, row, 0.05, 0, 2 * Math.PI);
     pen.fill();
@@ -113,23 +113,37 @@ export function drawCell(pen, colour) {
 }
 
 /**
- * Where the vehicle was hit.
+ * Where the vehicle was hit: a burst under the bodies, so that they stay to be seen.
  * @param {Pen} pen  in cells, centred on it
  * @param {number} progress  0–1 since it happened
  * @param {Palette} palette
  */
 export function drawImpact(pen, progress, palette) {
-  const size = 0.45 + 0.3 * progress;
   pen.save();
-  pen.fillStyle = palette.danger;
-  pen.globalAlpha = 0.8 - 0.35 * progress;
+  for (const [share, colour, alpha] of /** @type {[number, string, number][]} */ ([
+    [1, palette.danger, 0.9],
+    [0.72, palette.cause, 0.95],
+    [0.45, "#fff4d6", 0.95],
+  ])) {
+    pen.fillStyle = colour;
+    pen.globalAlpha = alpha - 0.25 * progress;
+    burst(pen, share * (0.62 + 0.28 * progress));
+    pen.fill();
+  }
+  pen.restore();
+}
+
+/**
+ * A star of uneven points, as the current path.
+ * @param {Pen} pen
+ * @param {number} size
+ */
+function burst(pen, size) {
   pen.beginPath();
-  for (let at = 0; at < 22; at++) {
-    const radius = at % 2 === 0 ? size : size * (0.55 + 0.12 * ((at * 7) % 3));
-    const angle = (at / 22) * 2 * Math.PI;
+  for (let at = 0; at < 26; at++) {
+    const radius = size * (at % 2 === 0 ? 1 - 0.14 * ((at * 5) % 3) : 0.62);
+    const angle = (at / 26) * 2 * Math.PI;
     pen.lineTo(Math.cos(angle) * radius, Math.sin(angle) * radius);
   }
   pen.closePath();
-  pen.fill();
-  pen.restore();
 }

@@ -12,6 +12,8 @@ const GRAINS_PER_CELL = 70;
 const TUFTS_PER_CELL = 9;
 const CELL_M = 5;
 const MARK_EVERY_ROWS = 5;
+const MARK_PX = 6;
+const MARK_GAP_PX = 5;
 
 /**
  * A piece of road `TILE_ROWS` long and as wide as the canvas, to be laid end to end.
@@ -86,7 +88,7 @@ function verge(pen, view, height, palette) {
  */
 function wheelTracks(pen, view, columns, height, palette) {
   pen.fillStyle = palette.asphaltDeep;
-  pen.globalAlpha = 0.28;
+  pen.globalAlpha = 0.2;
   for (let column = 0; column < columns; column++) {
     for (const at of [0.3, 0.7]) {
       const x = view.left + (column + at) * view.cell;
@@ -149,18 +151,18 @@ export function drawLines(pen, view, top, road, palette) {
     pen.fillRect(left, start - cell * 0.05, road.columns * cell, cell * 0.05);
   }
   const room = left - view.shoulder;
-  if (room < 46) return;
-  pen.font = `500 ${Math.min(13, cell * 0.16)}px system-ui, sans-serif`;
+  pen.font = `500 ${Math.min(12, cell * 0.15)}px system-ui, sans-serif`;
   pen.textAlign = "right";
   pen.textBaseline = "middle";
   pen.fillStyle = palette.ink;
+  if (room < pen.measureText(`${road.rows * CELL_M} m`).width + MARK_PX + 2 * MARK_GAP_PX) return;
   for (let row = 0; row < road.rows; row += MARK_EVERY_ROWS) {
     const y = (row + 0.5 - top) * cell;
     if (y < -cell || y > view.height + cell) continue;
     pen.globalAlpha = 0.62;
-    pen.fillText(row === 0 ? "Finish" : `${row * CELL_M} m`, room - 14, y);
+    pen.fillText(row === 0 ? "Finish" : `${row * CELL_M} m`, room - MARK_PX - MARK_GAP_PX, y);
     pen.globalAlpha = 0.4;
-    pen.fillRect(room - 8, y - 0.75, 8, 1.5);
+    pen.fillRect(room - MARK_PX, y - 0.75, MARK_PX, 1.5);
   }
   pen.globalAlpha = 1;
 }

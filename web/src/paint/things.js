@@ -82,7 +82,7 @@ const PAINTERS = {
       sprites.stamp(pen, "shadow ego", SPRITE_CELLS, (brush) => paintVehicleShadow(brush, "ego", palette)),
     );
     pen.rotate(heading);
-    beams(pen, sprites, palette);
+    if (palette.lamps > 0) beams(pen, sprites, palette);
     sprites.stamp(pen, "ego", SPRITE_CELLS, paintEgo);
     if (move === "stay") drawSignal(pen, "brake");
     else if (move && move !== "forward" && blinks(progress)) drawSignal(pen, move.endsWith("left") ? "left" : "right");

@@ -27,6 +27,8 @@ const PAINTS = [
 const BODIES = /** @type {const} */ (["saloon", "hatch", "saloon", "van", "hatch", "truck"]);
 const DISABLED = { main: "#7d7f84", light: "#94969b", dark: "#56585d" };
 const EGO = { main: "#2f6fed", light: "#5c93ff", dark: "#1a48ad" };
+/** Cones laid over one another, so that a beam is soft at its sides; in cells at its far end. */
+const BEAM_SPREADS = [0.1, 0.16, 0.22, 0.28, 0.34, 0.4];
 const GLASS = "#1a222e";
 
 /** @type {Record<Look["body"] | "ego", {length: number, width: number}>} in cells */
@@ -111,18 +113,20 @@ export function paintEgo(pen) {
  */
 export function paintBeams(pen, strength) {
   for (const side of [-1, 1]) {
-    const y = side * 0.14;
-    const glow = pen.createRadialGradient(0.36, y, 0.02, 0.5, y, 0.95);
-    glow.addColorStop(0, `rgb(255 247 220 / ${0.55 * strength})`);
-    glow.addColorStop(1, "rgb(255 247 220 / 0)");
+    const y = side * 0.13;
+    const glow = pen.createRadialGradient(0.36, y, 0.02, 0.45, y, 1);
+    glow.addColorStop(0, `rgb(255 246 214 / ${0.16 * strength})`);
+    glow.addColorStop(1, "rgb(255 246 214 / 0)");
     pen.fillStyle = glow;
-    pen.beginPath();
-    pen.moveTo(0.38, y - 0.04);
-    pen.lineTo(1.4, y - 0.34 + side * 0.08);
-    pen.lineTo(1.4, y + 0.34 + side * 0.08);
-    pen.lineTo(0.38, y + 0.04);
-    pen.closePath();
-    pen.fill();
+    for (const spread of BEAM_SPREADS) {
+      pen.beginPath();
+      pen.moveTo(0.38, y - 0.03);
+      pen.lineTo(1.45, y - spread + side * 0.08);
+      pen.lineTo(1.45, y + spread + side * 0.08);
+      pen.lineTo(0.38, y + 0.03);
+      pen.closePath();
+      pen.fill();
+    }
   }
 }
 

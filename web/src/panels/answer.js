@@ -21,7 +21,7 @@ export function answerElement(answer, reply, page) {
       make("ul", { class: "causes", "aria-label": "Causes" }, ...causes.map((cause) => causeElement(cause, page))),
     );
   }
-  const proof = proofWords(answer);
+  const proof = causes.length > 0 ? proofWords(answer) : "";
   if (proof) {
     element.append(make("p", { class: "proof" }, icon("proof"), make("span", {}, proof)));
   }

@@ -18,7 +18,7 @@ export function createCommand(host, page) {
     id: "words",
     class: "words",
     type: "text",
-    placeholder: "Say what should happen, or ask why",
+    placeholder: "Say it, or ask why",
     autocomplete: "off",
     autocapitalize: "off",
     spellcheck: false,

@@ -21,6 +21,7 @@ export function createControls(host, help, page) {
         class: act.name === "clock" ? "button strong" : "button",
         type: "button",
         "data-act": act.name,
+        "aria-keyshortcuts": act.key === " " ? "Space" : act.key,
         onclick: () => {
           const { actions, label: said } = act.now(page.state());
           page.act(actions, said, true);
@@ -44,6 +45,7 @@ export function createControls(host, help, page) {
         entry.shown = name;
         setText(entry.label, label);
         entry.button.title = `${label}  ${entry.act.keyName}`;
+        entry.button.setAttribute("aria-label", label);
         entry.picture.replaceChildren(icon(name));
       }
     },

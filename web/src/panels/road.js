@@ -91,10 +91,10 @@ export function createRoad(host) {
       drawCauses(seen, progress);
       if (egoPose && state.decision && world.status === "running") drawIntent(egoPose, progress);
       const signal = state.decision?.move ?? null;
-      for (const pose of seen) if (!isFixed(pose.thing)) drawThing(scene, pose, signal);
       if (world.status === "crash" && egoPose) {
         at(egoPose.column, egoPose.row, () => drawImpact(pen, ease(progress), palette));
       }
+      for (const pose of seen) if (!isFixed(pose.thing)) drawThing(scene, pose, signal);
       drawHighlight(seen);
       return scrolling || stage.moving(now);
     },

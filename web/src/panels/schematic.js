@@ -1,5 +1,5 @@
 // @ts-check
-/** The whole road at a glance: one small square a cell, and the part in view. */
+/** The whole road at a glance: a small square for each thing, the road stretched to the room. */
 
 import { make } from "../dom.js";
 import { readPalette } from "../theme.js";
@@ -13,6 +13,8 @@ const COLOURS = /** @type {Record<string, string>} */ ({
   pothole: "#d9a520",
   barrier: "#c77b3c",
 });
+
+const MARGIN_PX = 12;
 
 /**
  * @param {HTMLElement} host
@@ -42,22 +44,26 @@ export function createSchematic(host) {
       canvas.width = Math.round(width * ratio);
       canvas.height = Math.round(height * ratio);
       const palette = readPalette(document.documentElement);
-      const cell = Math.min(width / world.columns, height / world.rows);
-      const left = (width - cell * world.columns) / 2;
-      const top = (height - cell * world.rows) / 2;
-      pen.setTransform(ratio, 0, 0, ratio, left * ratio, top * ratio);
+      pen.setTransform(ratio, 0, 0, ratio, MARGIN_PX * ratio, MARGIN_PX * ratio);
+      const across = (width - 2 * MARGIN_PX) / world.columns;
+      const along = (height - 2 * MARGIN_PX) / world.rows;
       pen.fillStyle = palette.asphalt;
       pen.beginPath();
-      pen.roundRect(0, 0, cell * world.columns, cell * world.rows, 4);
+      pen.roundRect(-2, -2, across * world.columns + 4, along * world.rows + 4, 6);
       pen.fill();
       pen.fillStyle = palette.goal;
-      pen.fillRect(0, 0, cell * world.columns, cell * 0.5);
+      pen.fillRect(0, 0, across * world.columns, Math.min(3, along));
+      const side = Math.min(across, along) * 0.82;
       for (const { kind, cell: [column, row], disabled } of world.things.values()) {
+        const size = kind === "av" ? side * 1.5 : side;
         pen.fillStyle = disabled ? "#8a8d93" : (COLOURS[kind] ?? palette.marking);
         pen.beginPath();
-        const gap = kind === "av" ? 0 : cell * 0.12;
-        pen.roundRect(column * cell + gap, row * cell + gap, cell - 2 * gap, cell - 2 * gap, cell * 0.25);
+        pen.roundRect((column + 0.5) * across - size / 2, (row + 0.5) * along - size / 2, size, size, size * 0.3);
         pen.fill();
+        if (kind !== "av") continue;
+        pen.strokeStyle = "#ffffff";
+        pen.lineWidth = 1.5;
+        pen.stroke();
       }
       return false;
     },

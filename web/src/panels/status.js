@@ -25,7 +25,7 @@ const FIGURES = [
   { key: "episode", label: "Episode", value: (world) => String(world.episode) },
   {
     key: "success",
-    label: "Arrived",
+    label: "Success",
     value: ({ metrics }) => percent(metrics.success_rate),
     note: ({ metrics }) => (metrics.episodes === 0 ? "" : `${metrics.successes} of ${metrics.episodes}`),
   },

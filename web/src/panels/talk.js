@@ -12,7 +12,6 @@ const EXAMPLES = [
   { text: "why did you do that?", what: "ask for a reason" },
   { text: "simulate a highway with 10 potholes and 2 obstacles", what: "start a new road" },
 ];
-const NEAR_END_PX = 40;
 
 /**
  * @param {HTMLElement} host
@@ -32,9 +31,9 @@ export function createTalk(host, page) {
       const exchanges = shown(talk);
       const undoable = talk.findLast(({ result }) => changesOf(result).length > 0)?.id;
       const kept = new Set(exchanges.map(({ id }) => id));
-      const atEnd = list.scrollHeight - list.scrollTop - list.clientHeight < NEAR_END_PX;
       if (exchanges.length > 0) list.querySelector(".welcome")?.remove();
-      let grown = false;
+      /** @type {HTMLElement | null} */
+      let newest = null;
       for (const [id, { element }] of elements) {
         if (kept.has(id)) continue;
         element.remove();
@@ -47,10 +46,10 @@ export function createTalk(host, page) {
         const element = exchangeElement(exchange, page, canUndo);
         if (known) known.element.replaceWith(element);
         else list.append(element);
-        grown ||= known?.exchange !== exchange;
+        if (known?.exchange !== exchange) newest = element;
         elements.set(exchange.id, { exchange, undoable: canUndo, element });
       }
-      if (atEnd || grown) list.scrollTop = list.scrollHeight;
+      newest?.scrollIntoView({ block: "nearest" });
     },
   };
 }

@@ -1,0 +1,65 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { LOG_LINES, logChange, logEvents, logTick } from "../../web/src/journal.js";
+import { logEvent, tick, wireState } from "./fakes.mjs";
+
+const at = (number, narration) =>
+  tick({ tick: number + 1, sequence: number, decision: { tick: number, move: "forward" }, narration });
+
+test("ticks that say the same share a line, until something else is said", () => {
+  let log = [];
+  for (const number of [4, 5, 6]) log = logTick(log, at(number, "Forward."));
+  log = logTick(log, at(7, "Left."));
+  log = logTick(log, at(8, "Forward."));
+  assert.deepEqual(log.map(({ from, to, text }) => [from, to, text]), [[4, 6, "Forward."], [7, 7, "Left."], [8, 8, "Forward."]]);
+});
+
+test("ticks that were missed break the line", () => {
+  const log = logTick(logTick([], at(4, "Forward.")), at(9, "Forward."));
+  assert.deepEqual(log.map(({ from, to }) => [from, to]), [[4, 4], [9, 9]]);
+});
+
+test("keys are unique, also when ticks run again after an undo", () => {
+  let log = [];
+  for (const number of [4, 5]) log = logTick(log, at(number, `a${number}`));
+  log = logTick(log, { ...at(4, "a4"), sequence: 90 });
+  assert.equal(new Set(log.map(({ key }) => key)).size, log.length);
+});
+
+test("events are written once, however often they are sent", () => {
+  const events = [logEvent(1), logEvent(2)];
+  const log = logEvents(logEvents([], events), [...events, logEvent(3)]);
+  assert.deepEqual(log.map(({ number }) => number), [1, 2, 3]);
+});
+
+test("a move is told by its tick, not twice", () => {
+  const log = logTick([], { ...at(4, "Forward."), events: [logEvent(1, { type: "moved" })] });
+  assert.equal(log.length, 1);
+});
+
+test("a change is one loud line and its own event is not repeated, now or after a reconnect", () => {
+  const edited = logEvent(7, { type: "edited", text: "Added 5 potholes." });
+  const disabled = logEvent(8, { type: "disabled", text: "vehicle-1 is disabled." });
+  const message = {
+    sequence: 120,
+    text: "add five potholes",
+    reply: "Added 5 potholes.",
+    changes: [],
+    events: [edited, disabled],
+    state: wireState(),
+  };
+  const log = logChange([], message);
+  assert.deepEqual(log.map(({ tone, text }) => [tone, text]), [
+    ["change", "“add five potholes” Added 5 potholes."],
+    ["event", "vehicle-1 is disabled."],
+  ]);
+  assert.equal(logEvents(log, [edited, disabled]), log);
+});
+
+test("the log does not grow for ever", () => {
+  let log = [];
+  for (let number = 0; number < LOG_LINES + 50; number++) log = logTick(log, at(number, `say ${number}`));
+  assert.equal(log.length, LOG_LINES);
+  assert.equal(log.at(-1).text, `say ${LOG_LINES + 49}`);
+});

@@ -1,0 +1,30 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { createSession, findSession, hashOfSession, sessionInHash } from "../../web/src/sessions.js";
+
+const answering = (status, body = {}) => async () => new Response(JSON.stringify(body), { status });
+const failing = async () => {
+  throw new TypeError("fetch failed");
+};
+
+test("the address names a session, whatever its id", () => {
+  for (const id of ["abc", "a b", "ä/ö", "50%"]) assert.equal(sessionInHash(hashOfSession(id)), id);
+  for (const hash of ["", "#", "#/s/", "#/s/a/b", "#/t/a", "#/s/%"]) assert.equal(sessionInHash(hash), null, hash);
+});
+
+test("a session is missing only when the service says so", async () => {
+  assert.equal(await findSession("a", answering(200)), "here");
+  assert.equal(await findSession("a", answering(404)), "missing");
+  assert.equal(await findSession("a", answering(410)), "missing");
+  assert.equal(await findSession("a", answering(500)), "unreachable");
+  assert.equal(await findSession("a", answering(429)), "unreachable");
+  assert.equal(await findSession("a", failing), "unreachable");
+});
+
+test("a new session, or a sentence why not", async () => {
+  assert.deepEqual(await createSession(answering(201, { id: "n" })), { id: "n" });
+  await assert.rejects(createSession(answering(429, { detail: "Too many sessions." })), /Too many sessions\./);
+  await assert.rejects(createSession(async () => new Response("oops", { status: 502 })), /answered 502/);
+  await assert.rejects(createSession(failing), /cannot be reached/);
+});

@@ -1,0 +1,42 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { clock, markWords, percent, plain, reasonWords, valueWords } from "../../web/src/words.js";
+
+const marked = (sentence, words) =>
+  markWords(sentence, words)
+    .map(({ text, marked }) => (marked ? `[${text}]` : text))
+    .join("");
+
+test("words not understood are marked where they stand", () => {
+  assert.equal(marked("add five potholes and order pizza", ["order", "pizza"]), "add five potholes and [order] [pizza]");
+  assert.equal(marked("Order PIZZA!", ["order", "pizza"]), "[Order] [PIZZA]!");
+  assert.equal(marked("make me a sandwich", ["make me a sandwich"]), "[make me a sandwich]");
+});
+
+test("only whole words, and each at its own place", () => {
+  assert.equal(marked("cart a car", ["car"]), "cart a [car]");
+  assert.equal(marked("dig and dig", ["dig", "dig"]), "[dig] and [dig]");
+  assert.equal(marked("b then a", ["a", "b"]), "[b] then [a]");
+  assert.equal(marked("don't fly", ["don't"]), "[don't] fly");
+});
+
+test("words that are not there, or empty, mark nothing and nothing is lost", () => {
+  assert.equal(marked("add five potholes", ["pizza", ""]), "add five potholes");
+  assert.equal(marked("", ["a"]), "");
+  for (const words of [["a", "a b"], ["b", "a b c"], ["c", "c"]]) {
+    assert.equal(markWords("a b c", words).map(({ text }) => text).join(""), "a b c");
+  }
+});
+
+test("figures and names", () => {
+  assert.equal(clock(0), "0:00.0");
+  assert.equal(clock(75.5), "1:15.5");
+  assert.equal(clock(59.96), "1:00.0");
+  assert.equal(percent(null), "–");
+  assert.equal(percent(0.9784), "98 %");
+  assert.equal(plain("success_rate"), "success rate");
+  assert.equal(reasonWords("mover_enters"), "something moves in");
+  assert.equal(reasonWords("too_risky"), "too risky");
+  assert.deepEqual([4, true, null, "highway"].map(valueWords), ["4", "on", "none", "highway"]);
+});
