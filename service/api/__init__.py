@@ -1,0 +1,1 @@
+"""HTTP and the stream: one file for each resource, thin over `service.sessions`."""

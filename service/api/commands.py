@@ -1,0 +1,104 @@
+"""What is said and done to a session: `commands`, `actions`, `step`, `ask`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import APIRouter, Body, Response
+
+from service import actions as contract
+from service.api import examples, schemas
+from service.api.context import JSON_ONLY, Here, TheSession
+from service.api.errors import documented
+from service.api.respond import StrictRoute, etag, json_response
+from service.api.speech import result_json, understand, understand_question, utterance_of
+from service.api.views import told_runs
+from service.problems import (
+    Ambiguous,
+    DoesNotFit,
+    Invalid,
+    Malformed,
+    NotAQuestion,
+    NotAvailable,
+    NothingToUndo,
+    NotJson,
+    NotRestorable,
+    NotSaved,
+    NotUnderstood,
+    TooLarge,
+    UnknownSession,
+)
+from service.sessions.session import Utterance
+
+router = APIRouter(tags=["talking"], route_class=StrictRoute, dependencies=[JSON_ONLY])
+
+_ALWAYS = (Malformed, UnknownSession, TooLarge, NotJson, Invalid, NotRestorable)
+_CHANGING = (*_ALWAYS, DoesNotFit, NotAvailable, NothingToUndo, NotSaved)
+
+
+@router.post(
+    "/sessions/{session_id}/commands",
+    response_model=schemas.CommandResult,
+    summary="Say something",
+    responses=documented(*_CHANGING, NotUnderstood, Ambiguous),
+)
+async def say(
+    body: Annotated[schemas.Said, Body(openapi_examples=examples.SAID)], session: TheSession, here: Here
+) -> Response:
+    """Done as a whole or not at all; one undo takes the whole back.
+
+    A word that is not understood refuses it all, and says which.
+    """
+    parse = understand(here, body.text)
+    outcome = await session.change(utterance_of(parse), dry_run=body.dry_run)
+    return json_response(result_json(outcome, parse, body.dry_run), headers=etag(outcome.sequence))
+
+
+@router.post(
+    "/sessions/{session_id}/actions",
+    response_model=schemas.CommandResult,
+    summary="Do typed actions",
+    responses=documented(*_CHANGING),
+)
+async def act(
+    body: Annotated[schemas.TypedActions, Body(openapi_examples=examples.ACTIONS)], session: TheSession
+) -> Response:
+    """The same as saying it, without language."""
+    outcome = await session.change(Utterance(actions=tuple(body.actions)), dry_run=body.dry_run)
+    return json_response(result_json(outcome, None, body.dry_run), headers=etag(outcome.sequence))
+
+
+@router.post(
+    "/sessions/{session_id}/step",
+    response_model=schemas.StepResult,
+    summary="Run some ticks",
+    responses=documented(*_ALWAYS, NotSaved),
+)
+async def step(
+    body: Annotated[schemas.StepTicks, Body(openapi_examples=examples.STEP)], session: TheSession, here: Here
+) -> Response:
+    """Pauses, then runs the ticks as fast as it can; answers what was decided in each."""
+    before = session.run
+    outcome = await session.change(Utterance(actions=(contract.Step(ticks=body.ticks),)))
+    runs = [before, *(tick.run for tick in outcome.ticks)]
+    return json_response(
+        {"ticks": body.ticks, "decisions": told_runs(here.words, runs[:-1]), "state": session.state()},
+        headers=etag(outcome.sequence),
+    )
+
+
+@router.post(
+    "/sessions/{session_id}/ask",
+    response_model=schemas.Answer,
+    summary="Ask something",
+    responses=documented(*_ALWAYS, NotUnderstood, Ambiguous, NotAvailable, NotAQuestion),
+)
+async def ask(
+    body: Annotated[schemas.Question, Body(openapi_examples=examples.QUESTION)],
+    session: TheSession,
+    here: Here,
+) -> Response:
+    """Answers, and changes nothing."""
+    parse = understand_question(here, body.question)
+    outcome = await session.change(utterance_of(parse))
+    return json_response(outcome.answer, headers=etag(outcome.sequence))

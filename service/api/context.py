@@ -1,0 +1,59 @@
+"""What routes work with: bound once in `create_app`, reached from any request or socket."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Protocol, cast
+
+from fastapi import Depends
+from starlette.requests import HTTPConnection
+
+from service.language.parse_types import Parse
+from service.problems import NotJson
+from service.sessions.clock import Clock
+from service.sessions.manager import SessionManager
+from service.sessions.session import Session
+from service.sessions.words import Words
+from service.settings import Settings
+from service.store import Store
+
+
+class Language(Protocol):
+    """What is needed of a language: text in, actions or a refusal out."""
+
+    def parse(self, text: str) -> Parse:
+        """What a sentence means; never raises for anything said."""
+
+
+@dataclass(frozen=True, slots=True)
+class Context:
+    """The parts of one running service."""
+
+    settings: Settings
+    store: Store
+    clock: Clock
+    language: Language
+    words: Words
+    manager: SessionManager
+
+
+def context_of(connection: HTTPConnection) -> Context:
+    """The context a request or socket belongs to."""
+    return cast(Context, connection.app.state.context)
+
+
+async def _session(session_id: str, connection: HTTPConnection) -> Session:
+    return await context_of(connection).manager.get(session_id)
+
+
+async def json_only(connection: HTTPConnection) -> None:
+    """Refuse a body that does not say it is JSON, which also keeps other sites' forms out."""
+    said = connection.headers.get("content-type", "")
+    kind = said.partition(";")[0].strip().lower()
+    if kind != "application/json":
+        raise NotJson(f"Send the body as application/json, not as {kind or 'nothing said'}.")
+
+
+Here = Annotated[Context, Depends(context_of)]
+TheSession = Annotated[Session, Depends(_session)]
+JSON_ONLY = Depends(json_only)

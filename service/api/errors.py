@@ -1,0 +1,128 @@
+"""Every error as problem+json: ours, the framework's, and the ones nobody foresaw."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import structlog
+from fastapi import FastAPI, Request, Response
+from fastapi.exceptions import RequestValidationError
+from starlette.exceptions import HTTPException
+
+from service.api.examples import problem_example
+from service.api.respond import problem_response
+from service.api.schemas import ProblemDocument
+from service.problems import (
+    MEDIA_TYPE,
+    FieldProblem,
+    Internal,
+    Invalid,
+    Malformed,
+    NotFound,
+    NotSaved,
+    ProblemError,
+    TooLarge,
+    WrongMethod,
+)
+from service.store import StoreError
+
+_LOG = structlog.get_logger(__name__)
+
+ErrorDetails = Sequence[Any]
+"""pydantic's list of what is wrong: dictionaries with `loc` and `msg`."""
+
+
+def install(app: FastAPI) -> None:
+    """Answer every error of the application with a problem."""
+    for kind in (ProblemError, RequestValidationError, HTTPException, StoreError, Exception):
+        app.add_exception_handler(kind, _respond)
+
+
+def _respond(request: Request, error: Exception) -> Response:
+    match error:
+        case ProblemError():
+            return problem_response(error)
+        case RequestValidationError():
+            return problem_response(_validation(error))
+        case HTTPException():
+            return problem_response(_http(request, error))
+        case StoreError():
+            _LOG.error("the store failed", error=str(error))
+            return problem_response(NotSaved())
+        case _:
+            _LOG.error("a request failed", path=request.url.path, exc_info=error)
+            return problem_response(Internal())
+
+
+def documented(*kinds: type[ProblemError]) -> dict[int | str, dict[str, Any]]:
+    """The problems a route can answer, for its documentation, by status."""
+    by_status: dict[int | str, dict[str, Any]] = {}
+    for kind in kinds:
+        new = {"model": ProblemDocument, "description": "", "content": {MEDIA_TYPE: {"examples": {}}}}
+        said = by_status.setdefault(kind.status, new)
+        said["description"] = " · ".join(filter(None, (said["description"], kind.title)))
+        said["content"][MEDIA_TYPE]["examples"][kind.slug] = {"value": problem_example(kind)}
+    return by_status
+
+
+def invalid(errors: Iterable[FieldProblem]) -> Invalid:
+    """The problem of some bad fields."""
+    listed = list(errors)
+    said = "; ".join(
+        f"{error.field}: {error.message}" if error.field else error.message for error in listed[:3]
+    )
+    more = f" and {len(listed) - 3} more" if len(listed) > 3 else ""
+    return Invalid(f"{said}{more}.", errors=listed)
+
+
+def field_problems(details: ErrorDetails, sent: Any = None) -> list[FieldProblem]:
+    """pydantic's errors as fields and messages, one for each field; what was sent is not repeated."""
+    by_field: dict[str, list[str]] = {}
+    for detail in details:
+        by_field.setdefault(_path(detail, sent), []).append(_message(detail))
+    return [FieldProblem(name, " or ".join(dict.fromkeys(messages))) for name, messages in by_field.items()]
+
+
+def _path(detail: Any, sent: Any) -> str:
+    """Where in what was sent: pydantic also names the types it tried, which nobody wrote."""
+    place, *parts = detail["loc"]
+    if place != "body":
+        return ".".join(str(part) for part in parts)
+    kept = []
+    for part in parts:
+        if (isinstance(sent, dict) and part in sent) or (isinstance(sent, list) and isinstance(part, int)):
+            kept.append(str(part))
+            sent = sent[part]
+    if detail["type"] == "missing" and parts:
+        kept.append(str(parts[-1]))
+    return ".".join(kept)
+
+
+def _message(detail: Any) -> str:
+    if detail["type"] == "extra_forbidden":
+        return "is not a known key"
+    if detail["type"] == "missing":
+        return "is missing"
+    message = str(detail["msg"])
+    return message[:1].lower() + message[1:]
+
+
+def _validation(error: RequestValidationError) -> ProblemError:
+    details = error.errors()
+    if any(detail["type"] == "json_invalid" for detail in details):
+        return Malformed(f"The body cannot be read as JSON: {details[0]['ctx']['error']}.")
+    return invalid(field_problems(details, error.body))
+
+
+def _http(request: Request, error: HTTPException) -> ProblemError:
+    where = f"{request.method} {request.url.path}"
+    match error.status_code:
+        case 405:
+            return WrongMethod(f"{where} is not offered.", headers=error.headers)
+        case 413:
+            return TooLarge("The body is larger than is read here.", headers={"Connection": "close"})
+        case 400:
+            return Malformed("The body cannot be read.")
+        case _:
+            return NotFound(f"There is nothing at {where}. The calls there are stand at /docs.")

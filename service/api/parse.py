@@ -1,0 +1,36 @@
+"""`/parse`: what a sentence means, no session needed."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import APIRouter, Body, Response
+
+from service import actions as contract
+from service.api import examples, schemas
+from service.api.context import JSON_ONLY, Here
+from service.api.errors import documented
+from service.api.respond import StrictRoute, json_response
+from service.api.speech import corrections_json, understand
+from service.problems import Ambiguous, Invalid, Malformed, NotJson, NotUnderstood, TooLarge
+
+router = APIRouter(tags=["talking"], route_class=StrictRoute)
+
+
+@router.post(
+    "/parse",
+    response_model=schemas.Parsed,
+    summary="Understand a sentence",
+    dependencies=[JSON_ONLY],
+    responses=documented(Malformed, Ambiguous, TooLarge, NotJson, Invalid, NotUnderstood),
+)
+async def parse(body: Annotated[schemas.Text, Body(openapi_examples=examples.TEXT)], here: Here) -> Response:
+    """The actions a sentence means, whether or not this version does them."""
+    understood = understand(here, body.text)
+    return json_response(
+        {
+            "text": understood.text,
+            "actions": contract.dump(understood.actions),
+            "corrections": corrections_json(understood),
+        }
+    )

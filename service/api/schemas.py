@@ -1,0 +1,401 @@
+"""The documented shape of everything sent and answered. Answers are not encoded through these.
+
+A test holds real answers against them, so that they cannot drift from `service.wire`.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, WithJsonSchema
+
+from service.actions import Action
+from service.api.config_schema import CONFIG_SCHEMA
+from sim.actions import PlannerName
+from sim.kinds import Kind, Mode, Move, Outcome
+
+Tick = Annotated[int, Field(ge=0, le=2**53 - 1, description="Ticks since the session began.")]
+CellPair = Annotated[
+    list[int], Field(min_length=2, max_length=2, description="[column, row], row 0 at the goal")
+]
+ConfigParts = Annotated[dict[str, Any], WithJsonSchema(CONFIG_SCHEMA)]
+
+MAX_ACTIONS = 100
+"""Actions that may be sent at once."""
+
+
+class Sent(BaseModel):
+    """What callers send: unknown keys and values of another type are refused."""
+
+    model_config = ConfigDict(extra="forbid", strict=True)
+
+
+class Answered(BaseModel):
+    """What callers are answered."""
+
+    model_config = ConfigDict(extra="forbid")
+
+
+class RecordedEntry(Sent):
+    """One accepted change of a recording."""
+
+    sequence: int = Field(ge=1)
+    tick: Tick
+    text: str | None
+    actions: list[Action] = Field(max_length=MAX_ACTIONS)
+
+
+class Recording(Sent):
+    """A session as one small file."""
+
+    format: Literal["roadtalk-recording"]
+    version: Literal[1]
+    name: str | None = Field(None, max_length=80)
+    config: ConfigParts
+    entries: list[RecordedEntry] = Field(max_length=10_000)
+    tick: Tick = Field(description="Where it ends.")
+    digest: str = Field(description="What the world at its end must be.", max_length=64)
+
+
+class NewSession(Sent):
+    """How a session begins. Everything may be left out; without a seed one is drawn and told."""
+
+    name: str | None = Field(None, min_length=1, max_length=80)
+    scenario: str | None = Field(None, description="A sentence that describes a road.")
+    config: ConfigParts | None = None
+    seed: int | None = Field(None, ge=0, le=2**53 - 1)
+    planner: PlannerName | None = None
+    paused: bool | None = Field(
+        None, description="Default: running, or paused when replayed from a recording."
+    )
+    recording: Recording | None = Field(None, description="Replay this; alone but for name and paused.")
+
+
+class Said(Sent):
+    """Something said to a session."""
+
+    text: str = Field(description="At most 500 characters, unless the service is set otherwise.")
+    dry_run: bool = Field(False, description="Say what would be done, and do nothing.")
+
+
+class TypedActions(Sent):
+    """Actions of the language contract, no language involved; done together or not at all."""
+
+    actions: list[Action] = Field(min_length=1, max_length=MAX_ACTIONS)
+    dry_run: bool = Field(False, description="Say what would be done, and do nothing.")
+
+
+class StepTicks(Sent):
+    """How many ticks to run."""
+
+    ticks: int = Field(1, ge=1, le=1_000)
+
+
+class Question(Sent):
+    """A question, and nothing but one."""
+
+    question: str
+
+
+class Text(Sent):
+    """A sentence to be understood."""
+
+    text: str
+
+
+class Vehicle(Answered):
+    """An autonomous vehicle."""
+
+    id: str
+    kind: Literal[Kind.AV]
+    cell: CellPair
+
+
+class Mover(Answered):
+    """An obstacle vehicle or a pedestrian."""
+
+    id: str
+    kind: Literal[Kind.VEHICLE, Kind.PEDESTRIAN]
+    cell: CellPair
+    heading: Literal["left", "right"]
+    disabled: bool = Field(description="Held by a pothole.")
+
+
+class Hazard(Answered):
+    """A pothole or a barrier."""
+
+    id: str
+    kind: Literal[Kind.POTHOLE, Kind.BARRIER]
+    cell: CellPair
+
+
+class CrashCause(Answered):
+    """What a crash was with: met in one cell (`hit`), or passing through one another (`swap`)."""
+
+    kind: Kind
+    how: Literal["hit", "swap"]
+    ids: list[str]
+    cell: CellPair
+
+
+class MoveCounts(Answered):
+    """How often each sort of move was made."""
+
+    forward: int
+    lateral: int
+    diagonal: int
+    stay: int
+
+
+class Metrics(Answered):
+    """Figures over the session's episodes."""
+
+    episodes: int = Field(description="Episodes that have ended.")
+    successes: int
+    crashes: int
+    stuck: int
+    success_rate: float | None
+    steps: int
+    moves: MoveCounts
+    distance_m: float
+    last_episode_ticks: int | None
+
+
+class State(Answered):
+    """The world at a tick."""
+
+    session: str
+    tick: Tick
+    time_s: float = Field(description="Simulated seconds since the session began.")
+    episode: int
+    episode_tick: int
+    status: Outcome
+    cause: CrashCause | None
+    columns: int
+    rows: int
+    visible_rows: int
+    step_seconds: float
+    paused: bool
+    mode: Mode
+    planner: str
+    vehicles: list[Vehicle]
+    movers: list[Mover]
+    hazards: list[Hazard]
+    metrics: Metrics
+    digest: str = Field(description="Equal exactly when two worlds are.")
+    sequence: int = Field(description="Changes the session has accepted.")
+
+
+class Option(Answered):
+    """One move as the planner saw it."""
+
+    move: Move
+    cell: CellPair | None
+    verdict: Literal["free", "blocked", "off_road"]
+    cost: float | None
+    reason: str
+    causes: list[str]
+
+
+class Decision(Answered):
+    """What was decided in the world of a tick; it leads to the next."""
+
+    tick: Tick
+    planner: str
+    move: Move
+    asked: Move | None = Field(description="What a person driving asked for.")
+    options: list[Option]
+    narration: str
+
+
+class LogEvent(Answered):
+    """One line of the log."""
+
+    number: int
+    tick: Tick
+    type: str
+    text: str
+    ids: list[str]
+    cell: CellPair | None
+
+
+class Session(Answered):
+    """A session as it stands."""
+
+    id: str
+    name: str | None
+    created_at: str
+    paused: bool
+    mode: Mode
+    tick: Tick
+    episode: int
+    status: Outcome
+    sequence: int
+    seed: int
+    config: dict[str, Any]
+    links: dict[str, str]
+
+
+class SessionSummary(Answered):
+    """A session in a list. One that is not live is brought back when it is asked for."""
+
+    id: str
+    name: str | None
+    created_at: str
+    seed: int
+    live: bool
+    tick: Tick = Field(description="Where it stands, or stood when last stored.")
+    links: dict[str, str]
+
+
+class SessionPage(Answered):
+    """Sessions, newest first."""
+
+    items: list[SessionSummary]
+    after: str | None = Field(description="Send as `after` for what follows.")
+    more: bool
+
+
+class DecisionPage(Answered):
+    """Decisions, oldest first. Ticks at which a result stood have none."""
+
+    items: list[Decision]
+    after: int = Field(description="Send as `after` for what follows.")
+    more: bool
+
+
+class EventPage(Answered):
+    """Lines of the log, oldest first."""
+
+    items: list[LogEvent]
+    after: int = Field(description="Send as `after` for what follows.")
+    more: bool
+    first_kept: int = Field(description="Lines before this number are no longer kept.")
+
+
+class Change(Answered):
+    """One figure that differs."""
+
+    path: str
+    before: Any
+    after: Any
+
+
+class Correction(Answered):
+    """A word that was read as another."""
+
+    model_config = ConfigDict(extra="forbid", populate_by_name=True)
+
+    wrote: str = Field(alias="from")
+    read: str = Field(alias="to")
+
+
+class CommandResult(Answered):
+    """What was done."""
+
+    text: str | None = Field(description="What was said; null for typed actions.")
+    actions: list[Action]
+    changes: list[Change]
+    reply: str = Field(description="What was done, in a sentence or two.")
+    answer: dict[str, Any] | None = Field(description="The answer, if something was asked.")
+    source: Literal["grammar", "typed"]
+    sequence: int
+    corrections: list[Correction]
+    dry_run: bool
+
+
+class StepResult(Answered):
+    """Ticks that were run."""
+
+    ticks: int
+    decisions: list[Decision]
+    state: State
+
+
+class Parsed(Answered):
+    """What a sentence means."""
+
+    text: str
+    actions: list[Action]
+    corrections: list[Correction]
+
+
+class AnswerCause(Answered):
+    """One thing a decision hangs on."""
+
+    id: str
+    kind: Kind
+    cell: CellPair
+    role: str
+
+
+class Verified(Answered):
+    """What re-running the decision has shown of the causes; null where nothing is claimed."""
+
+    necessary: bool | None
+    sufficient: bool | None
+    minimal: bool | None
+
+
+class Answer(BaseModel):
+    """The answer to a question: facts first, then words made from nothing else."""
+
+    model_config = ConfigDict(extra="allow")
+
+    question: str
+    about: str
+    tick: Tick
+    text: str
+
+
+class Lateness(Answered):
+    """How long after their time the latest ticks began."""
+
+    ticks: int
+    p50_ms: float
+    p99_ms: float
+    max_ms: float
+
+
+class Health(Answered):
+    """How the service does."""
+
+    status: Literal["ok"]
+    version: str
+    sessions: int
+    watchers: int
+    tick_lateness: Lateness
+
+
+class Ready(Answered):
+    """The store answers."""
+
+    status: Literal["ready"]
+
+
+class FieldProblemModel(Answered):
+    """What is wrong with one field."""
+
+    field: str
+    message: str
+
+
+class ChoiceModel(Answered):
+    """One reading of an ambiguous sentence."""
+
+    text: str
+    actions: list[Action]
+
+
+class ProblemDocument(Answered):
+    """An error, as in RFC 9457."""
+
+    type: str
+    title: str
+    status: int
+    detail: str
+    errors: list[FieldProblemModel]
+    unparsed: list[str] | None = None
+    understood: list[str] | None = None
+    suggestions: list[str] | None = None
+    choices: list[ChoiceModel] | None = None

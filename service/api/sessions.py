@@ -1,0 +1,210 @@
+"""`/sessions`: make, list, look at, end."""
+
+from __future__ import annotations
+
+import secrets
+from dataclasses import replace
+from typing import Annotated
+
+from fastapi import APIRouter, Body, Query, Response
+
+from service import actions as contract
+from service.api import examples, schemas
+from service.api.context import JSON_ONLY, Context, Here, TheSession
+from service.api.errors import documented, invalid
+from service.api.respond import StrictRoute, etag, json_response
+from service.api.speech import understand
+from service.api.views import links_json, session_json, summary_json
+from service.problems import (
+    Ambiguous,
+    DoesNotFit,
+    FieldProblem,
+    Invalid,
+    Malformed,
+    NotAvailable,
+    NotJson,
+    NotRestorable,
+    NotSaved,
+    NotUnderstood,
+    RecordingMismatch,
+    TooLarge,
+    TooManySessions,
+    UnknownSession,
+)
+from service.sessions import availability
+from service.sessions.manager import Recorded
+from service.settings import Settings
+from service.store import EntryRecord
+from sim.actions import Scenario
+from sim.config import Config, ConfigError
+from sim.scenario import configured
+
+router = APIRouter(tags=["sessions"], route_class=StrictRoute)
+
+
+@router.post(
+    "/sessions",
+    status_code=201,
+    response_model=schemas.Session,
+    summary="Make a session",
+    dependencies=[JSON_ONLY],
+    responses=documented(
+        Malformed,
+        Ambiguous,
+        TooLarge,
+        NotJson,
+        Invalid,
+        DoesNotFit,
+        NotAvailable,
+        NotUnderstood,
+        RecordingMismatch,
+        TooManySessions,
+        NotSaved,
+    ),
+)
+async def make(
+    body: Annotated[schemas.NewSession, Body(openapi_examples=examples.NEW_SESSION)], here: Here
+) -> Response:
+    """A new road with a vehicle on it, running unless `paused`.
+
+    `scenario` is a sentence; `config` any part of the configuration. With `recording` a session is
+    replayed to the digest it names.
+    """
+    if body.recording is None:
+        config = _config(here, body)
+        session = await here.manager.create(body.name, config, paused=bool(body.paused))
+    else:
+        config, recorded = _recorded(here.settings, body, body.recording)
+        session = await here.manager.create(
+            body.name or body.recording.name, config, paused=body.paused is not False, recorded=recorded
+        )
+    headers = {"Location": links_json(session.id)["self"], **etag(session.sequence)}
+    return json_response(session_json(session), 201, headers)
+
+
+@router.get(
+    "/sessions",
+    response_model=schemas.SessionPage,
+    summary="List sessions",
+    responses=documented(Invalid, NotSaved),
+)
+async def newest(
+    here: Here,
+    after: Annotated[
+        str | None, Query(pattern=r"^[0-9]{1,15}$", description="`after` of the page before.")
+    ] = None,
+    limit: Annotated[int, Query(ge=1, le=200)] = 50,
+) -> Response:
+    """Newest first, in pages."""
+    found = await here.manager.newest(limit + 1, int(after) if after else None)
+    page = found[:limit]
+    return json_response(
+        {
+            "items": [summary_json(record, live) for record, live in page],
+            "after": str(page[-1][0].number) if page else None,
+            "more": len(found) > limit,
+        }
+    )
+
+
+@router.get(
+    "/sessions/{session_id}",
+    response_model=schemas.Session,
+    summary="Look at a session",
+    responses=documented(UnknownSession, NotRestorable),
+)
+async def look(session: TheSession) -> Response:
+    """A session as it stands. One that is kept but not live is brought back, paused."""
+    return json_response(session_json(session), headers=etag(session.sequence))
+
+
+@router.delete(
+    "/sessions/{session_id}",
+    status_code=204,
+    response_class=Response,
+    summary="End a session",
+    responses=documented(UnknownSession, NotSaved),
+)
+async def end(session_id: str, here: Here) -> Response:
+    """End it and forget it; whoever watches is told."""
+    await here.manager.delete(session_id)
+    return Response(status_code=204)
+
+
+def _config(here: Context, body: schemas.NewSession) -> Config:
+    """The configuration that was asked for, in figures and in words."""
+    parts = dict(body.config or {})
+    for name in ("seed", "planner"):
+        value = getattr(body, name)
+        if value is not None and name in parts:
+            raise invalid([FieldProblem(name, "is said twice: here and in config")])
+        if value is not None:
+            parts[name] = value
+    parts.setdefault("seed", secrets.randbits(32))
+    try:
+        config = Config().with_parts(**parts)
+        if body.scenario is not None:
+            config = configured(config, _scenario(here, body.scenario, config))
+    except ConfigError as error:
+        raise invalid(
+            FieldProblem(f"config.{each.field}", each.message) for each in error.problems
+        ) from error
+    _check_offered(here.settings, config)
+    return config
+
+
+def _scenario(here: Context, text: str, config: Config) -> Scenario:
+    """The one scenario a sentence describes; a planner named beside it stands unless it names one."""
+    parse = understand(here, text, "scenario")
+    if len(parse.actions) != 1 or not isinstance(parse.actions[0], Scenario):
+        sentence = "does not describe a road; say for instance: a highway with 10 potholes"
+        raise NotUnderstood(
+            f"{text!r} {sentence}.",
+            errors=[FieldProblem("scenario", sentence)],
+            understood=[text],
+        )
+    scenario = parse.actions[0]
+    refusal = availability.refusal(scenario)
+    if refusal is not None:
+        raise NotAvailable(refusal, errors=[FieldProblem("scenario", refusal)])
+    return replace(scenario, planner=scenario.planner or config.planner)
+
+
+def _check_offered(settings: Settings, config: Config) -> None:
+    if config.columns * config.rows > settings.max_road_cells:
+        message = f"makes a road of more than {settings.max_road_cells} cells, the most there can be here"
+        raise invalid([FieldProblem("config.rows", message)])
+    refusal = availability.refusal(Scenario(planner=config.planner, sensor=config.sensor))
+    if refusal is not None:
+        raise NotAvailable(refusal, errors=[FieldProblem("config", refusal)])
+
+
+def _recorded(
+    settings: Settings, body: schemas.NewSession, recording: schemas.Recording
+) -> tuple[Config, Recorded]:
+    """What a recording says, checked as far as can be before it is replayed."""
+    beside = [name for name in ("scenario", "config", "seed", "planner") if getattr(body, name) is not None]
+    if beside:
+        raise invalid(FieldProblem(name, "cannot stand beside a recording") for name in beside)
+    if recording.tick > settings.max_recording_ticks:
+        raise invalid([FieldProblem("recording.tick", f"is more than {settings.max_recording_ticks}")])
+    late = [str(number) for number, entry in enumerate(recording.entries) if entry.tick > recording.tick]
+    if late:
+        raise invalid(FieldProblem(f"recording.entries.{number}.tick", "is after the end") for number in late)
+    try:
+        config = Config().with_parts(**recording.config)
+    except ConfigError as error:
+        raise invalid(
+            FieldProblem(f"recording.config.{each.field}", each.message) for each in error.problems
+        ) from error
+    _check_offered(settings, config)
+    entries = [
+        EntryRecord(
+            sequence=entry.sequence,
+            tick=entry.tick,
+            text=entry.text,
+            actions=contract.dump(tuple(entry.actions)),
+        )
+        for entry in recording.entries
+    ]
+    return config, Recorded(entries=entries, tick=recording.tick, digest=recording.digest)

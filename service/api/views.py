@@ -1,0 +1,76 @@
+"""A session, its decisions and its log as answered; what `stream` and the routes share."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import Any
+
+from service.sessions.session import Session
+from service.sessions.words import Words
+from service.store import SessionRecord
+from service.wire.decision import decision_json
+from sim.plan import Decision
+from sim.run import Run, decide
+
+PREFIX = "/api/v1"
+
+
+def links_json(session_id: str) -> dict[str, str]:
+    """Where everything of a session is."""
+    own = f"{PREFIX}/sessions/{session_id}"
+    parts = (
+        "state",
+        "commands",
+        "actions",
+        "step",
+        "ask",
+        "decisions",
+        "events",
+        "recording",
+        "frame",
+        "stream",
+    )
+    return {"self": own, **{part: f"{own}/{part}" for part in parts}, "page": f"/#/s/{session_id}"}
+
+
+def session_json(session: Session) -> dict[str, Any]:
+    """A session as it stands."""
+    run, record = session.run, session.record
+    return {
+        "id": session.id,
+        "name": record.name,
+        "created_at": record.created_at.isoformat(),
+        "paused": session.paused,
+        "mode": run.mode,
+        "tick": run.world.tick,
+        "episode": run.world.episode,
+        "status": run.world.outcome,
+        "sequence": session.sequence,
+        "seed": run.config.seed,
+        "config": asdict(run.config),
+        "links": links_json(session.id),
+    }
+
+
+def summary_json(record: SessionRecord, live: Session | None) -> dict[str, Any]:
+    """A session in a list."""
+    return {
+        "id": record.id,
+        "name": record.name,
+        "created_at": record.created_at.isoformat(),
+        "seed": record.config["seed"],
+        "live": live is not None,
+        "tick": record.tick if live is None else live.timeline.tick,
+        "links": links_json(record.id),
+    }
+
+
+def told_decision(words: Words, run: Run, decision: Decision) -> dict[str, Any]:
+    """A decision, the state it was taken in being `run`, with its narration."""
+    return decision_json(decision, words.decision(decision, run))
+
+
+def told_runs(words: Words, runs: list[Run]) -> list[dict[str, Any]]:
+    """The decisions taken in these states; where a result stood there is none."""
+    decided = ((run, decide(run)) for run in runs)
+    return [told_decision(words, run, decision) for run, decision in decided if decision is not None]

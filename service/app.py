@@ -1,0 +1,91 @@
+"""The one place where the parts of the service are chosen and bound together.
+
+Everything that can be another thing (store, language, words, clock) comes in here, with a real
+default that needs no server. Nothing else constructs them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+
+from fastapi import FastAPI
+from fastapi.routing import APIRoute
+
+from service.api import commands, edges, errors, frames, health, pages, parse, sessions, stream, watching
+from service.api.context import Context, Language
+from service.api.views import PREFIX
+from service.language import Language as Grammar
+from service.narrate import Narrator
+from service.sessions.clock import Clock, WheelClock
+from service.sessions.manager import SessionManager
+from service.sessions.session import Surroundings
+from service.sessions.words import Words
+from service.settings import Settings
+from service.store import Store, open_store
+from service.version import VERSION
+
+_DESCRIPTION = """
+A vehicle that drives itself along a road of obstacles and potholes, live; changed and questioned in
+plain words.
+
+Everything the page does is a call documented here. Errors are problems (RFC 9457). A session is also
+a stream: open a WebSocket on `/api/v1/sessions/{id}/stream`; it sends `hello`, then `tick` and
+`changed` messages, and takes `{"type": "command", "id": "1", "text": "add five potholes"}`.
+"""
+
+
+def create_app(
+    settings: Settings | None = None,
+    *,
+    store: Store | None = None,
+    language: Language | None = None,
+    words: Words | None = None,
+    clock: Clock | None = None,
+) -> FastAPI:
+    """The service. Whatever is not given is what the settings name, or the default.
+
+    Raises `StoreError` for a database URL of no known kind, `LanguageDataError` for broken words.
+    """
+    settings = settings or Settings()
+    store = store or open_store(settings.database)
+    clock = clock or WheelClock()
+    words = words or Narrator.load()
+    manager = SessionManager(Surroundings(store, clock, words, settings))
+    context = Context(settings, store, clock, language or Grammar.load(), words, manager)
+
+    @asynccontextmanager
+    async def lifespan(_: FastAPI) -> AsyncIterator[None]:
+        await store.open()
+        clock.start()
+        try:
+            yield
+        finally:
+            clock.stop()
+            await manager.close()
+            await store.close()
+
+    app = FastAPI(
+        title="Roadtalk",
+        version=VERSION,
+        description=_DESCRIPTION,
+        lifespan=lifespan,
+        docs_url=None,
+        redoc_url=None,
+        redirect_slashes=False,
+        max_body_size=settings.max_body_bytes,
+        generate_unique_id_function=_operation_id,
+    )
+    app.state.context = context
+    app.add_middleware(edges.SecurityHeaders)
+    errors.install(app)
+    for resource in (sessions, commands, watching, frames, parse, stream):
+        app.include_router(resource.router, prefix=PREFIX)
+    app.include_router(health.router)
+    pages.install(app)
+    return app
+
+
+def _operation_id(route: APIRoute) -> str:
+    """Names for generated clients: `sessions_make`, `talking_say`."""
+    return f"{route.tags[0]}_{route.name}"

@@ -1,0 +1,194 @@
+"""The command `roadtalk`: serve, and talk to a running service from a terminal."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import socket
+import sys
+from collections.abc import Callable
+from typing import Annotated, Any, NoReturn
+
+import httpx
+import structlog
+import typer
+import uvicorn
+from pydantic import ValidationError
+
+from service.app import create_app
+from service.settings import Settings
+from service.store import Store, StoreError, open_store
+from service.version import VERSION
+
+STOP_S = 2
+"""How long a stopping service waits for requests under way."""
+
+cli = typer.Typer(
+    help="An autonomous vehicle on a road of obstacles and potholes, run in plain words.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+
+
+def main() -> None:
+    """The entry point of the installed command."""
+    cli()
+
+
+@cli.callback(invoke_without_command=True)
+def _options(
+    version: Annotated[bool, typer.Option("--version", help="Say which version this is.")] = False,
+) -> None:
+    if version:
+        typer.echo(f"roadtalk {VERSION}")
+        raise typer.Exit
+
+
+@cli.command()
+def serve(
+    host: Annotated[str | None, typer.Option(help="Address to listen on. [default: 127.0.0.1]")] = None,
+    port: Annotated[
+        int | None, typer.Option(help="Port to listen on; 0 takes a free one. [default: 8000]")
+    ] = None,
+    database: Annotated[
+        str | None, typer.Option(help="Where sessions are kept. [default: sqlite:///roadtalk.db]")
+    ] = None,
+) -> None:
+    """Run the service and its page until it is told to stop (Ctrl-C).
+
+    Options win over the environment (ROADTALK_HOST, ROADTALK_PORT, ROADTALK_DATABASE). It is one
+    process on purpose: several would each hold some of the sessions.
+    """
+    _configure_logging()
+    given = {"host": host, "port": port, "database": database}
+    try:
+        settings = Settings(**{name: value for name, value in given.items() if value is not None})  # type: ignore[arg-type]
+    except ValidationError as error:
+        wrong = error.errors()[0]
+        _fail(f"The setting {wrong['loc'][0]} is not valid: {wrong['msg']}.")
+    listener = _listener(settings.host, settings.port)
+    try:
+        store = open_store(settings.database)
+        app = create_app(settings, store=store)
+        config = uvicorn.Config(
+            app,
+            loop="auto",
+            ws="websockets-sansio",
+            ws_max_size=settings.max_body_bytes,
+            ws_per_message_deflate=False,
+            access_log=False,
+            log_level="warning",
+            timeout_graceful_shutdown=STOP_S,
+            lifespan="on",
+        )
+        with asyncio.Runner(loop_factory=config.get_loop_factory()) as runner:
+            runner.run(_serve(config, store, listener))
+    except StoreError as error:
+        _fail(str(error))
+    except KeyboardInterrupt:
+        pass
+    finally:
+        listener.close()
+
+
+@cli.command()
+def say(
+    text: Annotated[str, typer.Argument(help="What to say, for instance: add five potholes")],
+    session: Annotated[
+        str | None, typer.Option(help="A session's id; default: the newest, or a new one.")
+    ] = None,
+    url: Annotated[str, typer.Option(help="Where the service is.")] = "http://127.0.0.1:8000",
+) -> None:
+    """Say something to a session and print the reply. Exits with 1 when it is refused."""
+    try:
+        with httpx.Client(base_url=f"{url.rstrip('/')}/api/v1", timeout=30) as client:
+            answer = client.post(f"/sessions/{session or _newest(client)}/commands", json={"text": text})
+    except (httpx.HTTPError, httpx.InvalidURL) as error:
+        _fail(
+            f"There is no answer from {url} ({error}). Is the service running? Start it with: roadtalk serve"
+        )
+    said = _values(answer, url)
+    if answer.status_code == 200:
+        typer.echo(said["reply"])
+        return
+    lines = [said.get("detail", "Refused.")]
+    offers = [*said.get("suggestions", ()), *(choice["text"] for choice in said.get("choices", ()))]
+    if offers:
+        lines += ["You could say:", *(f"  {offer}" for offer in offers)]
+    _fail("\n".join(lines))
+
+
+def _newest(client: httpx.Client) -> str:
+    """The id of the newest session, or of a new one where there is none."""
+    page = client.get("/sessions", params={"limit": 1}).raise_for_status().json()
+    if page["items"]:
+        return str(page["items"][0]["id"])
+    return str(client.post("/sessions", json={}).raise_for_status().json()["id"])
+
+
+def _values(answer: httpx.Response, url: str) -> dict[str, Any]:
+    try:
+        values = answer.json()
+    except ValueError:
+        values = None
+    if not isinstance(values, dict):
+        _fail(f"What answers at {url} is not this service.")
+    return values
+
+
+async def _serve(config: uvicorn.Config, store: Store, listener: socket.socket) -> None:
+    # Before the server starts, so that a database that cannot be opened is one clear line.
+    await store.open()
+    host, port = listener.getsockname()[:2]
+    shown = f"[{host}]" if ":" in host else host
+    server = _Server(config, lambda: typer.echo(f"Roadtalk is at http://{shown}:{port}"))
+    await server.serve(sockets=[listener])
+
+
+class _Server(uvicorn.Server):
+    """Says when it is ready, not before."""
+
+    def __init__(self, config: uvicorn.Config, on_ready: Callable[[], None]) -> None:
+        super().__init__(config)
+        self._on_ready = on_ready
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        """Begin to listen, then say so."""
+        await super().startup(sockets)
+        if self.started:
+            self._on_ready()
+            sys.stdout.flush()
+
+
+def _listener(host: str, port: int) -> socket.socket:
+    """A bound socket, or one clear line."""
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    listener = socket.socket(family, socket.SOCK_STREAM)
+    listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        listener.bind((host, port))
+    except OSError as error:
+        listener.close()
+        _fail(f"Port {port} of {host} cannot be listened on: {error.strerror}. Choose another with --port.")
+    return listener
+
+
+def _configure_logging() -> None:
+    """Lines for people on standard error. Here and nowhere else: a library does not configure logs."""
+    structlog.configure(
+        processors=[
+            structlog.processors.add_log_level,
+            structlog.processors.TimeStamper(fmt="iso", utc=True),
+            structlog.dev.ConsoleRenderer(colors=sys.stderr.isatty()),
+        ],
+        wrapper_class=structlog.make_filtering_bound_logger(logging.INFO),
+        logger_factory=structlog.PrintLoggerFactory(sys.stderr),
+        cache_logger_on_first_use=True,
+    )
+
+
+def _fail(message: str) -> NoReturn:
+    """End with 1 and a message."""
+    typer.echo(message, err=True)
+    raise typer.Exit(1)

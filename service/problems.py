@@ -1,0 +1,238 @@
+# ruff: noqa: N818 -- these are read as what went wrong: `raise NotFound`, not `raise NotFoundError`
+"""Everything that can go wrong for a caller, and the one shape it is told in (RFC 9457).
+
+    ProblemError                application/problem+json
+    ├── Malformed          400  the body is not JSON
+    ├── CrossSite          403  a page of another site opened the stream
+    ├── NotFound           404  no such route or resource
+    │   ├── UnknownSession
+    │   └── UnknownDecision
+    ├── WrongMethod        405  the route exists, the method does not
+    ├── Ambiguous          409  could mean several things: `choices`
+    ├── TooLarge           413  more bytes than are read
+    ├── NotJson            415  the content type is not JSON
+    ├── Invalid            422  fields out of range or unknown: `errors`
+    │   ├── DoesNotFit          the road has no room, or no such thing
+    │   ├── NotAvailable        understood, not offered by this version
+    │   ├── NothingToUndo
+    │   ├── NotUnderstood       `unparsed`, `understood`, `suggestions`
+    │   ├── NotAQuestion        understood, but `ask` only answers
+    │   └── RecordingMismatch   replayed to another digest than it says
+    ├── TooManySessions    429  the limit of live sessions is reached
+    ├── Internal           500  a defect here; says nothing of its inside
+    ├── NotSaved           503  the store did not take it; nothing was changed
+    └── NotRestorable      503  what is kept of the session cannot be replayed
+
+`sessions` raises these without knowing HTTP; `api` turns them into responses, and the stream into
+messages. A problem leaves the session as it was, always.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+MEDIA_TYPE = "application/problem+json"
+
+
+@dataclass(frozen=True, slots=True)
+class FieldProblem:
+    """What is wrong with one field of what was sent; `field` is a dotted path."""
+
+    field: str
+    message: str
+
+
+class ProblemError(Exception):
+    """Base of the tree; `detail` is a sentence a person can act on."""
+
+    status: ClassVar[int] = 500
+    slug: ClassVar[str] = "internal"
+    title: ClassVar[str] = "Something went wrong here"
+
+    def __init__(
+        self,
+        detail: str,
+        *,
+        errors: Sequence[FieldProblem] = (),
+        headers: Mapping[str, str] | None = None,
+        **more: Any,
+    ) -> None:
+        super().__init__(detail)
+        self.detail = detail
+        self.errors = tuple(errors)
+        self.headers = dict(headers or {})
+        self.more = more
+
+    def document(self) -> dict[str, Any]:
+        """The problem as JSON values."""
+        return {
+            "type": f"/problems/{self.slug}",
+            "title": self.title,
+            "status": self.status,
+            "detail": self.detail,
+            "errors": [{"field": error.field, "message": error.message} for error in self.errors],
+            **self.more,
+        }
+
+
+class Malformed(ProblemError):
+    """The body is not JSON at all."""
+
+    status, slug, title = 400, "malformed", "Not readable as JSON"
+
+
+class CrossSite(ProblemError):
+    """A page of another site tried to open the stream."""
+
+    status, slug, title = 403, "cross-site", "Refused to a page of another site"
+
+
+class NotFound(ProblemError):
+    """No such route or resource."""
+
+    status, slug, title = 404, "not-found", "Not found"
+
+
+class UnknownSession(NotFound):
+    """No session has this id."""
+
+    slug, title = "unknown-session", "No such session"
+
+    def __init__(self) -> None:
+        super().__init__(
+            "No session has this id. It may have been deleted; GET /api/v1/sessions lists those there are."
+        )
+
+
+class UnknownDecision(NotFound):
+    """No decision was taken at this tick."""
+
+    slug, title = "unknown-decision", "No decision at this tick"
+
+
+class WrongMethod(ProblemError):
+    """The route exists, the method does not."""
+
+    status, slug, title = 405, "method-not-allowed", "Method not allowed"
+
+
+class Ambiguous(ProblemError):
+    """What was said could mean several things; `choices` are ready sentences."""
+
+    status, slug, title = 409, "ambiguous", "This could mean several things"
+
+
+class TooLarge(ProblemError):
+    """More bytes than are read."""
+
+    status, slug, title = 413, "too-large", "Too large"
+
+
+class NotJson(ProblemError):
+    """The content type is not JSON."""
+
+    status, slug, title = 415, "not-json", "Send JSON"
+
+
+class Invalid(ProblemError):
+    """Fields out of range, missing or unknown."""
+
+    status, slug, title = 422, "invalid", "Not valid"
+
+
+class DoesNotFit(Invalid):
+    """The road has no room for it, or holds no such thing."""
+
+    slug, title = "does-not-fit", "Does not fit the road"
+
+
+class NotAvailable(Invalid):
+    """Understood, but not offered by this version."""
+
+    slug, title = "not-available", "Not available yet"
+
+
+class NothingToUndo(Invalid):
+    """There is no change left to take back, or none to say again."""
+
+    slug, title = "nothing-to-undo", "Nothing to take back"
+
+
+class NotUnderstood(Invalid):
+    """Words that could not be accounted for; nothing was applied."""
+
+    slug, title = "not-understood", "Not understood"
+
+
+class NotAQuestion(Invalid):
+    """Understood, but something to do rather than to answer."""
+
+    slug, title = "not-a-question", "Not a question"
+
+
+class RecordingMismatch(Invalid):
+    """A recording that does not replay to the digest it names."""
+
+    slug, title = "recording-mismatch", "The recording does not replay to its digest"
+
+
+class TooManySessions(ProblemError):
+    """The limit of live sessions is reached."""
+
+    status, slug, title = 429, "too-many-sessions", "Too many sessions"
+
+
+class Internal(ProblemError):
+    """A defect of the service; never says more than that."""
+
+    def __init__(self) -> None:
+        super().__init__(
+            "This is a defect of the service, not of your request. Nothing was changed; the log has the rest."
+        )
+
+
+class NotSaved(ProblemError):
+    """The store did not take the change, so it was not made."""
+
+    status, slug, title = 503, "not-saved", "Could not be saved"
+
+    def __init__(self) -> None:
+        super().__init__(
+            "The change could not be saved, so it was not made. Try again; the disk may be full."
+        )
+
+
+class NotRestorable(ProblemError):
+    """What is kept of a session cannot be replayed."""
+
+    status, slug, title = 503, "not-restorable", "Could not be brought back"
+
+    def __init__(self) -> None:
+        super().__init__("What is kept of this session cannot be replayed; the service's log says why.")
+
+
+KINDS: tuple[type[ProblemError], ...] = (
+    Malformed,
+    CrossSite,
+    NotFound,
+    UnknownSession,
+    UnknownDecision,
+    WrongMethod,
+    Ambiguous,
+    TooLarge,
+    NotJson,
+    Invalid,
+    DoesNotFit,
+    NotAvailable,
+    NothingToUndo,
+    NotUnderstood,
+    NotAQuestion,
+    RecordingMismatch,
+    TooManySessions,
+    Internal,
+    NotSaved,
+    NotRestorable,
+)
+"""Every problem that can be answered, for the documentation and its tests."""

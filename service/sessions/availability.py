@@ -1,0 +1,86 @@
+"""What this version does of all that can be said. The rest is understood and refused in words.
+
+The gate stands here and not in the language, so that typed calls, recordings and speech are told
+the same. Finer limits of an action that is offered (more than one vehicle, say) are the world's.
+"""
+
+from __future__ import annotations
+
+from service.actions import Action, Ask
+from sim.actions import Add, Drive, Remove, Reset, Scenario, SetCount, SetMode
+from sim.kinds import Kind
+
+_OFFERED = frozenset(
+    (
+        "add",
+        "remove",
+        "set_count",
+        "scenario",
+        "reset",
+        "mode",
+        "drive",
+        "pause",
+        "resume",
+        "step",
+        "undo",
+        "redo",
+    )
+)
+_ANSWERED = frozenset(("why", "why_not", "status", "help"))
+
+_NAMES = {
+    "set": "Changing a setting while the road runs",
+    "adjust": "Changing a setting while the road runs",
+    "prefer": "Preferring one way of driving over another",
+    "show": "Other views than the road",
+    "hide": "Other views than the road",
+    "rewind": "Going back in time",
+    "evaluate": "Running many episodes to compare planners",
+    "find_worst": "Searching for the hardest road",
+    "advise": "Advice about a hazard",
+    "save": "Saving under a name",
+    "load": "Loading what was saved",
+    "record": "Recording pictures",
+    "teach": "Learning phrases",
+}
+_QUESTIONS = {
+    "what_if": "Asking what if",
+    "next": "Asking what comes next",
+    "scene": "Asking what is seen",
+    "metrics": "Asking for figures",
+    "confidence": "Asking how sure the vehicle is",
+    "maintenance": "Asking about wear",
+}
+
+
+def refusal(action: Action) -> str | None:
+    """Why an action is not offered by this version, as a sentence; None if it is."""
+    if isinstance(action, Ask):
+        return None if action.about in _ANSWERED else _sentence(_QUESTIONS[action.about])
+    if action.do not in _OFFERED:
+        return _sentence(_NAMES[action.do])
+    match action:
+        case Add(kind=Kind.AV) | Remove(kind=Kind.AV) | SetCount(kind=Kind.AV):
+            return "More or fewer autonomous vehicles are not available yet; there is always one."
+        case Scenario():
+            return _scenario_refusal(action)
+        case Drive() | Reset() | SetMode() | _:
+            return None
+
+
+def _scenario_refusal(scenario: Scenario) -> str | None:
+    if scenario.weather not in (None, "clear"):
+        return f"Weather other than clear ({scenario.weather}) is not available yet."
+    if scenario.time_of_day not in (None, "day"):
+        return f"Another time of day than day ({scenario.time_of_day}) is not available yet."
+    if scenario.sensor not in (None, "perfect"):
+        return f"Sensors other than a perfect one ({scenario.sensor}) are not available yet."
+    if scenario.planner not in (None, "priority"):
+        return f"Planners other than priority ({scenario.planner}) are not available yet."
+    if scenario.avs not in (None, 0, 1):
+        return "More than one autonomous vehicle is not available yet."
+    return None
+
+
+def _sentence(what: str) -> str:
+    return f"{what} is not available yet."

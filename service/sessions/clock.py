@@ -1,0 +1,205 @@
+"""One clock for all live sessions: a heap of slots, one timer, no task or thread per session.
+
+Deadlines are rounded up to slots of 2 ms, so that sessions due together wake the loop once.
+Time is the loop's monotonic clock: setting the wall clock does nothing here. A session that falls
+behind (a stalled machine) goes on from now; what it missed is not made up for in a burst.
+
+Leaves out what a tick is: a `Ticker` knows that, and how it fails.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import heapq
+import math
+from array import array
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import structlog
+
+_LOG = structlog.get_logger(__name__)
+
+SLOT_S = 0.002
+"""Deadlines nearer than this are served together."""
+
+TURN_S = 0.005
+"""How long ticks may hold the event loop before waiting requests get their turn."""
+
+LATENESS_KEPT = 4_096
+"""How many of the latest ticks the lateness figures are taken from."""
+
+
+class Ticker(Protocol):
+    """Something that lives by ticks."""
+
+    @property
+    def period_s(self) -> float:
+        """Seconds from one tick to the next."""
+
+    def tick(self) -> None:
+        """One tick, quick and without waiting."""
+
+    def tick_failed(self, error: Exception) -> None:
+        """Told when `tick` raised; the ticker is off the clock by then."""
+
+
+class Clock(Protocol):
+    """What sessions need of a clock; tests bring one that moves by hand."""
+
+    def start(self) -> None:
+        """Begin to serve deadlines; needs a running loop."""
+
+    def stop(self) -> None:
+        """Serve no more."""
+
+    def add(self, ticker: Ticker) -> None:
+        """Tick it every period, first one period from now. Once there, adding again is no matter."""
+
+    def remove(self, ticker: Ticker) -> None:
+        """Tick it no more. Unknown tickers are no matter."""
+
+    def lateness(self) -> Lateness:
+        """How punctual the latest ticks were."""
+
+
+@dataclass(frozen=True, slots=True)
+class Lateness:
+    """How long after their deadlines the latest ticks began, in milliseconds."""
+
+    ticks: int
+    p50_ms: float
+    p99_ms: float
+    max_ms: float
+
+    @staticmethod
+    def of(samples_s: Sequence[float]) -> Lateness:
+        """The figures of some ticks' lateness in seconds."""
+        if not samples_s:
+            return Lateness(0, 0.0, 0.0, 0.0)
+        ordered = sorted(samples_s)
+        last = len(ordered) - 1
+        return Lateness(
+            len(ordered),
+            round(ordered[last // 2] * 1e3, 3),
+            round(ordered[math.ceil(last * 0.99)] * 1e3, 3),
+            round(ordered[last] * 1e3, 3),
+        )
+
+
+class WheelClock:
+    """The clock of a running service, on the event loop's timer.
+
+    `now` answers seconds that never run backwards; by default the loop's own.
+    """
+
+    def __init__(self, now: Callable[[], float] | None = None) -> None:
+        self._now = now
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._due: dict[Ticker, float] = {}
+        self._slots: dict[int, list[Ticker]] = {}
+        self._order: list[int] = []
+        self._timer: asyncio.Handle | None = None
+        self._timer_slot: int | None = None
+        self._samples = array("d")
+        self._next_sample = 0
+
+    def start(self) -> None:
+        """See `Clock.start`."""
+        self._loop = asyncio.get_running_loop()
+        self._arm()
+
+    def stop(self) -> None:
+        """See `Clock.stop`."""
+        if self._timer is not None:
+            self._timer.cancel()
+            self._timer = self._timer_slot = None
+        self._loop = None
+
+    def add(self, ticker: Ticker) -> None:
+        """See `Clock.add`."""
+        if ticker not in self._due:
+            self._schedule(ticker, self._time() + ticker.period_s)
+            self._arm()
+
+    def remove(self, ticker: Ticker) -> None:
+        """See `Clock.remove`. Its place in the wheel is skipped when its slot comes."""
+        self._due.pop(ticker, None)
+
+    def lateness(self) -> Lateness:
+        """See `Clock.lateness`."""
+        return Lateness.of(self._samples)
+
+    def serve(self) -> None:
+        """Tick all that is due, for at most `TURN_S`; what is left comes next turn of the loop."""
+        began = self._time()
+        while self._order and self._order[0] * SLOT_S <= self._time():
+            slot = self._order[0]
+            tickers = self._slots[slot]
+            while tickers:
+                ticker = tickers.pop()
+                # A ticker that was removed, or added anew for another time, is not due here.
+                if self._slot_of(self._due.get(ticker)) == slot:
+                    self._serve_one(ticker, self._due.pop(ticker))
+                if self._time() - began > TURN_S:
+                    return
+            heapq.heappop(self._order)
+            del self._slots[slot]
+
+    def _serve_one(self, ticker: Ticker, due: float) -> None:
+        now = self._time()
+        self._record(now - due)
+        # Put back first: a ticker that leaves the clock while ticking must find itself on it.
+        period = ticker.period_s
+        self._schedule(ticker, due + period if now < due + period else now + period)
+        try:
+            ticker.tick()
+        except Exception as error:
+            _LOG.exception("a tick failed", ticker=str(ticker))
+            self.remove(ticker)
+            ticker.tick_failed(error)
+
+    def _schedule(self, ticker: Ticker, due: float) -> None:
+        self._due[ticker] = due
+        slot = math.ceil(due / SLOT_S)
+        waiting = self._slots.get(slot)
+        if waiting is None:
+            self._slots[slot] = [ticker]
+            heapq.heappush(self._order, slot)
+        else:
+            waiting.append(ticker)
+
+    def _arm(self) -> None:
+        """Set the one timer to the nearest slot, unless it is set to that or an earlier one."""
+        if self._loop is None or not self._order:
+            return
+        slot = self._order[0]
+        if self._timer_slot is not None:
+            if self._timer_slot <= slot:
+                return
+            if self._timer is not None:
+                self._timer.cancel()
+        self._timer_slot = slot
+        self._timer = self._loop.call_later(max(0.0, slot * SLOT_S - self._time()), self._fire)
+
+    def _fire(self) -> None:
+        self._timer = self._timer_slot = None
+        self.serve()
+        self._arm()
+
+    def _record(self, lateness_s: float) -> None:
+        if len(self._samples) < LATENESS_KEPT:
+            self._samples.append(lateness_s)
+        else:
+            self._samples[self._next_sample] = lateness_s
+        self._next_sample = (self._next_sample + 1) % LATENESS_KEPT
+
+    def _time(self) -> float:
+        if self._now is not None:
+            return self._now()
+        return self._loop.time() if self._loop is not None else asyncio.get_running_loop().time()
+
+    @staticmethod
+    def _slot_of(due: float | None) -> int | None:
+        return None if due is None else math.ceil(due / SLOT_S)

@@ -1,0 +1,80 @@
+"""What an utterance did, one fact for each action: what words, changes and answers are made from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from service.actions import Ask
+from sim.edit import Applied, Change
+from sim.run import Run, Tick
+from sim.timeline import Timeline
+
+
+@dataclass(frozen=True, slots=True)
+class PauseSet:
+    """The clock was stopped or started at a tick; `before` is how it was."""
+
+    before: bool
+    paused: bool
+    tick: int
+
+
+@dataclass(frozen=True, slots=True)
+class Stepped:
+    """Some ticks were run at once, from a tick on."""
+
+    first_tick: int
+    ticks: tuple[Tick, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Undone:
+    """A change was taken back, or (`again`) said again; `changes` is what that did to the figures."""
+
+    again: bool
+    changes: tuple[Change, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """A question, with the session as it was at its place in the order."""
+
+    ask: Ask
+    timeline: Timeline
+
+
+Fact: TypeAlias = Applied | PauseSet | Stepped | Undone | Asked
+
+
+def changes_of(facts: tuple[Fact, ...]) -> tuple[Change, ...]:
+    """What differs after all facts together, each figure once, in the order first touched."""
+    merged: dict[str, Change] = {}
+    for fact in facts:
+        for change in _changes(fact):
+            first = merged.get(change.path, change)
+            merged[change.path] = Change(change.path, first.before, change.after)
+    return tuple(change for change in merged.values() if change.before != change.after)
+
+
+def happened_in(facts: tuple[Fact, ...]) -> list[tuple[Run, Applied | Tick]]:
+    """The parts that bring events, each with the run they happened in, in order."""
+    parts: list[tuple[Run, Applied | Tick]] = []
+    for fact in facts:
+        if isinstance(fact, Applied):
+            parts.append((fact.run, fact))
+        elif isinstance(fact, Stepped):
+            parts += [(tick.run, tick) for tick in fact.ticks]
+    return parts
+
+
+def _changes(fact: Fact) -> tuple[Change, ...]:
+    match fact:
+        case Applied() | Undone():
+            return fact.changes
+        case PauseSet():
+            return (Change("paused", fact.before, fact.paused),)
+        case Stepped():
+            return (Change("tick", fact.first_tick, fact.first_tick + len(fact.ticks)),)
+        case Asked():
+            return ()

@@ -1,0 +1,61 @@
+"""A session's log: what happened, in numbered lines; the latest few hundred are kept.
+
+Numbers are absolute and start at 1, so that a reader can ask for what came after the last line it
+saw and be told when lines have been dropped meanwhile.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass
+from itertools import islice
+
+from sim.kinds import Cell
+
+
+@dataclass(frozen=True, slots=True)
+class LogEvent:
+    """One line: what happened at a tick, in a type for programs and a sentence for people."""
+
+    number: int
+    tick: int
+    type: str
+    text: str
+    ids: tuple[str, ...] = ()
+    cell: Cell | None = None
+
+
+class Log:
+    """The latest events, oldest first."""
+
+    def __init__(self, kept: int) -> None:
+        self._events: deque[LogEvent] = deque(maxlen=kept)
+        self._last = 0
+
+    @property
+    def last(self) -> int:
+        """Number of the newest line; 0 before the first."""
+        return self._last
+
+    @property
+    def first_kept(self) -> int:
+        """Number of the oldest line that can still be read."""
+        return self._last - len(self._events) + 1
+
+    def add(
+        self, tick: int, kind: str, text: str, ids: tuple[str, ...] = (), cell: Cell | None = None
+    ) -> LogEvent:
+        """Write one line."""
+        self._last += 1
+        event = LogEvent(self._last, tick, kind, text, ids, cell)
+        self._events.append(event)
+        return event
+
+    def after(self, number: int, limit: int) -> list[LogEvent]:
+        """Up to `limit` lines that follow `number`, oldest first."""
+        skipped = max(0, number - self.first_kept + 1)
+        return list(islice(self._events, skipped, skipped + limit))
+
+    def latest(self, limit: int) -> list[LogEvent]:
+        """The newest `limit` lines, oldest first."""
+        return self.after(max(0, self._last - limit), limit)

@@ -1,0 +1,170 @@
+"""All live sessions: made, found, brought back from the store, and let go.
+
+A session that the store knows but that is not live (the service was restarted) is replayed when it
+is asked for, and stands paused where it was.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import secrets
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from datetime import UTC, datetime
+
+import structlog
+from anyio import to_thread
+
+from service.problems import (
+    FieldProblem,
+    Invalid,
+    NotRestorable,
+    NotSaved,
+    RecordingMismatch,
+    TooManySessions,
+    UnknownSession,
+)
+from service.sessions.session import ReplayError, Session, Surroundings
+from service.store import EntryRecord, SessionRecord, StoreError
+from sim.config import Config, ConfigError
+from sim.timeline import Timeline
+
+_LOG = structlog.get_logger(__name__)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Recorded:
+    """What a recording says beside its configuration."""
+
+    entries: Sequence[EntryRecord]
+    tick: int
+    digest: str
+
+
+class SessionManager:
+    """The sessions of one service."""
+
+    def __init__(self, around: Surroundings) -> None:
+        self._around = around
+        self._live: dict[str, Session] = {}
+        self._waking: dict[str, asyncio.Task[Session]] = {}
+        self._making = 0
+
+    @property
+    def live(self) -> int:
+        """How many sessions are live."""
+        return len(self._live)
+
+    @property
+    def watchers(self) -> int:
+        """How many readers watch them."""
+        return sum(len(session.watchers) for session in self._live.values())
+
+    async def create(
+        self, name: str | None, config: Config, *, paused: bool, recorded: Recorded | None = None
+    ) -> Session:
+        """A new session, stored. With a recording it is replayed first.
+
+        Raises `TooManySessions`, `NotSaved`, `RecordingMismatch` or `Invalid` for a recording that
+        cannot be replayed.
+        """
+        self._check_room()
+        self._making += 1
+        try:
+            record = SessionRecord(
+                id=secrets.token_urlsafe(16),
+                name=name,
+                created_at=datetime.now(UTC),
+                config=asdict(config),
+                tick=recorded.tick if recorded else 0,
+            )
+            session = Session(record, Timeline(config), self._around)
+            if recorded is not None:
+                await self._replay(session, recorded)
+            try:
+                session.record = await self._around.store.create(record, recorded.entries if recorded else ())
+            except StoreError as error:
+                _LOG.error("a session was not saved", error=str(error))
+                raise NotSaved from error
+        finally:
+            self._making -= 1
+        self._live[session.id] = session
+        session.set_paused(paused)
+        return session
+
+    async def get(self, session_id: str) -> Session:
+        """The session with this id, brought back if need be. Raises `UnknownSession`."""
+        live = self._live.get(session_id)
+        if live is not None:
+            return live
+        # All who ask at once wait for the same replay.
+        task = self._waking.get(session_id)
+        if task is None:
+            task = asyncio.ensure_future(self._wake(session_id))
+            self._waking[session_id] = task
+            task.add_done_callback(lambda _: self._waking.pop(session_id, None))
+        return await asyncio.shield(task)
+
+    async def newest(self, limit: int, before: int | None) -> list[tuple[SessionRecord, Session | None]]:
+        """Kept sessions, newest first, each with its live self if it has one."""
+        records = await self._around.store.newest(limit, before)
+        return [(record, self._live.get(record.id)) for record in records]
+
+    async def entries(self, session: Session) -> Sequence[EntryRecord]:
+        """What was said to a session, as stored."""
+        return await self._around.store.entries(session.id)
+
+    async def delete(self, session_id: str) -> None:
+        """End a session and forget it. Raises `UnknownSession`."""
+        if not await self._around.store.delete(session_id):
+            raise UnknownSession
+        session = self._live.pop(session_id, None)
+        if session is not None:
+            await session.end()
+            session.watchers.end()
+
+    async def close(self) -> None:
+        """Remember where every clock stood."""
+        for session in self._live.values():
+            await session.end()
+        ticks = {session.id: session.timeline.tick for session in self._live.values()}
+        self._live.clear()
+        await self._around.store.save_ticks(ticks)
+
+    async def _wake(self, session_id: str) -> Session:
+        record = await self._around.store.get(session_id)
+        if record is None:
+            raise UnknownSession
+        self._check_room()
+        entries = await self._around.store.entries(session_id)
+        try:
+            config = Config(**record.config)
+            session = Session(record, Timeline(config), self._around)
+            await to_thread.run_sync(session.replay, entries, record.tick)
+        except (ConfigError, TypeError, ReplayError) as error:
+            _LOG.error("a kept session cannot be replayed", session=session_id, error=str(error))
+            raise NotRestorable from error
+        self._live[session_id] = session
+        return session
+
+    async def _replay(self, session: Session, recorded: Recorded) -> None:
+        try:
+            await to_thread.run_sync(session.replay, recorded.entries, recorded.tick)
+        except ReplayError as error:
+            field = f"recording.entries.{error.position}"
+            raise Invalid(
+                "The recording cannot be replayed.", errors=[FieldProblem(field, str(error))]
+            ) from error
+        digest = session.run.world.digest()
+        if digest != recorded.digest:
+            raise RecordingMismatch(
+                f"Replayed, it ends in {digest}, not in {recorded.digest}: "
+                "it was changed, or made by other rules."
+            )
+
+    def _check_room(self) -> None:
+        most = self._around.settings.max_sessions
+        if len(self._live) + self._making >= most:
+            raise TooManySessions(
+                f"{most} sessions are live, which is the limit here. Delete one and try again."
+            )

@@ -1,0 +1,30 @@
+"""A session as one small file: configuration with seed, and the changes with their ticks.
+
+Whoever replays it comes to the same digest. Recordings are read strictly: what is not understood
+is refused, never skipped.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict
+from typing import Any
+
+from service.sessions.session import Session
+from service.store import EntryRecord
+
+FORMAT = "roadtalk-recording"
+VERSION = 1
+
+
+def recording_json(session: Session, entries: Sequence[EntryRecord]) -> dict[str, Any]:
+    """The recording of a session up to its present tick."""
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        "name": session.record.name,
+        "config": asdict(session.timeline.config),
+        "entries": [asdict(entry) for entry in entries if entry.sequence <= session.sequence],
+        "tick": session.timeline.tick,
+        "digest": session.run.world.digest(),
+    }

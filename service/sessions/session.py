@@ -1,0 +1,329 @@
+"""A live session: a timeline, its pause, its log and its watchers, changed one utterance at a time.
+
+The order of a change: try all actions on a copy → store → publish → acknowledge. While the store
+is waited for the clock does not tick this session; a tick that came due meanwhile is taken after.
+A change that was begun is finished even when whoever asked for it has gone.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import structlog
+from anyio import to_thread
+from pydantic import ValidationError
+
+from service import actions as contract
+from service.actions import Action, Ask
+from service.problems import Invalid, NotSaved, ProblemError, UnknownSession
+from service.sessions.clock import Clock
+from service.sessions.draft import Draft, check_ticks, ticks_to_run
+from service.sessions.facts import Asked, Fact, Stepped, changes_of, happened_in
+from service.sessions.history import History
+from service.sessions.log import Log, LogEvent
+from service.sessions.messages import changed_message, tick_message
+from service.sessions.watchers import Watchers
+from service.sessions.words import Words
+from service.settings import Settings
+from service.store import EntryRecord, SessionRecord, Store, StoreError
+from service.wire.state import Standing, state_json
+from sim.edit import Applied, Change
+from sim.plan import Decision
+from sim.run import Run, Tick
+from sim.timeline import Timeline
+
+_LOG = structlog.get_logger(__name__)
+
+THREAD_TICKS = 500
+"""Work of more ticks than this is done beside the event loop."""
+
+PLAYED_TICKS = 8
+"""Steps of up to so many ticks are shown to watchers tick by tick."""
+
+
+@dataclass(frozen=True, slots=True)
+class Surroundings:
+    """What a session needs around it."""
+
+    store: Store
+    clock: Clock
+    words: Words
+    settings: Settings
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Utterance:
+    """Actions to be done together, and what they were said as (None for typed actions)."""
+
+    actions: tuple[Action, ...]
+    text: str | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Outcome:
+    """What an utterance did, or with `dry_run` would do."""
+
+    utterance: Utterance
+    facts: tuple[Fact, ...]
+    reply: str
+    answer: dict[str, Any] | None
+    sequence: int
+    changes: tuple[Change, ...] = field(default=())
+
+    @property
+    def ticks(self) -> list[Tick]:
+        """The ticks that steps ran."""
+        return [tick for fact in self.facts if isinstance(fact, Stepped) for tick in fact.ticks]
+
+    @property
+    def only_steps(self) -> bool:
+        """Whether nothing but time has passed."""
+        return all(isinstance(fact, Stepped) for fact in self.facts)
+
+
+class ReplayError(Exception):
+    """What was kept cannot be done again; `position` is that of the entry."""
+
+    def __init__(self, position: int, message: str) -> None:
+        super().__init__(message)
+        self.position = position
+
+
+class Session:
+    """One live session. All methods are for the event loop's thread."""
+
+    def __init__(self, record: SessionRecord, timeline: Timeline, around: Surroundings) -> None:
+        self.record = record
+        self.timeline = timeline
+        self.paused = True
+        self.sequence = 0
+        self.history = History()
+        self.log = Log(around.settings.log_events)
+        self.watchers = Watchers()
+        self._around = around
+        self._turn = asyncio.Lock()
+        self._changing = False
+        self._tick_due = False
+        self._ended = False
+        self._tasks: set[asyncio.Task[Outcome]] = set()
+
+    def __str__(self) -> str:
+        return f"session {self.record.id}"
+
+    @property
+    def id(self) -> str:
+        """The session's unguessable id."""
+        return self.record.id
+
+    @property
+    def run(self) -> Run:
+        """The present state."""
+        return self.timeline.run
+
+    @property
+    def standing(self) -> Standing:
+        """What of the session is not in its run."""
+        return Standing(self.id, self.paused, self.sequence)
+
+    @property
+    def period_s(self) -> float:
+        """Seconds from one tick to the next."""
+        return self.run.config.step_seconds
+
+    def state(self) -> dict[str, Any]:
+        """The present state as JSON values."""
+        return state_json(self.standing, self.run)
+
+    def latest_decision(self) -> tuple[Decision, Run] | None:
+        """The decision that led to the present state, and the state it was taken in."""
+        return self.decision_at(self.timeline.tick - 1) if self.timeline.tick else None
+
+    def decision_at(self, tick: int) -> tuple[Decision, Run] | None:
+        """The decision taken at a past tick, and the state it was taken in; None while a result stood."""
+        decision = self.timeline.decision(tick)
+        return None if decision is None else (decision, self.timeline.at(tick))
+
+    # Time
+
+    def set_paused(self, paused: bool) -> None:
+        """Stand still or go on; the clock is told."""
+        self.paused = paused
+        if paused:
+            self._around.clock.remove(self)
+        else:
+            self._around.clock.add(self)
+
+    def tick(self) -> None:
+        """One tick of the clock."""
+        if self._changing:
+            self._tick_due = True
+            return
+        before = self.run
+        tick = self.timeline.advance()
+        lines = self._note(tick.run, tick)
+        self._publish_tick(before, tick, lines)
+
+    def tick_failed(self, error: Exception) -> None:
+        """A defect of the world's rules: stand still and say so, rather than fail twice a second."""
+        _LOG.error("session paused after a failed tick", session=self.id, error=repr(error))
+        self.paused = True
+        line = self._line(
+            self.timeline.tick, "failed", "The simulation met a defect of its own and has been paused."
+        )
+        self._publish_changed(None, line.text, (), [line])
+
+    async def end(self) -> None:
+        """Stand still for good, once the change under way is done; later changes find no session."""
+        async with self._turn:
+            self._ended = True
+            self.set_paused(True)
+
+    # Change
+
+    async def change(self, utterance: Utterance, *, dry_run: bool = False) -> Outcome:
+        """Do an utterance, all or nothing. Raises a `ProblemError`; the session is then as it was."""
+        check_ticks(utterance.actions, self._around.settings.max_step_ticks)
+        task = asyncio.ensure_future(self._change(utterance, dry_run))
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+        return await asyncio.shield(task)
+
+    async def _change(self, utterance: Utterance, dry_run: bool) -> Outcome:
+        async with self._turn:
+            if self._ended:
+                raise UnknownSession
+            self._changing = True
+            try:
+                draft = Draft(self.timeline, self.paused, self.history)
+                facts = await self._perform(draft, utterance)
+                if dry_run or all(isinstance(action, Ask) for action in utterance.actions):
+                    return self._outcome(utterance, facts, self.sequence)
+                outcome = self._outcome(utterance, facts, self.sequence + 1)
+                await self._save(outcome)
+                self._become(draft, outcome)
+                return outcome
+            finally:
+                self._changing = False
+                self._take_tick_due()
+
+    async def _perform(self, draft: Draft, utterance: Utterance) -> tuple[Fact, ...]:
+        work: Callable[[], tuple[Fact, ...]] = lambda: draft.perform(self.sequence + 1, utterance.actions)  # noqa: E731
+        return await to_thread.run_sync(work) if ticks_to_run(utterance.actions) > THREAD_TICKS else work()
+
+    def _outcome(self, utterance: Utterance, facts: tuple[Fact, ...], sequence: int) -> Outcome:
+        words = self._around.words
+        answers = [words.answer(fact) for fact in facts if isinstance(fact, Asked)]
+        done = tuple(fact for fact in facts if not isinstance(fact, Asked))
+        said = [words.done(done)] if done else []
+        return Outcome(
+            utterance=utterance,
+            facts=facts,
+            reply=" ".join([*said, *(answer["text"] for answer in answers)]),
+            answer=answers[-1] if answers else None,
+            sequence=sequence,
+            changes=changes_of(facts),
+        )
+
+    async def _save(self, outcome: Outcome) -> None:
+        try:
+            await self._around.store.append(self.id, self._entry(outcome))
+        except StoreError as error:
+            _LOG.error("a change was not saved", session=self.id, error=str(error))
+            raise NotSaved from error
+
+    def _entry(self, outcome: Outcome) -> EntryRecord:
+        return EntryRecord(
+            sequence=outcome.sequence,
+            tick=self.timeline.tick,
+            text=outcome.utterance.text,
+            actions=contract.dump(outcome.utterance.actions),
+        )
+
+    def _become(self, draft: Draft, outcome: Outcome) -> None:
+        """Take the draft's state and tell watchers."""
+        before, began = self.run, self.timeline.tick
+        self._adopt(draft, outcome.sequence)
+        self.set_paused(draft.paused)
+        lines = [self._line(began, "changed", outcome.reply)]
+        playing = outcome.only_steps and len(outcome.ticks) <= PLAYED_TICKS
+        for run, part in happened_in(outcome.facts):
+            noted = self._note(run, part)
+            if isinstance(part, Tick) and playing:
+                self._publish_tick(before, part, noted)
+            else:
+                lines += noted
+            before = run
+        self._publish_changed(outcome.utterance.text, outcome.reply, outcome.changes, lines)
+
+    def _adopt(self, draft: Draft, sequence: int) -> None:
+        self.timeline, self.history = draft.timeline, draft.history
+        self.paused, self.sequence = draft.paused, sequence
+
+    def _take_tick_due(self) -> None:
+        if self._tick_due:
+            self._tick_due = False
+            if not self.paused:
+                self.tick()
+
+    # Replay
+
+    def replay(self, entries: Sequence[EntryRecord], tick: int) -> None:
+        """Do again what was done, and run on to `tick`; the session then stands paused.
+
+        For a session that nobody else has yet, in any thread. Raises `ReplayError`.
+        """
+        for position, entry in enumerate(entries):
+            try:
+                self._replay(entry)
+            except (ProblemError, ValidationError) as error:
+                raise ReplayError(position, str(error)) from error
+        self._run_to(tick)
+        self.paused = True
+
+    def _replay(self, entry: EntryRecord) -> None:
+        if entry.tick < self.timeline.tick or entry.sequence != self.sequence + 1:
+            raise Invalid(f"Entry {entry.sequence} at tick {entry.tick} is out of order.")
+        self._run_to(entry.tick)
+        utterance = Utterance(actions=contract.load(entry.actions), text=entry.text)
+        draft = Draft(self.timeline, self.paused, self.history)
+        outcome = self._outcome(utterance, draft.perform(entry.sequence, utterance.actions), entry.sequence)
+        self._adopt(draft, entry.sequence)
+        self._line(entry.tick, "changed", outcome.reply)
+        for run, part in happened_in(outcome.facts):
+            self._note(run, part)
+
+    def _run_to(self, tick: int) -> None:
+        while self.timeline.tick < tick:
+            done = self.timeline.advance()
+            self._note(done.run, done)
+
+    # Telling
+
+    def _note(self, run: Run, part: Applied | Tick) -> list[LogEvent]:
+        """Write the events of a tick or an action to the log."""
+        words = self._around.words
+        return [
+            self.log.add(event.tick, event.type, words.event(event, run), event.ids, event.cell)
+            for event in part.events
+        ]
+
+    def _line(self, tick: int, kind: str, text: str) -> LogEvent:
+        return self.log.add(tick, kind, text)
+
+    def _publish_tick(self, before: Run, tick: Tick, lines: Sequence[LogEvent]) -> None:
+        def message() -> bytes:
+            decision = tick.decision
+            narration = None if decision is None else self._around.words.decision(decision, before)
+            return tick_message(self.standing, before, tick.run, decision, narration, lines)
+
+        self.watchers.publish(tick.run.world.tick, message)
+
+    def _publish_changed(
+        self, text: str | None, reply: str, changes: Sequence[Change], lines: Sequence[LogEvent]
+    ) -> None:
+        self.watchers.publish(
+            self.timeline.tick, lambda: changed_message(self.standing, self.run, text, reply, changes, lines)
+        )

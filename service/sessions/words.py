@@ -1,0 +1,26 @@
+"""The seam to whoever puts facts into words."""
+
+from __future__ import annotations
+
+from typing import Any, Protocol
+
+from service.sessions.facts import Asked, Fact
+from sim.events import Event
+from sim.plan import Decision
+from sim.run import Run
+
+
+class Words(Protocol):
+    """Facts → words; nothing is said that is not in the facts."""
+
+    def decision(self, decision: Decision, run: Run) -> str:
+        """What the vehicle does at a tick and why, `run` being the state it was decided in."""
+
+    def event(self, event: Event, run: Run) -> str:
+        """One line of the log."""
+
+    def done(self, facts: tuple[Fact, ...]) -> str:
+        """The reply: what was done, in a sentence or two."""
+
+    def answer(self, asked: Asked) -> dict[str, Any]:
+        """The answer to a question, as JSON values."""

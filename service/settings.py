@@ -1,0 +1,51 @@
+"""What whoever runs the service may choose, each with its default and its reason.
+
+Read from the environment (`ROADTALK_PORT=9000`) or given by the command line; nothing else in the
+project reads the environment.
+"""
+
+from __future__ import annotations
+
+from pydantic import Field
+from pydantic_settings import BaseSettings, SettingsConfigDict
+
+
+class Settings(BaseSettings):
+    """The settings of one running service."""
+
+    model_config = SettingsConfigDict(env_prefix="ROADTALK_", extra="ignore", frozen=True)
+
+    host: str = Field(
+        default="127.0.0.1",
+        description="Address to listen on; the default is reachable from this machine only.",
+    )
+    port: int = Field(default=8000, ge=0, le=65535, description="Port to listen on; 0 takes any free one.")
+    database: str = Field(
+        default="sqlite:///roadtalk.db",
+        description="Where sessions are kept: `sqlite:///<file>`, or `memory:` for this run only.",
+    )
+    max_sessions: int = Field(
+        default=1_000, ge=1, description="Sessions that may be live at once; one more is refused."
+    )
+    max_text_chars: int = Field(
+        default=500, ge=1, le=10_000, description="Length of what may be said at once."
+    )
+    max_body_bytes: int = Field(
+        default=65_536, ge=1_024, description="Size of a request body or a stream message."
+    )
+    max_recording_bytes: int = Field(
+        default=1_048_576,
+        ge=1_024,
+        description="Size of a body that makes a session: it may carry a recording.",
+    )
+    max_recording_ticks: int = Field(
+        default=200_000, ge=1, description="Length of a recording that is replayed."
+    )
+    max_road_cells: int = Field(default=10_000, ge=12, description="Columns times rows of a session's road.")
+    max_step_ticks: int = Field(
+        default=1_000, ge=1, le=10_000, description="Ticks one call to `step` may run."
+    )
+    log_events: int = Field(default=400, ge=10, description="Events a live session keeps for reading back.")
+    max_malformed_messages: int = Field(
+        default=20, ge=1, description="Malformed stream messages before the socket is closed."
+    )

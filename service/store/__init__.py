@@ -1,0 +1,21 @@
+"""Where sessions are kept: one small protocol, a real store behind it and a fake.
+
+`open_store` picks by URL. Nothing outside this folder knows which store it is talking to.
+"""
+
+from __future__ import annotations
+
+from service.store.base import EntryRecord, SessionRecord, Store, StoreError
+from service.store.memory import MemoryStore
+from service.store.sql import SqlStore
+
+__all__ = ["EntryRecord", "MemoryStore", "SessionRecord", "SqlStore", "Store", "StoreError", "open_store"]
+
+
+def open_store(url: str) -> Store:
+    """The store a URL names, not yet opened. Raises `StoreError` for a URL of no known kind."""
+    if url == "memory:":
+        return MemoryStore()
+    if url.startswith("sqlite:///"):
+        return SqlStore(url)
+    raise StoreError(f"{url!r} names no kind of database known here; use sqlite:///<file> or memory:")

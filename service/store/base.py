@@ -1,0 +1,84 @@
+"""What a store must do, in terms of what a session is: a start and the changes said to it.
+
+A session is its configuration (seed included) and an append-only list of entries; everything else
+is replayed from those. Leaves out worlds, digests and snapshots: they are derived.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from datetime import datetime
+from typing import Any, Protocol
+
+
+class StoreError(Exception):
+    """The store could not do it; the message is for whoever runs the service."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SessionRecord:
+    """How a session began, and how far its clock is known to have run.
+
+    `number` orders sessions by age and is given by the store; `config` is JSON values.
+    `tick` is where the clock stood when last written: at creation or at a graceful stop.
+    """
+
+    id: str
+    name: str | None
+    created_at: datetime
+    config: Mapping[str, Any]
+    tick: int = 0
+    number: int = 0
+
+    def numbered(self, number: int) -> SessionRecord:
+        """The same record under the store's number."""
+        return replace(self, number=number)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EntryRecord:
+    """One accepted change: what was done, in which order, and at which tick it took effect.
+
+    `sequence` counts a session's accepted changes from 1; `actions` is JSON values in the
+    contract's form; `text` is what was said, None for typed actions.
+    """
+
+    sequence: int
+    tick: int
+    text: str | None
+    actions: Sequence[Mapping[str, Any]]
+
+
+class Store(Protocol):
+    """A place where sessions outlive the process. Every method may raise `StoreError`.
+
+    A method that returns has made its change durable; one that raises has changed nothing.
+    """
+
+    async def open(self) -> None:
+        """Make ready; opening twice is the same as once."""
+
+    async def close(self) -> None:
+        """Let go of files and connections; closing twice is the same as once."""
+
+    async def create(self, record: SessionRecord, entries: Sequence[EntryRecord] = ()) -> SessionRecord:
+        """Keep a new session, with entries if it is a replayed one; answers it numbered."""
+
+    async def append(self, session_id: str, entry: EntryRecord) -> None:
+        """Keep one more change of a session. An unknown session or a sequence twice is an error."""
+
+    async def get(self, session_id: str) -> SessionRecord | None:
+        """One session, or None."""
+
+    async def entries(self, session_id: str) -> Sequence[EntryRecord]:
+        """A session's changes by sequence; empty for an unknown one."""
+
+    async def newest(self, limit: int, before: int | None = None) -> Sequence[SessionRecord]:
+        """Up to `limit` sessions, newest first, of those with a number below `before`."""
+
+    async def save_ticks(self, ticks: Mapping[str, int]) -> None:
+        """Remember how far clocks have run, by session id; unknown sessions are passed over."""
+
+    async def delete(self, session_id: str) -> bool:
+        """Forget a session and its changes; whether there was one."""

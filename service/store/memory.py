@@ -1,0 +1,69 @@
+"""A store that forgets when the process ends: for tests, demonstrations and `database=memory:`.
+
+Satisfies the same protocol and the same test-suite as the real one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from service.store.base import EntryRecord, SessionRecord, StoreError
+
+
+class MemoryStore:
+    """Dictionaries that satisfy `Store`."""
+
+    def __init__(self) -> None:
+        self._sessions: dict[str, SessionRecord] = {}
+        self._entries: dict[str, list[EntryRecord]] = {}
+        self._last_number = 0
+
+    async def open(self) -> None:
+        """Nothing to make ready."""
+
+    async def close(self) -> None:
+        """Keeps what it holds, so that a test can close and open it again like a file."""
+
+    async def create(self, record: SessionRecord, entries: Sequence[EntryRecord] = ()) -> SessionRecord:
+        """See `Store.create`."""
+        if record.id in self._sessions:
+            raise StoreError(f"session {record.id} is there already")
+        self._last_number += 1
+        numbered = record.numbered(self._last_number)
+        self._sessions[record.id] = numbered
+        self._entries[record.id] = list(entries)
+        return numbered
+
+    async def append(self, session_id: str, entry: EntryRecord) -> None:
+        """See `Store.append`."""
+        entries = self._entries.get(session_id)
+        if entries is None:
+            raise StoreError(f"no session {session_id}")
+        if any(kept.sequence == entry.sequence for kept in entries):
+            raise StoreError(f"session {session_id} has an entry {entry.sequence} already")
+        entries.append(entry)
+
+    async def get(self, session_id: str) -> SessionRecord | None:
+        """See `Store.get`."""
+        return self._sessions.get(session_id)
+
+    async def entries(self, session_id: str) -> Sequence[EntryRecord]:
+        """See `Store.entries`."""
+        return sorted(self._entries.get(session_id, ()), key=lambda entry: entry.sequence)
+
+    async def newest(self, limit: int, before: int | None = None) -> Sequence[SessionRecord]:
+        """See `Store.newest`."""
+        records = sorted(self._sessions.values(), key=lambda record: -record.number)
+        return [record for record in records if before is None or record.number < before][:limit]
+
+    async def save_ticks(self, ticks: Mapping[str, int]) -> None:
+        """See `Store.save_ticks`."""
+        for session_id, tick in ticks.items():
+            if session_id in self._sessions:
+                self._sessions[session_id] = replace(self._sessions[session_id], tick=tick)
+
+    async def delete(self, session_id: str) -> bool:
+        """See `Store.delete`."""
+        self._entries.pop(session_id, None)
+        return self._sessions.pop(session_id, None) is not None

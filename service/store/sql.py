@@ -1,0 +1,253 @@
+"""The real store: SQL through SQLAlchemy Core, a SQLite file by default.
+
+One connection in one process. SQLite versions before 3.51.3 can lose a WAL reset when several
+connections write, so the file is held exclusively: a second service on the same file is refused
+at its start instead of damaging it. `synchronous=FULL` makes an acknowledged change survive power
+loss, not only a crash. All calls run on the driver's own thread, never on the event loop.
+
+Changes that arrive while one is being written are committed together (group commit): the disk is
+waited for once for all of them, and none is acknowledged before its own commit.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterator, Mapping, Sequence
+from contextlib import asynccontextmanager
+from datetime import UTC, datetime
+from typing import Any
+
+from sqlalchemy import (
+    JSON,
+    Column,
+    DateTime,
+    ForeignKey,
+    Integer,
+    MetaData,
+    Row,
+    String,
+    Table,
+    Text,
+    bindparam,
+    delete,
+    event,
+    insert,
+    select,
+    update,
+)
+from sqlalchemy.engine import make_url
+from sqlalchemy.exc import SQLAlchemyError
+from sqlalchemy.ext.asyncio import AsyncConnection, AsyncEngine, create_async_engine
+from sqlalchemy.pool import AsyncAdaptedQueuePool
+
+from service.store.base import EntryRecord, SessionRecord, StoreError
+
+METADATA = MetaData()
+
+SESSIONS = Table(
+    "sessions",
+    METADATA,
+    Column("number", Integer, primary_key=True, autoincrement=True),
+    Column("id", String(64), nullable=False, unique=True),
+    Column("name", String(80)),
+    Column("created_at", DateTime, nullable=False, comment="UTC"),
+    Column("config", JSON, nullable=False),
+    Column("tick", Integer, nullable=False),
+    sqlite_autoincrement=True,
+)
+
+ENTRIES = Table(
+    "entries",
+    METADATA,
+    Column("session_id", ForeignKey("sessions.id", ondelete="CASCADE"), primary_key=True),
+    Column("sequence", Integer, primary_key=True, autoincrement=False),
+    Column("tick", Integer, nullable=False),
+    Column("text", Text),
+    Column("actions", JSON, nullable=False),
+)
+
+_PRAGMAS = (
+    "PRAGMA busy_timeout=1000",
+    "PRAGMA locking_mode=EXCLUSIVE",
+    "PRAGMA journal_mode=WAL",
+    "PRAGMA synchronous=FULL",
+    "PRAGMA foreign_keys=ON",
+)
+
+_Pending = tuple[dict[str, Any], "asyncio.Future[None]"]
+
+
+class SqlStore:
+    """`Store` on a SQLite file, named by URL (`sqlite:///roadtalk.db`)."""
+
+    def __init__(self, url: str) -> None:
+        self._url = make_url(url).set(drivername="sqlite+aiosqlite")
+        self._engine: AsyncEngine | None = None
+        self._pending: list[_Pending] = []
+        self._writer: asyncio.Task[None] | None = None
+
+    async def open(self) -> None:
+        """Open the file, making it and its tables if need be. Raises `StoreError`."""
+        if self._engine is not None:
+            return
+        # One connection and no overflow: callers queue for it, so writes never meet.
+        engine = create_async_engine(
+            self._url, poolclass=AsyncAdaptedQueuePool, pool_size=1, max_overflow=0, pool_timeout=30
+        )
+        event.listen(engine.sync_engine, "connect", _prepare)
+        try:
+            async with engine.begin() as connection:
+                await connection.run_sync(METADATA.create_all)
+        except (SQLAlchemyError, OSError) as error:
+            await engine.dispose()
+            raise StoreError(
+                f"The database {self._url.database} cannot be opened: {_reason(error)}"
+            ) from error
+        self._engine = engine
+
+    async def close(self) -> None:
+        """Finish what is being written and let go of the file."""
+        if self._writer is not None:
+            await asyncio.wait([self._writer])
+        if self._engine is not None:
+            await self._engine.dispose()
+            self._engine = None
+
+    async def create(self, record: SessionRecord, entries: Sequence[EntryRecord] = ()) -> SessionRecord:
+        """See `Store.create`."""
+        values = {
+            "id": record.id,
+            "name": record.name,
+            "created_at": record.created_at.astimezone(UTC).replace(tzinfo=None),
+            "config": dict(record.config),
+            "tick": record.tick,
+        }
+        async with self._transaction() as connection:
+            number = (
+                await connection.execute(insert(SESSIONS).returning(SESSIONS.c.number), values)
+            ).scalar_one()
+            if entries:
+                await connection.execute(
+                    insert(ENTRIES), [_entry_values(record.id, entry) for entry in entries]
+                )
+        return record.numbered(number)
+
+    async def append(self, session_id: str, entry: EntryRecord) -> None:
+        """See `Store.append`; joins the next group commit."""
+        done: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+        self._pending.append((_entry_values(session_id, entry), done))
+        if self._writer is None:
+            self._writer = asyncio.create_task(self._write())
+        await done
+
+    async def get(self, session_id: str) -> SessionRecord | None:
+        """See `Store.get`."""
+        async with self._transaction() as connection:
+            row = (
+                await connection.execute(select(SESSIONS).where(SESSIONS.c.id == session_id))
+            ).one_or_none()
+        return None if row is None else _session(row)
+
+    async def entries(self, session_id: str) -> Sequence[EntryRecord]:
+        """See `Store.entries`."""
+        query = select(ENTRIES).where(ENTRIES.c.session_id == session_id).order_by(ENTRIES.c.sequence)
+        async with self._transaction() as connection:
+            rows = (await connection.execute(query)).all()
+        return [
+            EntryRecord(sequence=row.sequence, tick=row.tick, text=row.text, actions=row.actions)
+            for row in rows
+        ]
+
+    async def newest(self, limit: int, before: int | None = None) -> Sequence[SessionRecord]:
+        """See `Store.newest`."""
+        query = select(SESSIONS).order_by(SESSIONS.c.number.desc()).limit(limit)
+        if before is not None:
+            query = query.where(SESSIONS.c.number < before)
+        async with self._transaction() as connection:
+            rows = (await connection.execute(query)).all()
+        return [_session(row) for row in rows]
+
+    async def save_ticks(self, ticks: Mapping[str, int]) -> None:
+        """See `Store.save_ticks`."""
+        if not ticks:
+            return
+        change = update(SESSIONS).where(SESSIONS.c.id == bindparam("of")).values(tick=bindparam("at"))
+        async with self._transaction() as connection:
+            await connection.execute(change, [{"of": of, "at": at} for of, at in ticks.items()])
+
+    async def delete(self, session_id: str) -> bool:
+        """See `Store.delete`."""
+        async with self._transaction() as connection:
+            result = await connection.execute(delete(SESSIONS).where(SESSIONS.c.id == session_id))
+        return result.rowcount > 0
+
+    async def _write(self) -> None:
+        """Commit what is pending, batch by batch, until nothing is."""
+        try:
+            while self._pending:
+                batch, self._pending = self._pending, []
+                await self._write_batch(batch)
+        finally:
+            self._writer = None
+
+    async def _write_batch(self, batch: list[_Pending]) -> None:
+        try:
+            async with self._transaction() as connection:
+                await connection.execute(insert(ENTRIES), [values for values, _ in batch])
+        except StoreError as error:
+            if len(batch) > 1:
+                # One bad entry must not fail its neighbours: each gets its own commit.
+                for pending in batch:
+                    await self._write_batch([pending])
+            elif not batch[0][1].done():
+                batch[0][1].set_exception(error)
+        else:
+            for _, done in batch:
+                if not done.done():
+                    done.set_result(None)
+
+    @asynccontextmanager
+    async def _transaction(self) -> AsyncIterator[AsyncConnection]:
+        if self._engine is None:
+            raise StoreError("The database is not open")
+        try:
+            async with self._engine.begin() as connection:
+                yield connection
+        except (SQLAlchemyError, OSError) as error:
+            raise StoreError(_reason(error)) from error
+
+
+def _prepare(connection: Any, _record: Any) -> None:
+    cursor = connection.cursor()
+    for pragma in _PRAGMAS:
+        cursor.execute(pragma)
+    cursor.close()
+
+
+def _reason(error: Exception) -> str:
+    return str(getattr(error, "orig", None) or error)
+
+
+def _session(row: Row[Any]) -> SessionRecord:
+    return SessionRecord(
+        id=row.id,
+        name=row.name,
+        created_at=_utc(row.created_at),
+        config=row.config,
+        tick=row.tick,
+        number=row.number,
+    )
+
+
+def _utc(moment: datetime) -> datetime:
+    return moment.replace(tzinfo=UTC)
+
+
+def _entry_values(session_id: str, entry: EntryRecord) -> dict[str, Any]:
+    return {
+        "session_id": session_id,
+        "sequence": entry.sequence,
+        "tick": entry.tick,
+        "text": entry.text,
+        "actions": [dict(action) for action in entry.actions],
+    }
