@@ -28,7 +28,7 @@ MAX_THINGS = 10_000
 Amount = Annotated[int, Ge(0), Le(MAX_THINGS)]
 Some = Annotated[int, Ge(1), Le(MAX_THINGS)]
 
-_STRICT = {"extra": "forbid", "strict": False}
+_STRICT = {"extra": "forbid"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -93,10 +93,15 @@ class Explained:
 
     def _flip(self, flip: Counterfactual, foil: Move) -> str:
         who = self._sayings.joined(flip.removed)
-        cells = self._sayings.joined([self._sayings.where(cell) for cell in flip.added])
+        walls = self._sayings.joined(
+            [
+                self._say("wall", thing=self._sayings.things(kind, 1), where=self._sayings.where(cell))
+                for kind, cell in flip.added
+            ]
+        )
         do = self._sayings.move(flip.move, "do")
         if flip.added:
-            return self._say("not_walls_without" if who else "not_walls", who=who, cells=cells, do=do)
+            return self._say("not_walls_without" if who else "not_walls", who=who, walls=walls, do=do)
         return self._say("not_flips" if flip.move is foil else "not_flips_other", who=who, do=do)
 
     def _say(self, key: str, **parts: object) -> str:

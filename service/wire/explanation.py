@@ -6,9 +6,7 @@ from typing import Any
 
 from service import actions as contract
 from service.wire.decision import option_json
-from sim.actions import Add, Remove, Where
 from sim.explain import Cause, Counterfactual, Explanation
-from sim.kinds import kind_of
 
 Json = dict[str, Any]
 
@@ -46,6 +44,4 @@ def _cause_json(cause: Cause) -> Json:
 
 
 def _flip_json(flip: Counterfactual) -> Json:
-    removed = [Remove(kind=kind_of(name).value, count=1, where=Where(id=name)) for name in flip.removed]
-    added = [Add(kind="barrier", count=1, where=Where(cell=cell)) for cell in flip.added]
-    return {"change": contract.dump((*removed, *added)), "decision": flip.move}
+    return {"change": contract.dump(flip.change), "decision": flip.move}

@@ -19,7 +19,7 @@ from collections.abc import Callable, Sequence
 from itertools import combinations
 
 from sim.explain.facts import Cause, Counterfactual, Explanation, Role, Verified
-from sim.explain.rerun import Rerun
+from sim.explain.rerun import Rerun, removal
 from sim.kinds import Move
 from sim.place import nearest_first
 from sim.plan import Decision
@@ -52,7 +52,7 @@ def explain_why(run: Run, decision: Decision) -> Explanation:
             sufficient=rerun.keeping(enough) is fact,
             minimal=minimal,
         ),
-        counterfactuals=tuple(Counterfactual(group, (), rerun.without(group)) for group in told),
+        counterfactuals=tuple(Counterfactual(removal(group), rerun.without(group)) for group in told),
         reruns=rerun.count,
     )
 

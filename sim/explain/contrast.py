@@ -1,7 +1,8 @@
 """Why not another move: the smallest change of the road after which that move is made.
 
 First by taking away what stands in its way; if it is not made even then, because a move that comes
-before it is free, by putting barriers into those moves' cells as well. A change is only stated if
+before it is free, by blocking those moves' cells as well: with a barrier, or where a mover is just
+leaving the cell, with a pothole that holds it. A change is only stated if
 the decision, run again with it, is the move asked about.
 """
 
@@ -9,10 +10,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from sim.actions import Add, Where
 from sim.explain.causes import spared
 from sim.explain.facts import Cause, Counterfactual, Explanation, Role, Verified
-from sim.explain.rerun import Rerun
-from sim.kinds import Cell, Move
+from sim.explain.rerun import Rerun, removal
+from sim.kinds import Move
 from sim.plan import Decision
 from sim.run import Run
 
@@ -30,9 +32,9 @@ def explain_why_not(run: Run, decision: Decision, foil: Move) -> Explanation:
     walls = [] if freed else _walls(rerun, cleared, foil)
     counterfactuals = []
     if freed or walls:
-        counterfactuals.append(Counterfactual(tuple(cleared), tuple(walls), foil))
+        counterfactuals.append(Counterfactual((*removal(cleared), *walls), foil))
     elif cleared:
-        counterfactuals.append(Counterfactual(tuple(cleared), (), rerun.without(cleared)))
+        counterfactuals.append(Counterfactual(removal(cleared), rerun.without(cleared)))
     causes = _causes(run, decision, foil, cleared, freed)
     return Explanation(
         about="why_not",
@@ -58,14 +60,18 @@ def _cleared(rerun: Rerun, decision: Decision, foil: Move) -> list[str]:
     return cleared
 
 
-def _walls(rerun: Rerun, cleared: Sequence[str], foil: Move) -> list[Cell]:
-    """Cells of free moves that come before the foil, if barriers in them make it the move taken."""
+def _walls(rerun: Rerun, cleared: Sequence[str], foil: Move) -> list[Add]:
+    """What blocks the free moves that come before the foil, if with it the foil is the move taken."""
     seen = rerun.decision_without(cleared)
     if seen.option(foil).cell is None or seen.asked is not None:
         return []
-    before = seen.options[: seen.options.index(seen.option(foil))]
-    cells = [option.cell for option in before if option.verdict == "free" and option.cell is not None]
-    return cells if cells and rerun.with_barriers(cleared, cells) is foil else []
+    world = rerun.run.world.without(frozenset(cleared))
+    walls = []
+    for option in seen.options[: seen.options.index(seen.option(foil))]:
+        if option.verdict == "free" and option.cell is not None:
+            held = world.moving >> world.road.index(option.cell) & 1
+            walls.append(Add(kind="pothole" if held else "barrier", count=1, where=Where(cell=option.cell)))
+    return walls if walls and rerun.after((*removal(cleared), *walls)) is foil else []
 
 
 def _causes(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
+from sim.actions import Add, Remove
 from sim.kinds import Cell, Kind, Move
 from sim.plan import Decision
 
@@ -53,10 +54,26 @@ class Cause:
 class Counterfactual:
     """What was decided when the tick was run again on a changed road."""
 
-    removed: tuple[str, ...]
-    added: tuple[Cell, ...]
-    """cells a barrier was put in"""
+    change: tuple[Remove | Add, ...]
     move: Move
+
+    @property
+    def removed(self) -> tuple[str, ...]:
+        """The ids of what was taken away."""
+        return tuple(
+            action.where.id
+            for action in self.change
+            if isinstance(action, Remove) and action.where is not None and action.where.id is not None
+        )
+
+    @property
+    def added(self) -> tuple[tuple[str, Cell], ...]:
+        """What was put in the way, and where: kinds and cells."""
+        return tuple(
+            (action.kind, action.where.cell)
+            for action in self.change
+            if isinstance(action, Add) and action.where is not None and action.where.cell is not None
+        )
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,10 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 
-from sim.kinds import Cell, Move
+from sim.actions import Add, Remove, Where
+from sim.edit import apply
+from sim.kinds import Move, kind_of
 from sim.plan import Decision
 from sim.run import Run, decide
 from sim.world import World
+
+
+def removal(ids: Iterable[str]) -> tuple[Remove, ...]:
+    """The actions that take these things away."""
+    return tuple(Remove(kind=kind_of(name).value, count=1, where=Where(id=name)) for name in ids)
 
 
 class Rerun:
@@ -32,13 +39,12 @@ class Rerun:
         """The whole decision had these things never been there."""
         return self._decide(self.run.world.without(frozenset(ids)))
 
-    def with_barriers(self, ids: Iterable[str], cells: Iterable[Cell]) -> Move:
-        """The move had these things not been there and these empty cells held barriers."""
-        world = self.run.world.without(frozenset(ids))
-        indices = [world.road.index(cell) for cell in cells]
-        board = sum(1 << index for index in indices)
-        hazards = {**world.hazards, **{index: f"barrier-at-{index}" for index in indices}}
-        return self._decide(replace(world, barriers=world.barriers | board, hazards=hazards)).move
+    def after(self, change: Iterable[Remove | Add]) -> Move:
+        """The move had a person made this change first."""
+        run = self.run
+        for action in change:
+            run = apply(run, action).run
+        return self._decide(run.world).move
 
     def _remembered(self, how: str, ids: frozenset[str], change: Callable[[frozenset[str]], World]) -> Move:
         move = self._known.get((how, ids))

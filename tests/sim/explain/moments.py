@@ -1,0 +1,54 @@
+"""Moments in random worlds, and a checker that knows edits and ticks but not the explainer."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator
+
+from sim.actions import Remove, Where, WorldAction
+from sim.config import Config
+from sim.edit import apply
+from sim.kinds import Move, Outcome, kind_of
+from sim.run import Run, advance
+from sim.timeline import Timeline
+
+
+def moments(count: int, seed: int = 0) -> Iterator[Timeline]:
+    """Timelines that have just taken a decision, on roads from empty to crowded."""
+    draw = random.Random(seed)
+    found = 0
+    while found < count:
+        columns, rows = draw.choice([4, 8, 11]), draw.choice([8, 30])
+        config = Config(
+            seed=draw.randrange(2**32),
+            columns=columns,
+            rows=rows,
+            potholes=draw.choice([None, 0, rows * columns // 12, rows * columns // 6]),
+            vehicles=draw.choice([None, 0, rows * columns // 8, rows * columns // 4]),
+            pedestrians=draw.choice([0, 2]),
+            barriers=draw.choice([0, 2]),
+            courtesy=draw.choice([0.0, 0.0, 0.5]),
+        )
+        timeline = Timeline(config)
+        for _ in range(draw.randrange(1, rows)):
+            timeline.advance()
+        decision = timeline.decision(timeline.tick - 1)
+        if decision is not None and timeline.at(timeline.tick - 1).world.outcome is Outcome.RUNNING:
+            found += 1
+            yield timeline
+
+
+def move_after(run: Run, *, removed: tuple[str, ...] = (), change: tuple[WorldAction, ...] = ()) -> Move:
+    """The move a run makes after a person has taken things away or made other changes."""
+    for name in removed:
+        run = apply(run, Remove(kind=kind_of(name).value, count=1, where=Where(id=name))).run
+    for action in change:
+        run = apply(run, action).run
+    decision = advance(run).decision
+    assert decision is not None
+    return decision.move
+
+
+def all_ids(run: Run) -> set[str]:
+    """Everything on the road."""
+    return {thing.id for thing in run.world.things()}
