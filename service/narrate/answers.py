@@ -73,7 +73,7 @@ class Answers:
             key = "why_any"
         if ask.tick is not None:
             key += "_at"
-        do = "" if ask.move is None else self._sayings.move(ask.move, "ask")
+        do = "" if ask.move is None else self._sayings.move(ask.move, "do")
         return self._sayings.say("answers", "questions", key, do=do, tick=ask.tick)
 
     def _not_so(self, error: QuestionError) -> str:

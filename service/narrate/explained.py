@@ -54,7 +54,7 @@ class Explained:
             )
             for move, causes in by_move.items()
         ]
-        proofs = [self._say("run_again", flips=self._sayings.joined(flips))] if flips else []
+        proofs = [self._say("run_again", flips=self._sayings.listed(flips))] if flips else []
         proofs += [
             self._say(
                 "stand_in",

@@ -48,6 +48,10 @@ class Sayings:
         joints = self._words["joined"]
         return f"{joints['comma'].join(parts[:-1])}{joints['last']}{parts[-1]}"
 
+    def listed(self, clauses: Sequence[str]) -> str:
+        """ "a; b; c", for parts that have commas of their own."""
+        return str(self._words["joined"]["semicolon"]).join(clauses)
+
     def things(self, kind: str, count: int) -> str:
         """The noun of a kind, singular for one."""
         one, many = self._words["things"][kind]

@@ -56,7 +56,7 @@ class Decision:
 
     def option(self, move: Move) -> Option:
         """The trace of one move."""
-        return next(option for option in self.options if option.move is move)
+        return next(option for option in self.options if option.move == move)
 
     @property
     def chosen(self) -> Option:
