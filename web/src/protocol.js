@@ -73,10 +73,11 @@
  * @property {string} about
  * @property {number | null} tick
  * @property {string} text
- * @property {{id: string, kind: string, cell: Cell, role: string}[]} causes
- * @property {Option[]} alternatives
+ * @property {Move} [move]  the one decided, when the answer is about a decision
+ * @property {{id: string, kind: string, cell: Cell, role: string, moves?: Move[]}[]} causes
+ * @property {Option[]} alternatives  every move of that decision
  * @property {{necessary: boolean | null, sufficient: boolean | null, minimal: boolean | null} | null} verified
- * @property {{change: unknown, decision: {move: Move} | null} | null} counterfactual
+ * @property {{change: Action[], decision: Move} | null} counterfactual  the first change that flips it
  */
 
 /**

@@ -21,12 +21,10 @@ export function answerElement(answer, reply, page) {
       make("ul", { class: "causes", "aria-label": "Causes" }, ...causes.map((cause) => causeElement(cause, page))),
     );
   }
-  const proof = causes.length > 0 ? proofWords(answer) : "";
-  if (proof) {
-    element.append(make("p", { class: "proof" }, icon("proof"), make("span", {}, proof)));
-  }
-  const alternatives = answer.alternatives ?? [];
-  if (alternatives.length > 0) element.append(alternativesElement(alternatives));
+  const proof = proofElement(answer);
+  if (proof) element.append(proof);
+  const others = (answer.alternatives ?? []).filter(({ move }) => move !== answer.move);
+  if (others.length > 0) element.append(alternativesElement(others));
   return element;
 }
 
@@ -53,25 +51,38 @@ function causeElement(cause, page) {
         onblur: hide,
         onclick: show,
       },
-      make("span", { class: "cause-name" }, cause.id.replace("-", " ")),
-      cause.role ? make("span", { class: "cause-role" }, plain(cause.role)) : null,
+      make("span", { class: "cause-name" }, cause.id),
+      make("span", { class: "cause-role" }, roleWords(cause)),
     ),
   );
 }
+
+/** @param {Answer["causes"][number]} cause */
+function roleWords({ role, moves }) {
+  const names = (moves ?? []).map((move) => MOVES[move]?.name ?? plain(move));
+  return [plain(role), names.join(", ")].join(" ").trim();
+}
+
+const PROOFS = /** @type {const} */ ([
+  ["necessary", "without it the decision is another"],
+  ["sufficient", "with nothing but it the decision is the same"],
+  ["minimal", "no part of it can be left out"],
+]);
 
 /**
  * What was shown by running the moment again; nothing is said that was not.
  * @param {Answer} answer
  */
-function proofWords({ verified, counterfactual }) {
-  if (!verified?.necessary && !verified?.sufficient) return "";
-  const instead = counterfactual?.decision?.move;
-  const parts = ["Proved by re-simulation"];
-  if (verified.necessary && instead && MOVES[instead]) {
-    parts.push(`without the cause the move is ${MOVES[instead].name}`);
-  } else if (verified.necessary) parts.push("without the cause the decision changes");
-  if (verified.sufficient) parts.push("with it alone it stays the same");
-  return `${parts[0]}: ${parts.slice(1).join("; ")}.`;
+function proofElement({ verified }) {
+  const shown = PROOFS.filter(([property]) => verified?.[property]);
+  if (shown.length === 0) return null;
+  return make(
+    "p",
+    { class: "proof" },
+    icon("proof"),
+    make("span", {}, "Proved by re-simulation"),
+    ...shown.map(([property, meaning]) => make("span", { class: "proof-tag", title: meaning }, property)),
+  );
 }
 
 /** @param {import("../protocol.js").Option[]} alternatives */

@@ -1,0 +1,82 @@
+"""The real service and a real Chromium; every visit must end without an error behind the scenes.
+
+All of it lives as long as one test module and no longer: Playwright's event loop must be gone
+before asynchronous tests of other modules run in the same process.
+"""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from playwright.sync_api import Browser, sync_playwright
+
+from tests.browser.service_process import ServiceProcess
+from tests.browser.visitor import Visitor
+
+# Nothing of a browser's own is wanted on the network; the rest is for running as root without a screen.
+QUIET = [
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
+
+Visit = Callable[..., Visitor]
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """One at a time, in one worker: they count frames, and share a machine."""
+    here = Path(__file__).parent
+    for item in items:
+        if here in item.path.parents:
+            item.add_marker(pytest.mark.browser)
+            item.add_marker(pytest.mark.xdist_group("browser"))
+
+
+@pytest.fixture(scope="module")
+def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ServiceProcess]:
+    process = ServiceProcess(tmp_path_factory.mktemp("service") / "roadtalk.db")
+    process.start()
+    yield process
+    process.kill()
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    """The system's Chromium, else the one that `playwright install chromium` brings."""
+    found = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    with sync_playwright() as playwright:
+        running = playwright.chromium.launch(executable_path=found, args=QUIET)
+        yield running
+        running.close()
+
+
+@pytest.fixture
+def visit(service: ServiceProcess, browser: Browser) -> Iterator[Visit]:
+    """Opens pages; at the end none may have logged an error, broken the policy or asked a stranger."""
+    visitors: list[Visitor] = []
+
+    def open_page(path: str = "/", *, live: bool = True, **context: Any) -> Visitor:
+        visitor = Visitor(browser, service.url, **context)
+        visitors.append(visitor)
+        if live:
+            return visitor.open(path)
+        visitor.page.goto(service.url + path)
+        return visitor
+
+    yield open_page
+    problems = [
+        line
+        for visitor in visitors
+        for line in (*visitor.console, *visitor.violations(), *visitor.strangers())
+    ]
+    for visitor in visitors:
+        visitor.close()
+    assert problems == []

@@ -1,0 +1,69 @@
+"""Losing the service, finding no session, losing the session."""
+
+from __future__ import annotations
+
+import re
+
+from playwright.sync_api import expect
+
+from tests.browser.conftest import Visit
+from tests.browser.service_process import ServiceProcess
+
+
+def test_a_killed_service_leaves_a_stale_page_that_comes_back(service: ServiceProcess, visit: Visit) -> None:
+    visitor = visit()
+    session = visitor.session
+    visitor.say("add five potholes")
+    potholes = visitor.script.count("pothole")
+    badge = visitor.page.locator("#connection")
+    service.kill()
+    expect(badge).to_have_attribute("data-phase", "lost")
+    expect(badge).to_contain_text(re.compile(r"Stale since tick \d+"))
+    expect(visitor.page.locator("body")).to_have_class(re.compile("stale"))
+    exchange = visitor.say("add three potholes")
+    expect(exchange).to_contain_text("not sent")
+    service.start()
+    visitor.wait_live()
+    assert visitor.session == session
+    expect(visitor.page.locator("body")).not_to_have_class(re.compile("stale"))
+    assert visitor.script.count("pothole") == potholes
+    tick = visitor.tick()
+    expect(visitor.page.locator("[data-figure=tick] .figure-value")).not_to_have_text(str(tick))
+    visitor.words.press("ArrowUp")
+    expect(visitor.words).to_have_value("add three potholes")
+    visitor.words.press("Enter")
+    visitor.last_exchange("add three potholes")
+    assert visitor.script.count("pothole") == potholes + 3
+    # What a browser itself says about a refused connection is no fault of the page's.
+    visitor.console = [line for line in visitor.console if "ERR_CONNECTION_REFUSED" not in line]
+
+
+def test_an_unknown_session_is_said_and_a_new_one_offered(visit: Visit) -> None:
+    visitor = visit("/#/s/no-such-session", live=False)
+    over = visitor.page.locator(".verdict")
+    expect(over).to_contain_text("no session at this address")
+    visitor.page.get_by_role("button", name="Start a new session").click()
+    visitor.wait_live()
+    assert visitor.session != "no-such-session"
+    expect(over).to_be_hidden()
+    visitor.console = [line for line in visitor.console if "404" not in line]
+
+
+def test_a_deleted_session_is_said(visit: Visit) -> None:
+    visitor = visit()
+    visitor.script.delete()
+    expect(visitor.page.locator(".verdict")).to_contain_text("deleted")
+    expect(visitor.page.locator("#connection")).to_have_text("Ended")
+
+
+def test_a_link_leads_to_the_same_road_and_new_session_to_another(visit: Visit) -> None:
+    first = visit()
+    first.pause()
+    second = visit(f"/#/s/{first.session}")
+    assert second.session == first.session
+    expect(second.page.locator(".paused")).to_be_visible()
+    old = second.session
+    second.page.get_by_role("button", name="New session").click()
+    expect(second.page).not_to_have_url(re.compile(old))
+    second.wait_live()
+    expect(second.page.locator(".paused")).to_be_hidden()

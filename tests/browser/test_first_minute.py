@@ -1,0 +1,139 @@
+"""A newcomer's first minute: watch, change the road, ask why, start a new road, be refused."""
+
+from __future__ import annotations
+
+import re
+
+from playwright.sync_api import expect
+
+from tests.browser.conftest import Visit
+from tests.browser.visitor import Visitor
+
+LEAST_FRAMES_PER_S = 30
+"""Half of a screen's rate, as other work shares the machine; an idle one shows 60."""
+
+
+def blocked_ahead(visitor: Visitor) -> str:
+    """Stop, put a barrier in front of the vehicle, and let it decide once; the barrier's id."""
+    visitor.script.act({"do": "pause"}, {"do": "reset"})
+    column, row = visitor.script.state()["vehicles"][0]["cell"]
+    visitor.script.act(
+        {"do": "remove", "kind": "everything", "count": "all"},
+        {"do": "add", "kind": "barrier", "count": 1, "where": {"cell": [column, row - 1]}},
+        {"do": "step", "ticks": 1},
+    )
+    (barrier,) = visitor.script.state()["hazards"]
+    return str(barrier["id"])
+
+
+def test_the_road_is_already_moving(visit: Visit) -> None:
+    visitor = visit()
+    assert visitor.session
+    before = visitor.tick()
+    seen = visitor.watch(2)
+    rate = seen["frames"] / seen["seconds"]
+    changed = len(set(seen["pictures"])) / len(seen["pictures"])
+    print(f"{rate:.1f} frames a second, {changed:.0%} of them different")
+    assert rate >= LEAST_FRAMES_PER_S
+    assert changed >= 0.5
+    assert visitor.tick() >= before + 3
+
+
+def test_adding_five_potholes(visit: Visit) -> None:
+    visitor = visit()
+    exchange = visitor.say("add five potholes")
+    change = exchange.locator(".change").filter(has_text="potholes")
+    before, after = (int(number) for number in re.findall(r"\d+", change.inner_text()))
+    assert after == before + 5
+    assert re.search(r"potholes \d+ → \d+", change.inner_text())
+    assert exchange.locator(".reply").inner_text() != ""
+    assert visitor.script.count("pothole") == after
+    assert f"{after} potholes" in visitor.description()
+    expect(visitor.page.locator(".log-line[data-tone=change]")).to_contain_text("add five potholes")
+
+
+def test_what_is_added_is_seen(visit: Visit) -> None:
+    visitor = visit()
+    visitor.script.act({"do": "pause"}, {"do": "reset"})
+    visitor.script.act({"do": "remove", "kind": "everything", "count": "all"})
+    expect(visitor.page.locator(".road-canvas")).to_have_attribute("aria-label", re.compile("nothing on it"))
+    settled = visitor.watch(1.5)["pictures"][-1]
+    assert visitor.picture() == settled, "a paused, settled road stands still"
+    column, row = visitor.script.state()["vehicles"][0]["cell"]
+    visitor.script.act({"do": "add", "kind": "pothole", "count": 1, "where": {"cell": [column, row - 3]}})
+    expect(visitor.page.locator(".road-canvas")).to_have_attribute("aria-label", re.compile("1 pothole"))
+    assert visitor.watch(1)["pictures"][-1] != settled
+
+
+def test_asking_why(visit: Visit) -> None:
+    visitor = visit()
+    barrier = blocked_ahead(visitor)
+    expect(visitor.page.locator(".paused")).to_be_visible()
+    answer = visitor.say("why did you do that?").locator(".answer")
+    text = answer.locator(".reply").inner_text()
+    assert re.search(r"moved left|moved right", text), text
+    assert barrier in text
+    assert re.search(rf"without {barrier}.*go forward", text)
+    expect(answer.locator(".proof")).to_contain_text("Proved by re-simulation")
+    expect(answer.locator(".proof")).to_contain_text("necessary")
+    expect(answer.locator(".proof")).to_contain_text("sufficient")
+    expect(answer.locator(".cause")).to_contain_text(barrier)
+    assert answer.locator(".alternatives li").count() == 5
+
+
+def test_pointing_at_a_cause_shows_it_on_the_road(visit: Visit) -> None:
+    visitor = visit()
+    blocked_ahead(visitor)
+    cause = visitor.say("why did you do that?").locator(".cause").first
+    visitor.page.mouse.move(2, 2)
+    plain = visitor.watch(1.5)["pictures"][-1]
+    cause.hover()
+    assert visitor.watch(0.1)["pictures"][-1] != plain
+    visitor.page.mouse.move(2, 2)
+    assert visitor.watch(0.1)["pictures"][-1] == plain
+    cause.focus()
+    assert visitor.watch(0.1)["pictures"][-1] != plain
+
+
+def test_simulating_a_highway(visit: Visit) -> None:
+    visitor = visit()
+    episode = visitor.script.state()["episode"]
+    exchange = visitor.say("simulate a highway with 10 potholes and 2 obstacles")
+    assert exchange.get_attribute("data-standing") == "done"
+    assert "highway" in exchange.locator(".reply").inner_text()
+    state = visitor.script.state()
+    assert state["episode"] == episode + 1
+    assert visitor.script.count("pothole") == 10
+    assert visitor.script.count("vehicle") == 2
+    description = visitor.description()
+    assert "10 potholes" in description
+    assert "2 vehicles" in description
+
+
+def test_what_is_not_understood_changes_nothing(visit: Visit) -> None:
+    visitor = visit()
+    visitor.pause()
+    before = visitor.script.state()
+    exchange = visitor.say("add five potholes and order pizza")
+    assert exchange.get_attribute("data-standing") == "refused"
+    assert visitor.script.state() == before
+    marked = " ".join(exchange.locator("mark").all_inner_texts())
+    assert "pizza" in marked
+    assert "potholes" not in marked
+    assert "pizza" in exchange.locator(".reply").inner_text()
+    offers = exchange.locator(".offer")
+    assert offers.count() >= 1
+    suggestion = offers.first.inner_text()
+    offers.first.click()
+    taken = visitor.last_exchange(suggestion)
+    assert taken.get_attribute("data-standing") == "done"
+
+
+def test_the_examples_of_a_first_visit_work(visit: Visit) -> None:
+    visitor = visit()
+    examples = visitor.page.locator(".example")
+    assert examples.count() == 3
+    text = examples.first.locator(".example-text").inner_text()
+    examples.first.click()
+    assert visitor.last_exchange(text).get_attribute("data-standing") == "done"
+    expect(visitor.page.locator(".welcome")).to_have_count(0)

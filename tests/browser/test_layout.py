@@ -1,0 +1,140 @@
+"""On a wide screen and a narrow one, in light and dark: readable, reachable, light, still when asked."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.browser.conftest import Visit
+from tests.browser.visitor import Visitor
+
+WIDE = {"width": 1440, "height": 900}
+NARROW = {"width": 360, "height": 740}
+
+FAINT_TEXT = """
+() => {
+  const parse = (colour) => {
+    const [r, g, b, a = 1] = colour.match(/[\\d.]+/g).map(Number);
+    return colour.startsWith("color(srgb") ? [r * 255, g * 255, b * 255, a] : [r, g, b, a];
+  };
+  const over = ([r, g, b, a], [x, y, z]) => [r * a + x * (1 - a), g * a + y * (1 - a), b * a + z * (1 - a)];
+  const light = (c) => c.map((v) => v / 255).map((v) => (v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4));
+  const luminance = (c) => { const [r, g, b] = light(c); return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
+  const ground = (element) => {
+    if (!element) return [255, 255, 255];
+    const colour = parse(getComputedStyle(element).backgroundColor);
+    return colour[3] === 1 ? colour.slice(0, 3) : over(colour, ground(element.parentElement));
+  };
+  const faint = [];
+  const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  for (let node = walker.nextNode(); node; node = walker.nextNode()) {
+    const element = node.parentElement;
+    if (!node.data.trim() || !element.checkVisibility() || element.closest(".unseen, .verdict, .paused, :disabled")) continue;
+    const style = getComputedStyle(element);
+    const below = ground(element);
+    const a = luminance(over(parse(style.color), below)), b = luminance(below);
+    const ratio = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
+    if (ratio < 4.5) faint.push(`${node.data.trim().slice(0, 30)}: ${ratio.toFixed(2)}`);
+  }
+  return faint;
+}
+"""
+
+SMALL_TARGETS = """
+() => [...document.querySelectorAll("header button, .controls button, .command button, .command input, .example, .offer")]
+  .filter((element) => element.checkVisibility())
+  .map((element) => [element.textContent || element.id, element.getBoundingClientRect()])
+  .filter(([, box]) => box.width < 44 || box.height < 44)
+  .map(([name, box]) => `${name}: ${box.width} × ${box.height}`)
+"""
+
+
+def talkative(visitor: Visitor) -> None:
+    """Have one of each kind of exchange on the page."""
+    visitor.say("add five potholse")
+    visitor.say("why did you do that?")
+    visitor.say("add five potholes and order pizza")
+
+
+@pytest.mark.parametrize("viewport", [WIDE, NARROW], ids=["wide", "narrow"])
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_text_can_be_read_and_targets_hit(visit: Visit, viewport: dict[str, int], scheme: str) -> None:
+    visitor = visit(viewport=viewport, color_scheme=scheme)
+    assert visitor.page.evaluate(SMALL_TARGETS) == []
+    assert visitor.page.evaluate(FAINT_TEXT) == []
+    talkative(visitor)
+    visitor.page.wait_for_function("document.getAnimations().every((one) => one.playState !== 'running')")
+    assert visitor.page.evaluate(FAINT_TEXT) == []
+    assert visitor.page.evaluate(SMALL_TARGETS) == []
+
+
+@pytest.mark.parametrize("width", [320, 360, 768, 1024, 1440])
+def test_nothing_sticks_out_sideways(visit: Visit, width: int) -> None:
+    visitor = visit(viewport={"width": width, "height": 800})
+    talkative(visitor)
+    assert visitor.page.evaluate("document.documentElement.scrollWidth") <= width
+    box = visitor.page.locator(".road-canvas").bounding_box()
+    assert box is not None
+    assert box["width"] >= min(width, 768) * 0.5
+
+
+def test_on_a_phone_road_reply_and_box_are_seen_together(visit: Visit) -> None:
+    visitor = visit(viewport=NARROW)
+    exchange = visitor.say("add five potholes")
+    for part in (visitor.page.locator(".road-canvas"), exchange.locator(".change").first, visitor.words):
+        expect(part).to_be_in_viewport(ratio=0.9)
+
+
+def test_the_page_is_light_and_comes_from_one_place(visit: Visit) -> None:
+    visitor = visit()
+    weights: list[dict[str, Any]] = visitor.page.evaluate(
+        """() => performance.getEntriesByType("resource").concat(performance.getEntriesByType("navigation"))
+             .filter((entry) => !entry.name.includes("/api/"))
+             .map((entry) => ({ name: entry.name, size: entry.decodedBodySize }))"""
+    )
+    total = sum(weight["size"] for weight in weights)
+    print(f"{len(weights)} files, {total} bytes")
+    assert len(weights) > 20
+    assert 0 < total <= 150_000
+    assert all(weight["name"].startswith(visitor.url) for weight in weights)
+
+
+def test_the_policy_allows_nothing_inline_and_nothing_foreign(visit: Visit) -> None:
+    visitor = visit()
+    policy = visitor.page.request.get(visitor.url).headers["content-security-policy"]
+    assert "default-src 'self'" in policy
+    assert "unsafe" not in policy
+    refused: list[str] = visitor.page.evaluate(
+        """async () => {
+          const script = document.createElement("script");
+          script.textContent = "window.ran = true";
+          document.head.append(script);
+          await new Promise((done) => setTimeout(done));
+          const found = [...window.policyViolations, String(window.ran)];
+          window.policyViolations = [];
+          return found;
+        }"""
+    )
+    assert len(refused) == 2
+    assert refused[0].startswith("script-src")
+    assert refused[1] == "undefined"
+    visitor.console.clear()
+
+
+def test_little_motion_means_cuts_from_tick_to_tick(visit: Visit) -> None:
+    gliding = visit().watch(2)
+    still = visit(reduced_motion="reduce").watch(2)
+    assert len(set(still["pictures"])) <= 8
+    assert len(set(gliding["pictures"])) > 3 * len(set(still["pictures"]))
+
+
+def test_the_road_changes_with_the_colours_of_the_system(visit: Visit) -> None:
+    visitor = visit(color_scheme="light")
+    visitor.pause()
+    light = visitor.watch(1.5)["pictures"][-1]
+    visitor.page.emulate_media(color_scheme="dark")
+    assert visitor.watch(0.5)["pictures"][-1] != light
+    visitor.page.emulate_media(color_scheme="light")
+    assert visitor.watch(0.5)["pictures"][-1] == light

@@ -1,0 +1,144 @@
+"""A person at the page: what they see, say and press, and what goes wrong behind their back."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from playwright.sync_api import Browser, ConsoleMessage, Locator, Page, Request, expect
+
+from tests.browser.service_process import Script
+
+WATCH_POLICY = """
+window.policyViolations = [];
+document.addEventListener("securitypolicyviolation", (event) =>
+  window.policyViolations.push(`${event.violatedDirective} ${event.blockedURI}`));
+"""
+
+WATCH_PICTURES = """
+(durationMs) => new Promise((done) => {
+  const road = document.querySelector(".road-canvas");
+  const small = new OffscreenCanvas(90, 90);
+  const pen = small.getContext("2d", { willReadFrequently: true });
+  const pictures = [];
+  let began = null;
+  function frame(now) {
+    began ??= now;
+    pen.drawImage(road, 0, 0, 90, 90);
+    const data = pen.getImageData(0, 0, 90, 90).data;
+    let hash = 0;
+    for (const value of data) hash = (Math.imul(hash, 31) + value) | 0;
+    pictures.push(hash);
+    if (now - began < durationMs) requestAnimationFrame(frame);
+    else done({ frames: pictures.length - 1, seconds: (now - began) / 1000, pictures });
+  }
+  requestAnimationFrame(frame);
+})
+"""
+
+
+class Visitor:
+    """One page in a browser of its own, with everything suspicious noted down."""
+
+    def __init__(self, browser: Browser, url: str, **context: Any) -> None:
+        self.url = url
+        self._context = browser.new_context(**{"viewport": {"width": 1440, "height": 900}, **context})
+        self._context.add_init_script(WATCH_POLICY)
+        self.page: Page = self._context.new_page()
+        self.page.set_default_timeout(10_000)
+        self.console: list[str] = []
+        self.requests: list[str] = []
+        self.page.on("console", self._note)
+        self.page.on("pageerror", lambda error: self.console.append(f"uncaught: {error}"))
+        self.page.on("request", self._request)
+        self.page.on("websocket", lambda socket: self.requests.append(socket.url))
+        self._script: Script | None = None
+
+    def _note(self, message: ConsoleMessage) -> None:
+        if message.type in {"error", "warning"}:
+            self.console.append(f"{message.type}: {message.text}")
+
+    def _request(self, request: Request) -> None:
+        self.requests.append(request.url)
+
+    def open(self, path: str = "/") -> Visitor:
+        """Go there and wait until the road is live."""
+        self.page.goto(self.url + path)
+        self.wait_live()
+        return self
+
+    def wait_live(self) -> None:
+        """Until the stream has said hello."""
+        expect(self.page.locator("#connection")).to_have_attribute("data-phase", "live", timeout=20_000)
+
+    @property
+    def session(self) -> str:
+        """The id that the address names."""
+        match = re.search(r"#/s/(.+)$", self.page.url)
+        assert match, self.page.url
+        return match[1]
+
+    @property
+    def script(self) -> Script:
+        """The same session through the interface for scripts."""
+        if self._script is None:
+            self._script = Script(self.url, self.session)
+        return self._script
+
+    @property
+    def words(self) -> Locator:
+        """The command box."""
+        return self.page.locator("#words")
+
+    def say(self, text: str) -> Locator:
+        """Type and send; the exchange, once it is settled."""
+        self.words.fill(text)
+        self.words.press("Enter")
+        return self.last_exchange(text)
+
+    def last_exchange(self, text: str | None = None) -> Locator:
+        """The newest exchange, once it is settled."""
+        last = self.page.locator(".exchange").last
+        if text is not None:
+            expect(last.locator(".said")).to_have_text(text)
+        expect(last).not_to_have_attribute("data-standing", "pending")
+        return last
+
+    def pause(self) -> None:
+        """Stop the clock and see that it stands."""
+        self.script.act({"do": "pause"})
+        expect(self.page.locator(".paused")).to_be_visible()
+
+    def watch(self, seconds: float) -> dict[str, Any]:
+        """The road's picture in every animation frame for a while, each as a number."""
+        seen: dict[str, Any] = self.page.evaluate(WATCH_PICTURES, seconds * 1000)
+        return seen
+
+    def picture(self) -> int:
+        """The road's picture as a number."""
+        number: int = self.watch(0.02)["pictures"][-1]
+        return number
+
+    def tick(self) -> int:
+        """The tick that the page shows."""
+        return int(self.page.locator("[data-figure=tick] .figure-value").inner_text())
+
+    def description(self) -> str:
+        """The road in words, for those who do not see it."""
+        return self.page.locator(".road-canvas").get_attribute("aria-label") or ""
+
+    def violations(self) -> list[str]:
+        """What the content security policy has stopped."""
+        found: list[str] = self.page.evaluate("window.policyViolations")
+        return found
+
+    def strangers(self) -> list[str]:
+        """Requests that went anywhere but to the service."""
+        home = self.url.split("://")[1]
+        return [url for url in self.requests if not re.match(rf"(http|ws)://{re.escape(home)}(/|$)", url)]
+
+    def close(self) -> None:
+        """Leave."""
+        if self._script is not None:
+            self._script.close()
+        self._context.close()

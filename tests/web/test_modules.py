@@ -1,0 +1,44 @@
+"""The page's modules, by their own unit tests under Node; the page itself needs no Node.
+
+Where Node is not installed this says so and leaves the modules to the browser tests.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+HERE = Path(__file__).parent
+ROOT = HERE.parents[1]
+
+
+def test_the_modules_pass_their_unit_tests() -> None:
+    node = shutil.which("node")
+    if node is None:
+        print("Node is not installed: the modules' unit tests were not run.")
+        return
+    files = sorted(str(path) for path in HERE.glob("*.test.mjs"))
+    run = subprocess.run(
+        [node, "--test", *files],
+        cwd=ROOT,
+        env={**os.environ, "NO_COLOR": "1"},
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
+    assert len(files) >= 8
+    assert run.returncode == 0, run.stdout[-6000:] + run.stderr[-2000:]
+
+
+def test_the_page_weighs_little_and_every_module_is_checked() -> None:
+    web = ROOT / "web"
+    parts = [path for path in web.rglob("*") if path.suffix in {".html", ".css", ".js", ".svg"}]
+    assert sum(path.stat().st_size for path in parts) <= 150_000
+    for path in parts:
+        if path.suffix == ".js":
+            source = path.read_text(encoding="utf-8")
+            assert source.startswith("// @ts-check\n/**"), f"{path}: not type-checked, or without its purpose"
+            assert len(source.splitlines()) < 300, f"{path} is too long"
