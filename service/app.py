@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
+from functools import partial
 
 from fastapi import FastAPI
 from fastapi.routing import APIRoute
@@ -73,10 +74,10 @@ def create_app(
         docs_url=None,
         redoc_url=None,
         redirect_slashes=False,
-        max_body_size=settings.max_body_bytes,
         generate_unique_id_function=_operation_id,
     )
     app.state.context = context
+    app.add_middleware(edges.BodyLimit, most=partial(_body_bytes, settings))
     app.add_middleware(edges.SecurityHeaders)
     errors.install(app)
     for resource in (sessions, commands, watching, frames, parse, stream):
@@ -89,3 +90,8 @@ def create_app(
 def _operation_id(route: APIRoute) -> str:
     """Names for generated clients: `sessions_make`, `talking_say`."""
     return f"{route.tags[0]}_{route.name}"
+
+
+def _body_bytes(settings: Settings, path: str) -> int:
+    """How large a body may be: a new session may come with a recording."""
+    return settings.max_recording_bytes if path == f"{PREFIX}/sessions" else settings.max_body_bytes

@@ -9,6 +9,7 @@ import structlog
 from fastapi import FastAPI, Request, Response
 from fastapi.exceptions import RequestValidationError
 from starlette.exceptions import HTTPException
+from starlette.routing import Match
 
 from service.api.examples import problem_example
 from service.api.respond import problem_response
@@ -99,11 +100,44 @@ def _path(detail: Any, sent: Any) -> str:
     return ".".join(kept)
 
 
+_MESSAGES = {
+    "extra_forbidden": "is not a known key",
+    "missing": "is missing",
+    "union_tag_not_found": "has no `do`",
+    "union_tag_invalid": "has a {discriminator} that is not known; it can be {expected_tags}",
+    "greater_than": "must be more than {gt}",
+    "greater_than_equal": "must be at least {ge}",
+    "less_than": "must be less than {lt}",
+    "less_than_equal": "must be at most {le}",
+    "int_type": "must be a whole number",
+    "int_parsing": "must be a whole number",
+    "int_from_float": "must be a whole number",
+    "float_type": "must be a number",
+    "float_parsing": "must be a number",
+    "finite_number": "must be a finite number",
+    "bool_type": "must be true or false",
+    "bool_parsing": "must be true or false",
+    "string_type": "must be text",
+    "string_too_short": "must have at least {min_length} characters",
+    "string_too_long": "must have at most {max_length} characters",
+    "too_short": "must have at least {min_length} items",
+    "too_long": "must have at most {max_length} items",
+    "literal_error": "must be {expected}",
+    "enum": "must be {expected}",
+    "list_type": "must be a list",
+    "tuple_type": "must be a list",
+    "dict_type": "must be an object",
+    "dataclass_type": "must be an object",
+    "model_attributes_type": "must be an object",
+    "model_type": "must be an object",
+}
+"""pydantic's errors in this project's words; the rest keep pydantic's."""
+
+
 def _message(detail: Any) -> str:
-    if detail["type"] == "extra_forbidden":
-        return "is not a known key"
-    if detail["type"] == "missing":
-        return "is missing"
+    ours = _MESSAGES.get(detail["type"])
+    if ours is not None:
+        return ours.format(**detail.get("ctx", {}))
     message = str(detail["msg"])
     return message[:1].lower() + message[1:]
 
@@ -119,10 +153,22 @@ def _http(request: Request, error: HTTPException) -> ProblemError:
     where = f"{request.method} {request.url.path}"
     match error.status_code:
         case 405:
-            return WrongMethod(f"{where} is not offered.", headers=error.headers)
+            offered = _methods_of(request)
+            can = f"{where} is not offered; here one can {' or '.join(offered)}."
+            return WrongMethod(can, headers={"Allow": ", ".join(offered)})
         case 413:
             return TooLarge("The body is larger than is read here.", headers={"Connection": "close"})
         case 400:
             return Malformed("The body cannot be read.")
         case _:
             return NotFound(f"There is nothing at {where}. The calls there are stand at /docs.")
+
+
+def _methods_of(request: Request) -> list[str]:
+    """Every method that some route offers at this path; the router itself tells only of the first."""
+    offered: set[str] = set()
+    for method in ("DELETE", "GET", "PATCH", "POST", "PUT"):
+        scope = {**request.scope, "method": method}
+        if any(route.matches(scope)[0] is Match.FULL for route in request.app.router.routes):
+            offered.add(method)
+    return sorted(offered)

@@ -76,6 +76,7 @@ class SessionManager:
                 name=name,
                 created_at=datetime.now(UTC),
                 config=asdict(config),
+                paused=paused and recorded is None,
                 tick=recorded.tick if recorded else 0,
             )
             session = Session(record, Timeline(config), self._around)

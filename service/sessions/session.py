@@ -98,7 +98,7 @@ class Session:
     def __init__(self, record: SessionRecord, timeline: Timeline, around: Surroundings) -> None:
         self.record = record
         self.timeline = timeline
-        self.paused = True
+        self.paused = record.paused
         self.sequence = 0
         self.history = History()
         self.log = Log(around.settings.log_events)

@@ -20,14 +20,15 @@ class StoreError(Exception):
 class SessionRecord:
     """How a session began, and how far its clock is known to have run.
 
-    `number` orders sessions by age and is given by the store; `config` is JSON values.
-    `tick` is where the clock stood when last written: at creation or at a graceful stop.
+    `number` orders sessions by age and is given by the store; `config` is JSON values; `paused` is
+    how the session began. `tick` is where the clock stood when last written: at creation or at a graceful stop.
     """
 
     id: str
     name: str | None
     created_at: datetime
     config: Mapping[str, Any]
+    paused: bool = False
     tick: int = 0
     number: int = 0
 

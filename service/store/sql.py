@@ -12,13 +12,16 @@ waited for once for all of them, and none is acknowledged before its own commit.
 from __future__ import annotations
 
 import asyncio
+import sqlite3
 from collections.abc import AsyncIterator, Mapping, Sequence
 from contextlib import asynccontextmanager
 from datetime import UTC, datetime
 from typing import Any
 
+from anyio import to_thread
 from sqlalchemy import (
     JSON,
+    Boolean,
     Column,
     DateTime,
     ForeignKey,
@@ -52,6 +55,7 @@ SESSIONS = Table(
     Column("name", String(80)),
     Column("created_at", DateTime, nullable=False, comment="UTC"),
     Column("config", JSON, nullable=False),
+    Column("paused", Boolean, nullable=False, comment="how it began"),
     Column("tick", Integer, nullable=False),
     sqlite_autoincrement=True,
 )
@@ -66,8 +70,11 @@ ENTRIES = Table(
     Column("actions", JSON, nullable=False),
 )
 
+_BUSY_S = 1.0
+"""How long a file that another process holds is waited for."""
+
 _PRAGMAS = (
-    "PRAGMA busy_timeout=1000",
+    f"PRAGMA busy_timeout={_BUSY_S * 1000:.0f}",
     "PRAGMA locking_mode=EXCLUSIVE",
     "PRAGMA journal_mode=WAL",
     "PRAGMA synchronous=FULL",
@@ -90,6 +97,11 @@ class SqlStore:
         """Open the file, making it and its tables if need be. Raises `StoreError`."""
         if self._engine is not None:
             return
+        path = self._url.database or ""
+        try:
+            await to_thread.run_sync(_check, path)
+        except (sqlite3.Error, OSError) as error:
+            raise StoreError(f"The database {path} cannot be opened: {error}") from error
         # One connection and no overflow: callers queue for it, so writes never meet.
         engine = create_async_engine(
             self._url, poolclass=AsyncAdaptedQueuePool, pool_size=1, max_overflow=0, pool_timeout=30
@@ -100,9 +112,7 @@ class SqlStore:
                 await connection.run_sync(METADATA.create_all)
         except (SQLAlchemyError, OSError) as error:
             await engine.dispose()
-            raise StoreError(
-                f"The database {self._url.database} cannot be opened: {_reason(error)}"
-            ) from error
+            raise StoreError(f"The database {path} cannot be opened: {_reason(error)}") from error
         self._engine = engine
 
     async def close(self) -> None:
@@ -120,6 +130,7 @@ class SqlStore:
             "name": record.name,
             "created_at": record.created_at.astimezone(UTC).replace(tzinfo=None),
             "config": dict(record.config),
+            "paused": record.paused,
             "tick": record.tick,
         }
         async with self._transaction() as connection:
@@ -217,6 +228,18 @@ class SqlStore:
             raise StoreError(_reason(error)) from error
 
 
+def _check(path: str) -> None:
+    """Raise `sqlite3.Error` where the file cannot be used, by a plain connection.
+
+    The asynchronous driver leaves its thread behind when a connection cannot be made.
+    """
+    connection = sqlite3.connect(path, timeout=_BUSY_S)
+    try:
+        connection.execute("PRAGMA schema_version").fetchone()
+    finally:
+        connection.close()
+
+
 def _prepare(connection: Any, _record: Any) -> None:
     cursor = connection.cursor()
     for pragma in _PRAGMAS:
@@ -234,6 +257,7 @@ def _session(row: Row[Any]) -> SessionRecord:
         name=row.name,
         created_at=_utc(row.created_at),
         config=row.config,
+        paused=row.paused,
         tick=row.tick,
         number=row.number,
     )

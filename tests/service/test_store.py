@@ -1,0 +1,200 @@
+"""One suite for every store, then what only the file can show."""
+
+from __future__ import annotations
+
+import asyncio
+import sqlite3
+import subprocess
+import sys
+from collections.abc import AsyncIterator
+from dataclasses import replace
+from datetime import UTC, datetime
+from pathlib import Path
+
+import pytest
+
+from service.store import EntryRecord, MemoryStore, SessionRecord, SqlStore, Store, StoreError, open_store
+
+MOMENT = datetime(2026, 3, 29, 1, 30, 15, 250_000, tzinfo=UTC)
+
+
+def record(name: str, **more: object) -> SessionRecord:
+    return replace(
+        SessionRecord(
+            id=name, name=f"road {name}", created_at=MOMENT, config={"seed": 2**53 - 1, "road": None}
+        ),
+        **more,
+    )
+
+
+def entry(sequence: int, tick: int = 3) -> EntryRecord:
+    actions = [{"do": "add", "kind": "pothole", "count": 2, "where": {"cell": [1, 2]}}]
+    return EntryRecord(sequence=sequence, tick=tick, text="zwei Schlaglöcher ✓", actions=actions)
+
+
+@pytest.fixture(params=["memory", "sqlite"])
+async def store(request: pytest.FixtureRequest, tmp_path: Path) -> AsyncIterator[Store]:
+    opened = MemoryStore() if request.param == "memory" else SqlStore(f"sqlite:///{tmp_path}/roads.db")
+    await opened.open()
+    yield opened
+    await opened.close()
+
+
+async def test_what_was_kept_comes_back_the_same(store: Store) -> None:
+    kept = await store.create(record("a"), [entry(1)])
+    await store.append("a", entry(2, tick=9))
+
+    assert await store.get("a") == kept
+    assert (kept.created_at, kept.config, kept.tick) == (MOMENT, {"seed": 2**53 - 1, "road": None}, 0)
+    assert list(await store.entries("a")) == [entry(1), entry(2, tick=9)]
+
+
+async def test_it_outlives_closing(store: Store) -> None:
+    await store.create(record("a"))
+    await store.append("a", entry(1))
+    await store.close()
+    await store.close()
+    await store.open()
+    await store.open()
+
+    assert list(await store.entries("a")) == [entry(1)]
+
+
+async def test_pages_go_from_the_newest_back(store: Store) -> None:
+    numbers = [(await store.create(record(name))).number for name in "abcde"]
+
+    assert numbers == sorted(set(numbers))
+    assert [found.id for found in await store.newest(2)] == ["e", "d"]
+    assert [found.id for found in await store.newest(9, before=numbers[3])] == ["c", "b", "a"]
+    assert list(await store.newest(9, before=numbers[0])) == []
+
+
+async def test_a_sequence_is_taken_once(store: Store) -> None:
+    await store.create(record("a"))
+    await store.append("a", entry(1))
+
+    with pytest.raises(StoreError):
+        await store.append("a", replace(entry(1), text="another"))
+    assert list(await store.entries("a")) == [entry(1)]
+
+
+async def test_unknown_sessions_hold_nothing(store: Store) -> None:
+    with pytest.raises(StoreError):
+        await store.append("nobody", entry(1))
+    await store.save_ticks({"nobody": 5})
+    assert await store.get("nobody") is None
+    assert list(await store.entries("nobody")) == []
+    assert await store.delete("nobody") is False
+
+
+async def test_a_session_is_made_once(store: Store) -> None:
+    await store.create(record("a"))
+    with pytest.raises(StoreError):
+        await store.create(record("a"), [entry(1)])
+    assert list(await store.entries("a")) == []
+
+
+async def test_deleting_forgets_the_changes_too(store: Store) -> None:
+    await store.create(record("a"), [entry(1)])
+    assert await store.delete("a") is True
+    assert await store.get("a") is None
+    await store.create(record("a"))
+    assert list(await store.entries("a")) == []
+
+
+async def test_numbers_are_never_given_twice(store: Store) -> None:
+    first = await store.create(record("a"))
+    await store.delete("a")
+    assert (await store.create(record("b"))).number > first.number
+
+
+async def test_ticks_are_remembered(store: Store) -> None:
+    for name in "ab":
+        await store.create(record(name))
+    await store.save_ticks({"a": 41, "b": 7})
+    found = {each.id: each.tick for each in await store.newest(5)}
+    assert found == {"a": 41, "b": 7}
+
+
+async def test_many_at_once_each_get_their_own_answer(store: Store) -> None:
+    """A bad entry among good ones written together fails alone."""
+    await store.create(record("a"))
+    await store.append("a", entry(5))
+
+    outcomes = await asyncio.gather(
+        *(store.append("a", entry(sequence)) for sequence in range(1, 11)), return_exceptions=True
+    )
+
+    failed = [
+        sequence for sequence, outcome in enumerate(outcomes, start=1) if isinstance(outcome, StoreError)
+    ]
+    assert failed == [5]
+    assert [kept.sequence for kept in await store.entries("a")] == list(range(1, 11))
+
+
+async def test_the_file_waits_for_the_disk_and_keeps_one_connection(tmp_path: Path) -> None:
+    store = SqlStore(f"sqlite:///{tmp_path}/roads.db")
+    await store.open()
+    async with store._transaction() as connection:
+        pragmas = {
+            name: (await connection.exec_driver_sql(f"PRAGMA {name}")).scalar_one()
+            for name in ("journal_mode", "synchronous", "foreign_keys", "locking_mode")
+        }
+    await store.close()
+    assert pragmas == {
+        "journal_mode": "wal",
+        "synchronous": 2,
+        "foreign_keys": 1,
+        "locking_mode": "exclusive",
+    }
+
+
+async def test_a_second_process_is_refused(tmp_path: Path) -> None:
+    """Two services on one file would each believe they own its sessions."""
+    path = tmp_path / "roads.db"
+    store = SqlStore(f"sqlite:///{path}")
+    await store.open()
+    code = (
+        "import asyncio, sys; from service.store import SqlStore, StoreError\n"
+        "try: asyncio.run(SqlStore(sys.argv[1]).open())\n"
+        "except StoreError as error: print(error)"
+    )
+    process = await asyncio.create_subprocess_exec(
+        sys.executable, "-c", code, f"sqlite:///{path}", stdout=subprocess.PIPE
+    )
+    said, _ = await process.communicate()
+    await store.close()
+    assert b"cannot be opened" in said
+    assert b"locked" in said
+
+
+async def test_a_file_that_is_no_database_is_told(tmp_path: Path) -> None:
+    (tmp_path / "roads.db").write_bytes(b"this is not a database at all" * 100)
+    with pytest.raises(StoreError, match="cannot be opened"):
+        await SqlStore(f"sqlite:///{tmp_path}/roads.db").open()
+    with pytest.raises(StoreError, match="cannot be opened"):
+        await SqlStore(f"sqlite:///{tmp_path}/no/such/folder/roads.db").open()
+
+
+async def test_a_closed_store_says_so(tmp_path: Path) -> None:
+    with pytest.raises(StoreError, match="not open"):
+        await SqlStore(f"sqlite:///{tmp_path}/roads.db").get("a")
+
+
+def test_urls_name_stores() -> None:
+    assert isinstance(open_store("memory:"), MemoryStore)
+    assert isinstance(open_store("sqlite:///x.db"), SqlStore)
+    with pytest.raises(StoreError, match="mongodb"):
+        open_store("mongodb://here")
+
+
+async def test_the_file_is_plain_sqlite(tmp_path: Path) -> None:
+    """Anyone can look into it with any tool once the service has stopped."""
+    store = SqlStore(f"sqlite:///{tmp_path}/roads.db")
+    await store.open()
+    await store.create(record("a"), [entry(1)])
+    await store.close()
+    with sqlite3.connect(tmp_path / "roads.db") as connection:
+        assert connection.execute("SELECT id, tick FROM sessions").fetchall() == [("a", 0)]
+        assert connection.execute("SELECT sequence, tick FROM entries").fetchall() == [(1, 3)]
+    connection.close()
