@@ -187,9 +187,10 @@ class TooManySessions(ProblemError):
 class Internal(ProblemError):
     """A defect of the service; never says more than that."""
 
-    def __init__(self) -> None:
+    def __init__(self, headers: Mapping[str, str] | None = None) -> None:
         super().__init__(
-            "This is a defect of the service, not of your request. Nothing was changed; the log has the rest."
+            "This is a defect of the service, not of your request. Nothing was changed; the log has the rest.",
+            headers=headers,
         )
 
 

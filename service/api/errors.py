@@ -11,6 +11,7 @@ from fastapi.exceptions import RequestValidationError
 from starlette.exceptions import HTTPException
 from starlette.routing import Match
 
+from service.api.edges import SECURITY_HEADERS
 from service.api.examples import problem_example
 from service.api.respond import problem_response
 from service.api.schemas import ProblemDocument
@@ -53,7 +54,8 @@ def _respond(request: Request, error: Exception) -> Response:
             return problem_response(NotSaved())
         case _:
             _LOG.error("a request failed", path=request.url.path, exc_info=error)
-            return problem_response(Internal())
+            # Answered outside of every middleware, which therefore cannot add these.
+            return problem_response(Internal(headers=SECURITY_HEADERS))
 
 
 def documented(*kinds: type[ProblemError]) -> dict[int | str, dict[str, Any]]:
