@@ -18,7 +18,7 @@ from sim.kinds import PLACEABLE, Kind, Outcome
 from sim.place import PlaceError, nearest_first, place_for_adding, place_for_finding
 from sim.plan import planner_named
 from sim.randomness import Stream
-from sim.road import bits, board_of
+from sim.road import Board, bits, board_of
 from sim.run import Run, next_episode, reconfigured, restarted
 from sim.scenario import configured
 from sim.world import Thing, World
@@ -114,13 +114,8 @@ def _add(run: Run, action: Add) -> Applied:
         return _placed(run, action, kind, [cell])
     free = place.cells & ~world.occupied
     if free.bit_count() < action.count:
-        there = " there" if where else " between start and goal"
-        raise EditError(
-            "does-not-fit",
-            f"{_many(action.count, kind)} {_do(action.count)} not fit: "
-            f"{free.bit_count()} {'cell is' if free.bit_count() == 1 else 'cells are'} free{there}.",
-            "count",
-        )
+        there = " there" if where else ""
+        raise EditError("does-not-fit", _no_room(action.count, kind, free, there), "count")
     if place.ordered:
         cells = nearest_first(bits(free), world)[: action.count]
     else:
@@ -198,8 +193,10 @@ def _set_count(run: Run, action: SetCount) -> Applied:
     kind = _placeable(action.kind)
     more = action.count - run.world.count(kind)
     if more > 0:
-        applied = _add(run, Add(kind=action.kind, count=more))
-        return replace(applied, action=action)
+        free = run.world.road.between & ~run.world.occupied
+        if free.bit_count() < more:
+            raise EditError("does-not-fit", _no_room(action.count, kind, free, ""), "count")
+        return _placed(run, action, kind, lowest_ranked(free, more, _draws(run)))
     if more == 0:
         return Applied(action, run)
     going = lowest_ranked(run.world.board(kind), -more, _draws(run))
@@ -223,6 +220,12 @@ def _scenario(run: Run, action: Scenario) -> Applied:
     return Applied(action, begun, events=(event,))
 
 
+def _no_room(count: int, kind: Kind, free: Board, there: str) -> str:
+    cells = "1 cell is" if free.bit_count() == 1 else f"{free.bit_count()} cells are"
+    where = there or " between start and goal"
+    return f"{_many(count, kind)} {'does' if count == 1 else 'do'} not fit: {cells} free{where}."
+
+
 def _placeable(word: str) -> Kind:
     kind = Kind(word)
     if kind is Kind.AV:
@@ -235,7 +238,8 @@ def _thing(world: World, name: str, kinds: tuple[Kind, ...]) -> Thing:
     if thing is None:
         raise EditError("none-there", f"There is no {name} on the road.", "where")
     if thing.kind not in kinds:
-        raise EditError("none-there", f"{name} is not a {kinds[0]}.", "where")
+        wanted = _noun(1, kinds[0]) if len(kinds) == 1 else "thing that can be removed"
+        raise EditError("none-there", f"{name} is not a {wanted}.", "where")
     return thing
 
 
@@ -297,7 +301,3 @@ def _noun(count: int, kind: str) -> str:
 
 def _many(count: int, kind: str) -> str:
     return f"{count} {_noun(count, kind)}"
-
-
-def _do(count: int) -> str:
-    return "does" if count == 1 else "do"

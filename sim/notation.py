@@ -19,9 +19,12 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
-from sim.kinds import PLACEABLE, Cell, Kind, Outcome
-from sim.road import Board, Road, bits
+from sim.kinds import PLACEABLE, Cell, Kind, Outcome, kind_of
+from sim.road import Board, Road, bits, board_of
 from sim.world import Cause, World
+
+MAX_CELLS = 64 * 512
+"""The largest road that is read."""
 
 _HEAD = re.compile(
     r"road (\d+)x(\d+) tick (\d+) episode (\d+) from (\d+) (running|success|crash|stuck)(?: at (\d+))?"
@@ -88,6 +91,11 @@ def read(text: str) -> World:
     if head is None:
         raise NotationError("line 1: expected 'road COLUMNSxROWS tick N episode N from N OUTCOME'")
     columns, rows, tick, episode, start = (int(head[n]) for n in range(1, 6))
+    outcome, ended = Outcome(head[6]), None if head[7] is None else int(head[7])
+    if not (columns and rows and columns * rows <= MAX_CELLS):
+        raise NotationError(f"line 1: a road has 1 to {MAX_CELLS} cells")
+    if start > tick or (ended or 0) > tick or (outcome is Outcome.RUNNING) is not (ended is None):
+        raise NotationError("line 1: no tick is later than the present one; 'at' goes with an outcome")
     road = Road.of(columns, rows)
     boards = _read_grid(road, lines[1 : rows + 1])
     extra = _read_extra(lines[rows + 1 :], first=rows + 2)
@@ -105,9 +113,9 @@ def read(text: str) -> World:
         tick=tick,
         episode=episode,
         episode_start=start,
-        outcome=Outcome(head[6]),
-        ended=None if head[7] is None else int(head[7]),
-        cause=_read_cause(extra.get("cause")),
+        outcome=outcome,
+        ended=ended,
+        cause=_read_cause(road, extra.get("cause")),
         avs=avs,
         potholes=boards["pothole"],
         barriers=boards["barrier"],
@@ -165,24 +173,35 @@ def _read_avs(road: Road, told: str | None, board: Board) -> tuple[int, ...]:
     if told is None:
         avs = tuple(bits(board))
     else:
-        try:
-            cells = [tuple(int(part) for part in point.split(",")) for point in told.split()]
-            avs = tuple(road.index((column, row)) for column, row in cells if road.holds((column, row)))
-        except ValueError as error:
-            raise NotationError(f"'av {told}' is not a list of cells like 4,29") from error
+        avs = tuple(road.index(_read_point(road, point)) for point in told.split())
+        if board and board != board_of(avs) & board:
+            raise NotationError(f"'av {told}' leaves out a vehicle (A) of the grid")
     if not avs:
         raise NotationError("there is no autonomous vehicle (A) on the road")
     return avs
 
 
-def _read_cause(line: str | None) -> Cause | None:
+def _read_point(road: Road, point: str) -> Cell:
+    match = re.fullmatch(r"(\d+),(\d+)", point)
+    if match is None or not road.holds((int(match[1]), int(match[2]))):
+        raise NotationError(f"'av {point}': expected a cell of the road like 4,29")
+    return int(match[1]), int(match[2])
+
+
+def _read_cause(road: Road, line: str | None) -> Cause | None:
     if line is None:
         return None
     match = _CAUSE.fullmatch(line)
     if match is None:
         raise NotationError(f"'{line}' is not like 'cause hit pothole-3 at 4,12'")
-    ids = tuple(match[2].split())
-    return Cause(match[1], Kind(ids[0].rpartition("-")[0]), ids, (int(match[3]), int(match[4])))
+    ids, cell = tuple(match[2].split()), (int(match[3]), int(match[4]))
+    try:
+        kind = kind_of(ids[0])
+    except ValueError as error:
+        raise NotationError(f"'{line}': {ids[0]} is no id of a thing") from error
+    if not road.holds(cell):
+        raise NotationError(f"'{line}': {_point(cell)} is not on the road")
+    return Cause(match[1], kind, ids, cell)
 
 
 def _read_ids(
@@ -200,7 +219,11 @@ def _read_ids(
             raise NotationError(f"'ids' names {len(numbers)} of kind {kind}, but the road has {len(cells)}")
         table = movers if kind.moves else hazards
         table.update({cell: f"{kind}-{number}" for cell, number in zip(cells, numbers, strict=True)})
+        if len(set(numbers)) != len(numbers):
+            raise NotationError(f"'ids' gives a number of kind {kind} twice")
         if kind in following:
+            if len(following[kind]) != 1 or following[kind][0] <= max(numbers, default=0):
+                raise NotationError(f"'next' needs one number of kind {kind}, above those given")
             numbered[kind] = following[kind][0] - 1
         elif numbers and "next" not in extra:
             numbered[kind] = max(numbers)

@@ -47,17 +47,17 @@ def lane_columns(road: Road, lane: str | int) -> list[int]:
             return [road.columns - 1]
         case "middle":
             return sorted({(road.columns - 1) // 2, road.columns // 2})
-        case int() if lane <= road.columns:
+        case int() if 1 <= lane <= road.columns:
             return [lane - 1]
     raise PlaceError(f"There is no lane {lane}: the road has {road.columns} lanes.")
 
 
 def cells_away(where: Where, cell_m: float) -> int | None:
-    """The distance said, in whole cells (at least one), or None if none was said."""
+    """The distance said, in whole cells (halves up, at least one), or None if none was said."""
     if where.cells is not None:
         return where.cells
     if where.distance_m is not None:
-        return max(1, round(where.distance_m / cell_m))
+        return max(1, int(where.distance_m / cell_m + 0.5))
     return None
 
 
@@ -115,7 +115,7 @@ def _absolute(where: Where, road: Road) -> Board:
             )
         cells &= 1 << road.index(where.cell)
     if where.row is not None:
-        if where.row >= road.rows:
+        if not 0 <= where.row < road.rows:
             raise PlaceError(f"There is no row {where.row}: rows are 0 to {road.rows - 1}.")
         cells &= road.row(where.row)
     if where.lane is not None:
@@ -164,7 +164,8 @@ def _cell_away(road: Road, start: Cell, side: str, away: int) -> Cell:
     if not road.holds(cell):
         left = _ray(road, start, (columns, rows), 1).bit_count()
         words = f"to the {side}" if side in ("left", "right") else side
-        raise PlaceError(f"The road ends {left} cells {words}: there is no cell {away} cells {words}.")
+        cells = "cell" if left == 1 else "cells"
+        raise PlaceError(f"The road ends {left} {cells} {words}; {away} is too far.")
     return cell
 
 

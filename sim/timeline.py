@@ -122,8 +122,7 @@ class Timeline:
 
     def at(self, tick: int) -> Run:
         """The state at a past tick, after the actions of that tick. Raises `IndexError`."""
-        if not 0 <= tick <= self.tick:
-            raise IndexError(f"tick {tick} is not between 0 and {self.tick}")
+        self._check(tick)
         if tick == self.tick:
             return self.run
         back = tick - self.tick + len(self._recent)
@@ -132,7 +131,11 @@ class Timeline:
         return next(self.between(tick, tick + 1))
 
     def between(self, first: int, stop: int) -> Iterator[Run]:
-        """The states at the ticks from `first` up to but without `stop`, in order, replayed in one go."""
+        """The states from tick `first` up to but without `stop`, replayed in one go. Raises `IndexError`."""
+        if first == stop:
+            return
+        for tick in (first, stop - 1):
+            self._check(tick)
         run, position = self._nearest(first)
         while run.world.tick < stop:
             run, position = self._apply_due(run, position)
@@ -143,6 +146,10 @@ class Timeline:
     def decision(self, tick: int) -> Decision | None:
         """The decision taken at a tick (None while a result stood), derived anew. Raises `IndexError`."""
         return decide(self.at(tick))
+
+    def _check(self, tick: int) -> None:
+        if not 0 <= tick <= self.tick:
+            raise IndexError(f"tick {tick} is not between 0 and {self.tick}")
 
     def _arrive(self, run: Run) -> None:
         self.run = run

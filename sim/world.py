@@ -140,8 +140,9 @@ class World:
     def find(self, name: str) -> Thing | None:
         """The thing with this id, if it is on the road."""
         kind_word, _, number = name.rpartition("-")
-        if kind_word == Kind.AV and number.isdecimal() and 1 <= int(number) <= len(self.avs):
-            return Thing(name, Kind.AV, self.road.cell(self.avs[int(number) - 1]))
+        if kind_word == Kind.AV:
+            places = (index for order, index in enumerate(self.avs, 1) if str(order) == number)
+            return next((Thing(name, Kind.AV, self.road.cell(index)) for index in places), None)
         if kind_word not in PLACEABLE:
             return None
         kind = Kind(kind_word)
@@ -163,12 +164,13 @@ class World:
         """128 bits that are equal exactly when the states are (ids aside), as hexadecimal."""
         size = (self.road.columns * self.road.rows + 7) // 8
         head = pack(
-            "<IIQQQBH",
+            "<IIQQQqBH",
             self.road.columns,
             self.road.rows,
             self.tick,
             self.episode,
             self.episode_start,
+            -1 if self.ended is None else self.ended,
             _OUTCOMES.index(self.outcome),
             len(self.avs),
         )

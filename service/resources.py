@@ -1,0 +1,28 @@
+"""Where the files that are not code are: beside the code in a checkout, inside the package when installed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+_PACKAGE = Path(__file__).resolve().parent
+_CHECKOUT = _PACKAGE.parent
+_BUNDLED = _PACKAGE / "_bundled"
+
+
+def prompts_folder() -> Path:
+    """The words of the project: grammar, sayings, model prompts."""
+    return _folder("prompts")
+
+
+def web_folder() -> Path:
+    """The page: its HTML, style and modules."""
+    return _folder("web")
+
+
+def _folder(name: str) -> Path:
+    """A checkout's folder wins, so that an edit shows at once. Raises `FileNotFoundError`."""
+    for folder in (_CHECKOUT / name, _BUNDLED / name):
+        if (_CHECKOUT / "pyproject.toml").is_file() or folder.parent == _BUNDLED:
+            if folder.is_dir():
+                return folder
+    raise FileNotFoundError(f"no {name} folder beside {_PACKAGE} or in {_BUNDLED}")

@@ -1,0 +1,118 @@
+"""Roads for tests: written by hand, or drawn by hypothesis."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from hypothesis import strategies as st
+
+from sim import notation
+from sim.config import Config
+from sim.edit import Applied, apply
+from sim.kinds import Kind
+from sim.road import Road, board_of
+from sim.run import Run
+from sim.world import World
+
+
+def road(*rows: str, tick: int = 0, lines: tuple[str, ...] = ()) -> World:
+    """A world from its rows of signs; a row without signs is one string of dots."""
+    head = f"road {len(rows[0])}x{len(rows)} tick {tick} episode 1 from 0 running"
+    return notation.read("\n".join((head, *rows, *lines)))
+
+
+def run_on(world: World, **parts: object) -> Run:
+    """A run on a given road, with a configuration of its size."""
+    config = Config(columns=world.road.columns, rows=world.road.rows, vehicles=0, potholes=0)
+    return Run(config.with_parts(**parts), world)
+
+
+def grid(world: World) -> list[str]:
+    """The rows of signs of a world."""
+    return notation.write(world).splitlines()[1 : world.road.rows + 1]
+
+
+def done(run: Run, *actions: object) -> Applied:
+    """The last of some actions applied one after another."""
+    applied = None
+    for action in actions:
+        applied = apply(run, action)  # type: ignore[arg-type]
+        run = applied.run
+    assert applied is not None
+    return applied
+
+
+@st.composite
+def worlds(draw: st.DrawFn, *, max_columns: int = 9, max_rows: int = 8) -> World:
+    """Any world in which an episode may stand: movers of both kinds, some held by potholes."""
+    columns = draw(st.integers(3, max_columns))
+    rows = draw(st.integers(4, max_rows))
+    geometry = Road.of(columns, rows)
+    av = draw(st.integers(columns, columns * rows - 1))
+    signs = draw(
+        st.lists(
+            st.sampled_from("....oo#>><<)(}{]["),
+            min_size=columns * rows,
+            max_size=columns * rows,
+        )
+    )
+    cells = {
+        sign: board_of([i for i, s in enumerate(signs) if s == sign and i != av]) for sign in "o#><)(}{]["
+    }
+    potholes = cells["o"] | cells["}"] | cells["{"] | cells["]"] | cells["["]
+    start = draw(st.integers(0, 500))
+    bare = World(
+        road=geometry,
+        tick=start + draw(st.integers(0, 9 * rows)),
+        episode=draw(st.integers(1, 9)),
+        episode_start=start,
+        avs=(av,),
+        potholes=potholes,
+        barriers=cells["#"],
+        right=cells[">"] | cells[")"] | cells["}"] | cells["]"],
+        left=cells["<"] | cells["("] | cells["{"] | cells["["],
+        pedestrians=cells[")"] | cells["("] | cells["]"] | cells["["],
+        movers={},
+        hazards={},
+        numbered={},
+    )
+    return numbered(bare)
+
+
+def numbered(world: World) -> World:
+    """The world with its things numbered 1, 2, 3 … in reading order."""
+    tables: dict[bool, dict[int, str]] = {True: {}, False: {}}
+    last = {}
+    for kind in (Kind.POTHOLE, Kind.BARRIER, Kind.VEHICLE, Kind.PEDESTRIAN):
+        board, count = world.board(kind), 0
+        for cell in range(world.road.columns * world.road.rows):
+            if board >> cell & 1:
+                count += 1
+                tables[kind.moves][cell] = f"{kind}-{count}"
+        if count:
+            last[kind] = count
+    return replace(world, movers=tables[True], hazards=tables[False], numbered=last)
+
+
+def mirrored(world: World) -> World:
+    """The mirror image of a world: column 0 becomes the last column; ids keep to their things."""
+    columns = world.road.columns
+
+    def cell(index: int) -> int:
+        row, column = divmod(index, columns)
+        return row * columns + columns - 1 - column
+
+    def board(cells: int) -> int:
+        return board_of([cell(i) for i in range(columns * world.road.rows) if cells >> i & 1])
+
+    return replace(
+        world,
+        avs=tuple(cell(av) for av in world.avs),
+        potholes=board(world.potholes),
+        barriers=board(world.barriers),
+        right=board(world.left),
+        left=board(world.right),
+        pedestrians=board(world.pedestrians),
+        movers={cell(index): name for index, name in world.movers.items()},
+        hazards={cell(index): name for index, name in world.hazards.items()},
+    )

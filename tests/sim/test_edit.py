@@ -1,0 +1,616 @@
+"""What a person may change: each action, its refusals in sentences, and nothing half done."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from sim.actions import Add, Drive, Remove, Reset, Scenario, SetCount, SetMode, Where, WorldAction
+from sim.config import Config
+from sim.edit import MAX_QUEUE, Change, EditError, apply
+from sim.events import EventType
+from sim.generate import generate
+from sim.kinds import PLACEABLE, Cell, Kind, Mode, Move, Outcome
+from sim.road import bits
+from sim.run import Run, advance
+from sim.world import Thing, World
+from tests.sim.roads import grid, road, run_on
+
+EMPTY = run_on(
+    road(
+        ".......",
+        ".......",
+        ".......",
+        ".......",
+        "...A...",
+        ".......",
+    )
+)
+FULL = run_on(
+    road(
+        "o......",
+        "..>..#.",
+        "o..o...",
+        ".).....",
+        "...A.o.",
+        "..<....",
+    )
+)
+KINDS = [str(kind) for kind in PLACEABLE]
+
+
+def refusal(run: Run, action: WorldAction) -> EditError:
+    """The error of an action; its message is a sentence and the run is as it was."""
+    before = replace(run)
+    with pytest.raises(EditError) as refused:
+        apply(run, action)
+    error = refused.value
+    assert run == before
+    assert str(error) == error.message
+    assert error.message[0].isalnum()
+    assert error.message.endswith(".")
+    return error
+
+
+def counts_of(world: World) -> tuple[int, ...]:
+    return tuple(world.counts().values())
+
+
+def sound(world: World) -> None:
+    """The tables and the boards tell one story."""
+    assert set(world.movers) == set(bits(world.moving))
+    assert set(world.hazards) == set(bits(world.fixed))
+    assert world.right & world.left == 0
+    assert world.potholes & world.barriers == 0
+    assert world.pedestrians & ~world.moving == 0
+    assert world.moving & world.barriers == 0
+    names = [*world.movers.values(), *world.hazards.values()]
+    assert len(set(names)) == len(names)
+    for name in names:
+        kind, _, number = name.rpartition("-")
+        assert int(number) <= world.numbered[Kind(kind)]
+
+
+# Adding
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_one_thing_in_a_cell_named(kind: str) -> None:
+    applied = apply(EMPTY, Add(kind=kind, count=1, where=Where(cell=(5, 1))))
+    (thing,) = applied.added
+    assert (thing.id, thing.kind, thing.cell) == (f"{kind}-1", kind, (5, 1))
+    assert applied.run.world.find(thing.id) == thing
+    assert applied.changes == (Change(f"{kind}s", 0, 1),)
+    assert (applied.removed, applied.events) == ((), ())
+    assert (thing.heading is not None) is Kind(kind).moves
+    sound(applied.run.world)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize(
+    ("where", "expected"),
+    [
+        (Where(lane="left"), {(0, row) for row in range(1, 5)}),
+        (Where(lane=7), {(6, row) for row in range(1, 5)}),
+        (Where(row=2), {(column, 2) for column in range(7)}),
+        (Where(cells=2), {(column, 2) for column in range(7)}),
+        (Where(side="ahead"), {(3, 3), (3, 2), (3, 1), (3, 0)}),
+        (Where(side="right"), {(4, 4), (5, 4), (6, 4)}),
+        (Where(side="ahead", lane=1, distance_m=10.0), {(0, 2), (0, 1), (0, 0)}),
+        (None, {(column, row) for column in range(7) for row in range(1, 5)} - {(3, 4)}),
+    ],
+)
+def test_several_things_go_where_they_were_said(kind: str, where: Where | None, expected: set[Cell]) -> None:
+    applied = apply(EMPTY, Add(kind=kind, count=3, where=where))
+    assert len(applied.added) == applied.run.world.count(Kind(kind)) == 3
+    assert {thing.cell for thing in applied.added} <= expected
+    sound(applied.run.world)
+
+
+@pytest.mark.parametrize(
+    ("where", "expected"),
+    [
+        (Where(side="ahead"), [(3, 3), (3, 2)]),
+        (Where(side="left"), [(2, 4), (1, 4)]),
+        (Where(cells=1), [(3, 3), (2, 3)]),
+        (Where(nearest=True), [(3, 3), (2, 3)]),
+    ],
+)
+def test_what_is_seen_from_the_vehicle_is_filled_nearest_first(where: Where, expected: list[Cell]) -> None:
+    applied = apply(EMPTY, Add(kind="pothole", count=2, where=where))
+    assert sorted(thing.cell for thing in applied.added) == sorted(expected)
+
+
+def test_several_things_go_round_what_is_there() -> None:
+    applied = apply(FULL, Add(kind="barrier", count=5, where=Where(row=1)))
+    assert len(applied.added) == 5
+    assert grid(applied.run.world)[1] == "##>####"
+
+
+def test_more_than_fit_are_refused_with_the_room_there_is() -> None:
+    error = refusal(FULL, Add(kind="barrier", count=6, where=Where(row=1)))
+    assert (error.code, error.field) == ("does-not-fit", "count")
+    assert "6 barriers do not fit" in error.message
+    assert "5 cells are free there" in error.message
+
+
+def test_three_hundred_potholes_do_not_fit_on_a_road_of_240_cells() -> None:
+    run = Run.start(Config(seed=1))
+    room = 224 - run.world.moving.bit_count() - run.world.fixed.bit_count()
+    error = refusal(run, Add(kind="pothole", count=300))
+    assert (error.code, error.field) == ("does-not-fit", "count")
+    assert f"{room} cells are free between start and goal" in error.message
+    error = refusal(run, SetCount(kind="pothole", count=300))
+    assert error.code == "does-not-fit"
+    assert "300 potholes do not fit" in error.message
+    error = refusal(run, Scenario(potholes=300))
+    assert (error.code, error.field) == ("does-not-fit", "potholes")
+    full = apply(run, Add(kind="pothole", count=room)).run
+    assert full.world.occupied & run.world.road.between == run.world.road.between
+    assert "0 cells are free" in refusal(full, Add(kind="vehicle", count=1)).message
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize(
+    ("cell", "who"),
+    [
+        ((0, 2), "pothole"),
+        ((5, 1), "barrier-1"),
+        ((2, 1), "vehicle-1"),
+        ((1, 3), "pedestrian-1"),
+        ((3, 4), "the autonomous vehicle"),
+    ],
+)
+def test_a_cell_that_is_taken(kind: str, cell: Cell, who: str) -> None:
+    action = Add(kind=kind, count=1, where=Where(cell=cell))
+    if kind == "pothole" and who in ("vehicle-1", "pedestrian-1"):
+        assert apply(FULL, action).run.world.find(who).disabled  # type: ignore[union-attr]
+        return
+    error = refusal(FULL, action)
+    assert (error.code, error.field) == ("occupied", "where")
+    assert f"({cell[0]}, {cell[1]})" in error.message
+    assert who in error.message
+
+
+def test_a_pothole_under_a_mover_holds_it_and_the_log_says_so() -> None:
+    applied = apply(FULL, Add(kind="pothole", count=1, where=Where(cell=(2, 1))))
+    (event,) = applied.events
+    assert (event.type, event.ids, event.cell) == (EventType.DISABLED, ("vehicle-1",), (2, 1))
+    assert grid(applied.run.world)[1] == "..}..#."
+    assert grid(advance(applied.run).run.world)[1] == "..}..#."
+    again = refusal(applied.run, Add(kind="pothole", count=1, where=Where(cell=(2, 1))))
+    assert again.code == "occupied"
+    freed = apply(applied.run, Remove(kind="pothole", count=1, where=Where(cell=(2, 1)))).run
+    assert grid(advance(freed).run.world)[1] == "...>.#."
+
+
+def test_several_potholes_spare_the_movers() -> None:
+    crowded = run_on(road(".....", "><.<>", "..A..", "....."))
+    applied = apply(crowded, Add(kind="pothole", count=1, where=Where(row=1)))
+    assert [thing.cell for thing in applied.added] == [(2, 1)]
+
+
+@pytest.mark.parametrize(
+    "where", [Where(lane=9), Where(row=60), Where(cell=(9, 9)), Where(cells=20), Where(side="left", cells=4)]
+)
+@pytest.mark.parametrize("count", [1, 2])
+def test_places_off_the_road(where: Where, count: int) -> None:
+    for action in (
+        Add(kind="pothole", count=count, where=where),
+        Remove(kind="pothole", count=count, where=where),
+    ):
+        error = refusal(FULL, action)
+        assert (error.code, error.field) == ("outside-road", "where")
+
+
+def test_other_autonomous_vehicles_are_not_available_yet() -> None:
+    for action in (
+        Add(kind="av", count=1),
+        Remove(kind="av", count=1),
+        SetCount(kind="av", count=2),
+    ):
+        error = refusal(EMPTY, action)
+        assert (error.code, error.field) == ("not-available", "kind")
+        assert "not available yet" in error.message
+
+
+# Random places
+
+
+def test_random_places_are_the_same_every_time_and_differ_from_edit_to_edit() -> None:
+    run = Run.start(Config(seed=9))
+    five = Add(kind="pothole", count=5)
+    first, again = apply(run, five), apply(run, five)
+    assert first == again
+    second = apply(first.run, five)
+    removed = apply(first.run, Remove(kind="pothole", count=1, where=Where(id=first.added[0].id)))
+    third = apply(removed.run, five)
+    places = [{thing.cell for thing in applied.added} for applied in (first, second, third)]
+    assert places[0] != places[1] != places[2]
+    elsewhere = apply(replace(run, config=Config(seed=10)), five)
+    assert {thing.cell for thing in elsewhere.added} != places[0]
+
+
+def test_a_thing_elsewhere_moves_no_random_place_but_its_own() -> None:
+    """A what-if without one barrier asks about the same potholes."""
+    run = Run.start(Config(seed=9, barriers=1))
+    (barrier,) = (thing for thing in run.world.things() if thing.kind is Kind.BARRIER)
+    bare = replace(run, world=run.world.without({barrier.id}))
+    five = Add(kind="pothole", count=5)
+    with_it = {thing.cell for thing in apply(run, five).added}
+    without = {thing.cell for thing in apply(bare, five).added}
+    assert len(with_it & without) >= 4
+
+
+def test_movers_face_either_way() -> None:
+    applied = apply(Run.start(Config(seed=2, vehicles=0, potholes=0)), Add(kind="vehicle", count=100))
+    right = sum(thing.heading == "right" for thing in applied.added)
+    assert 30 < right < 70
+
+
+# Removing
+
+
+@pytest.mark.parametrize(
+    ("action", "gone"),
+    [
+        # Nearest to the vehicle at (3, 4) first; among equals its own lane.
+        (Remove(kind="pothole", count=1), [(3, 2)]),
+        (Remove(kind="pothole", count=1, where=Where(nearest=True)), [(3, 2)]),
+        (Remove(kind="pothole", count=2), [(3, 2), (5, 4)]),
+        (Remove(kind="pothole", count="all"), [(3, 2), (5, 4), (0, 2), (0, 0)]),
+        (Remove(kind="pothole", count=1, where=Where(lane="left")), [(0, 2)]),
+        (Remove(kind="pothole", count="all", where=Where(lane=1)), [(0, 2), (0, 0)]),
+        (Remove(kind="pothole", count=1, where=Where(row=0)), [(0, 0)]),
+        (Remove(kind="pothole", count=1, where=Where(cell=(5, 4))), [(5, 4)]),
+        (Remove(kind="pothole", count=1, where=Where(side="right")), [(5, 4)]),
+        (Remove(kind="pothole", count=1, where=Where(side="right", distance_m=10.0)), [(5, 4)]),
+        (Remove(kind="pothole", count=1, where=Where(cells=2)), [(3, 2)]),
+        (Remove(kind="pothole", count=1, where=Where(id="pothole-1")), [(0, 0)]),
+        (Remove(kind="vehicle", count=1, where=Where(side="behind")), [(2, 5)]),
+        (Remove(kind="vehicle", count=1, where=Where(side="ahead")), [(2, 1)]),
+        (Remove(kind="pedestrian", count=1), [(1, 3)]),
+        (Remove(kind="everything", count="all", where=Where(row=1)), [(2, 1), (5, 1)]),
+        (Remove(kind="everything", count=2), [(2, 5), (3, 2)]),
+        (Remove(kind="everything", count=1, where=Where(id="vehicle-2")), [(2, 5)]),
+        (Remove(kind="barrier", count="all", where=Where(lane="left")), []),
+    ],
+)
+def test_what_is_removed(action: Remove, gone: list[Cell]) -> None:
+    applied = apply(FULL, action)
+    assert sorted(thing.cell for thing in applied.removed) == sorted(gone)
+    left = {thing.id for thing in FULL.world.things()} - {thing.id for thing in applied.removed}
+    assert {thing.id for thing in applied.run.world.things()} == left
+    assert applied.added == ()
+    sound(applied.run.world)
+
+
+def test_removing_everything_leaves_the_vehicle_alone() -> None:
+    applied = apply(FULL, Remove(kind="everything", count="all"))
+    assert counts_of(applied.run.world) == (0, 0, 0, 0)
+    assert applied.run.world.avs == FULL.world.avs
+    assert {change.path for change in applied.changes} == {"potholes", "barriers", "vehicles", "pedestrians"}
+    assert all(change.after == 0 for change in applied.changes)
+
+
+@pytest.mark.parametrize(
+    ("action", "code", "field", "message"),
+    [
+        (
+            Remove(kind="pothole", count=9),
+            "too-few",
+            "count",
+            "There are only 4 potholes on the road.",
+        ),
+        (
+            Remove(kind="barrier", count=2),
+            "too-few",
+            "count",
+            "There is only one barrier on the road.",
+        ),
+        (
+            Remove(kind="barrier", count=1, where=Where(lane="left")),
+            "none-there",
+            "kind",
+            "There is no barrier there.",
+        ),
+        (
+            Remove(kind="everything", count=5, where=Where(row=1)),
+            "too-few",
+            "count",
+            "There are only 2 things there.",
+        ),
+        (
+            Remove(kind="pothole", count=1, where=Where(id="pothole-77")),
+            "none-there",
+            "where",
+            "There is no pothole-77 on the road.",
+        ),
+        (
+            Remove(kind="pothole", count=1, where=Where(id="vehicle-1")),
+            "none-there",
+            "where",
+            "vehicle-1 is not a pothole.",
+        ),
+    ],
+)
+def test_what_cannot_be_removed(action: Remove, code: str, field: str, message: str) -> None:
+    error = refusal(FULL, action)
+    assert (error.code, error.field, error.message) == (code, field, message)
+
+
+def test_the_autonomous_vehicle_is_no_thing_to_be_removed() -> None:
+    error = refusal(FULL, Remove(kind="everything", count=1, where=Where(id="av-1")))
+    assert "pothole" not in error.message
+
+
+# Exact numbers
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("count", [0, 1, 2, 7])
+def test_exactly_so_many(kind: str, count: int) -> None:
+    applied = apply(FULL, SetCount(kind=kind, count=count))
+    was = FULL.world.count(Kind(kind))
+    assert applied.run.world.count(Kind(kind)) == count
+    assert applied.changes == (() if was == count else (Change(f"{kind}s", was, count),))
+    assert (len(applied.added), len(applied.removed)) == (max(0, count - was), max(0, was - count))
+    for other in PLACEABLE:
+        if other != kind:
+            assert applied.run.world.board(other) == FULL.world.board(other)
+    sound(applied.run.world)
+
+
+def test_as_many_as_there_are_is_no_change() -> None:
+    assert apply(FULL, SetCount(kind="pothole", count=4)).run == FULL
+
+
+# Ids
+
+
+def test_ids_are_never_given_again() -> None:
+    run, given = Run.start(Config(seed=3)), set()
+    actions = [
+        Add(kind="pothole", count=3),
+        Remove(kind="pothole", count="all"),
+        SetCount(kind="pothole", count=4),
+        SetCount(kind="pothole", count=0),
+        Reset(),
+        Add(kind="pothole", count=2),
+        Scenario(potholes=5, vehicles=2),
+        Add(kind="vehicle", count=1),
+    ]
+    here = {thing.id for thing in run.world.things()}
+    for action in actions:
+        given |= here
+        applied = apply(run, action)
+        run = applied.run
+        now = {thing.id for thing in run.world.things()}
+        assert (now - here).isdisjoint(given)
+        assert {thing.id for thing in applied.added} <= now - here
+        assert {thing.id for thing in applied.removed} <= here
+        here = now
+        sound(run.world)
+
+
+# Scenarios, reset, mode, drive
+
+
+def test_a_scenario_is_a_fresh_road() -> None:
+    run = Run.start(Config(seed=6))
+    for _ in range(5):
+        run = advance(run).run
+    applied = apply(run, Scenario(road="city", potholes=10, traffic="none"))
+    world = applied.run.world
+    assert world.counts() == {Kind.POTHOLE: 10, Kind.BARRIER: 3, Kind.VEHICLE: 0, Kind.PEDESTRIAN: 4}
+    assert (world.tick, world.episode, world.episode_start, world.outcome) == (5, 2, 5, Outcome.RUNNING)
+    assert world.av == world.road.start
+    assert [event.type for event in applied.events] == [EventType.EPISODE_STARTED]
+    assert applied.run.metrics == run.metrics
+    told = {change.path: (change.before, change.after) for change in applied.changes}
+    assert told["config.road"] == (None, "city")
+    assert told["config.traffic"] == (None, "none")
+    assert told["config.potholes"] == (None, 10)
+    assert told["potholes"] == (run.world.count(Kind.POTHOLE), 10)
+    assert told["episode"] == (1, 2)
+
+
+@pytest.mark.parametrize("planner", ["astar", "dijkstra", "dwa", "rl", "cooperative"])
+def test_planners_of_later_versions_are_refused(planner) -> None:
+    error = refusal(EMPTY, Scenario(planner=planner))
+    assert (error.code, error.field) == ("not-available", "planner")
+    assert planner in error.message
+
+
+def test_more_autonomous_vehicles_are_refused() -> None:
+    assert refusal(EMPTY, Scenario(avs=2)).code == "not-available"
+    assert apply(EMPTY, Scenario(avs=1)).run.world.count(Kind.AV) == 1
+
+
+def test_reset_goes_back_to_the_start_of_the_episode_with_time_going_on() -> None:
+    run = Run.start(Config(seed=6))
+    start = run.world
+    for _ in range(7):
+        run = advance(run).run
+    run = apply(run, Add(kind="barrier", count=3)).run
+    applied = apply(run, Reset())
+    world = applied.run.world
+    assert (world.tick, world.episode, world.episode_tick) == (7, 1, 0)
+    assert (world.right, world.left, world.fixed, world.av) == (
+        start.right,
+        start.left,
+        start.fixed,
+        start.av,
+    )
+    assert [event.type for event in applied.events] == [EventType.EPISODE_STARTED]
+    assert applied.run.config == run.config
+    assert applied.run.metrics.steps == 7
+
+
+def test_mode_and_moves() -> None:
+    manual = apply(EMPTY, SetMode(mode=Mode.MANUAL))
+    assert manual.run.mode is Mode.MANUAL
+    assert manual.changes == (Change("mode", Mode.AUTO, Mode.MANUAL),)
+    assert advance(manual.run).run.world.av == EMPTY.world.av, "without a move it waits"
+    driven = apply(manual.run, Drive(move=Move.LEFT))
+    assert driven.changes == (Change("queue", (), (Move.LEFT,)),)
+    driven = apply(driven.run, Drive(move=Move.FORWARD))
+    run = advance(driven.run).run
+    assert run.world.road.cell(run.world.av) == (2, 4)
+    run = advance(run).run
+    assert run.world.road.cell(run.world.av) == (2, 3)
+    assert run.queue == ()
+    waiting = apply(run, Drive(move=Move.LEFT)).run
+    assert apply(waiting, SetMode(mode=Mode.AUTO)).run.queue == (), "who takes over finds no old orders"
+
+
+def test_a_move_of_a_person_is_taken_once_and_then_the_planner_goes_on() -> None:
+    run = apply(EMPTY, Drive(move=Move.STAY)).run
+    tick = advance(run)
+    assert tick.decision is not None
+    assert (tick.decision.planner, tick.decision.move) == ("manual", Move.STAY)
+    tick = advance(tick.run)
+    assert tick.decision is not None
+    assert (tick.decision.planner, tick.decision.move) == ("priority", Move.FORWARD)
+
+
+def test_a_move_into_a_hazard_is_held_back_and_the_log_says_why() -> None:
+    run = run_on(road("...", ".o.", ".A.", "..."))
+    tick = advance(apply(run, Drive(move=Move.FORWARD)).run)
+    assert tick.decision is not None
+    assert tick.decision.held_back
+    assert (tick.decision.asked, tick.decision.move) == (Move.FORWARD, Move.STAY)
+    (event,) = tick.events
+    assert (event.type, event.ids, event.cell, event.move) == (
+        EventType.HELD_BACK,
+        ("pothole-1",),
+        (1, 1),
+        Move.FORWARD,
+    )
+
+
+def test_so_many_moves_may_wait_and_no_more() -> None:
+    run = replace(EMPTY, queue=(Move.STAY,) * MAX_QUEUE)
+    error = refusal(run, Drive(move=Move.LEFT))
+    assert (error.code, error.field) == ("too-many", "move")
+
+
+# While a result stands
+
+
+@pytest.fixture
+def ended() -> Run:
+    run = Run.start(Config(seed=6))
+    while run.world.outcome is Outcome.RUNNING:
+        run = advance(run).run
+    return advance(run).run
+
+
+@pytest.mark.parametrize(
+    "action",
+    [
+        Add(kind="pothole", count=2),
+        SetCount(kind="vehicle", count=3),
+        Remove(kind="vehicle", count="all"),
+        Remove(kind="vehicle", count=1),
+        Drive(move=Move.LEFT),
+    ],
+)
+def test_a_change_while_a_result_stands_is_made_to_the_next_road(ended: Run, action: WorldAction) -> None:
+    applied = apply(ended, action)
+    world = applied.run.world
+    assert (world.episode, world.outcome, world.tick) == (2, Outcome.RUNNING, ended.world.tick)
+    assert [event.type for event in applied.events] == [EventType.EPISODE_STARTED]
+    assert Change("episode", 1, 2) in applied.changes
+    fresh = generate(ended.config, 2, tick=ended.world.tick, numbered=ended.world.numbered)
+    assert {thing.id for thing in applied.added}.isdisjoint(thing.id for thing in fresh.things())
+    assert all(fresh.find(thing.id) == thing for thing in applied.removed)
+
+
+def test_what_points_at_the_old_road_is_refused(ended: Run) -> None:
+    thing = next(ended.world.things())
+    for where in (Where(nearest=True), Where(id=thing.id)):
+        error = refusal(ended, Remove(kind="everything", count=1, where=where))
+        assert (error.code, error.field) == ("none-there", "where")
+
+
+def test_mode_may_change_while_the_result_stands(ended: Run) -> None:
+    applied = apply(ended, SetMode(mode=Mode.MANUAL))
+    assert applied.run.world == ended.world
+
+
+def test_a_refused_change_while_a_result_stands_begins_nothing(ended: Run) -> None:
+    refusal(ended, Add(kind="pothole", count=500))
+    assert ended.world.episode == 1
+
+
+# Anything at all
+
+WHERES = st.builds(
+    Where,
+    lane=st.one_of(st.none(), st.sampled_from(["left", "middle", "right"]), st.integers(1, 9)),
+    row=st.one_of(st.none(), st.integers(0, 12)),
+    cell=st.one_of(st.none(), st.tuples(st.integers(0, 8), st.integers(0, 12))),
+    side=st.sampled_from([None, None, "ahead", "behind", "left", "right"]),
+    distance_m=st.one_of(st.none(), st.floats(0.1, 60)),
+    cells=st.one_of(st.none(), st.integers(1, 12)),
+    nearest=st.sampled_from([None, None, True]),
+    id=st.sampled_from([None, None, None, "vehicle-1", "pothole-2", "av-1", "nobody"]),
+)
+ACTIONS = st.one_of(
+    st.builds(Add, kind=st.sampled_from([*KINDS, "av"]), count=st.integers(1, 40), where=st.none() | WHERES),
+    st.builds(
+        Remove,
+        kind=st.sampled_from([*KINDS, "av", "everything"]),
+        count=st.integers(1, 9) | st.just("all"),
+        where=st.none() | WHERES,
+    ),
+    st.builds(SetCount, kind=st.sampled_from(KINDS), count=st.integers(0, 60)),
+    st.builds(
+        Scenario,
+        road=st.sampled_from([None, "highway", "city", "rural"]),
+        traffic=st.sampled_from([None, "none", "heavy"]),
+        potholes=st.none() | st.integers(0, 80),
+    ),
+    st.just(Reset()),
+    st.builds(SetMode, mode=st.sampled_from(list(Mode))),
+    st.builds(Drive, move=st.sampled_from(list(Move))),
+)
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.integers(0, 99), st.lists(st.tuples(st.integers(0, 6), ACTIONS), max_size=8))
+def test_any_action_is_done_wholly_or_refused_in_a_sentence(
+    seed: int, script: list[tuple[int, WorldAction]]
+) -> None:
+    run = Run.start(Config(columns=7, rows=10, seed=seed, pedestrians=2, barriers=2))
+    for ticks, action in script:
+        for _ in range(ticks):
+            run = advance(run).run
+        before: Run = run
+        things = {thing.id: thing for thing in before.world.things()}
+        try:
+            applied = apply(run, action)
+        except EditError as error:
+            assert error.message.endswith("."), error.message
+            continue
+        run = applied.run
+        sound(run.world)
+        after = {thing.id: thing for thing in run.world.things()}
+        assert run.world.tick == before.world.tick
+        assert all(after[thing.id] == thing for thing in applied.added)
+        assert not any(thing.id in after for thing in applied.removed)
+        if not any(event.type is EventType.EPISODE_STARTED for event in applied.events):
+            check_edit(things, after, applied.added, applied.removed)
+
+
+def check_edit(
+    before: dict[str, Thing], after: dict[str, Thing], added: tuple[Thing, ...], removed: tuple[Thing, ...]
+) -> None:
+    """Within an episode, what was not added or removed is where it was."""
+    assert set(after) == (set(before) | {thing.id for thing in added}) - {thing.id for thing in removed}
+    for name in set(before) & set(after):
+        assert (before[name].cell, before[name].heading) == (after[name].cell, after[name].heading)

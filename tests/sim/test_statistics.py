@@ -1,0 +1,54 @@
+"""How often the rule planner arrives, against figures measured by an independent sketch of the rules.
+
+The sketch's 2,000 worlds a figure and the worlds run here both err by chance, and the figures are
+told to within a point; 3.3 standard errors of the difference leave one false alarm in a thousand.
+The seeds are fixed, so a test that passes goes on passing until the world changes.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+import pytest
+
+from sim.config import Config
+from sim.kinds import Outcome
+from sim.metrics import Metrics
+from sim.run import Run, advance
+
+SKETCH_WORLDS = 2000
+ROUNDING = 0.01
+
+
+def driven(seed: int, potholes: int | None) -> Run:
+    """The first episode of a seed, to its end."""
+    run = Run.start(Config(seed=seed, potholes=potholes))
+    while run.world.outcome is Outcome.RUNNING:
+        run = advance(run).run
+    return run
+
+
+@pytest.mark.parametrize(
+    ("potholes", "measured", "worlds"),
+    [(None, 0.979, 300), (10, 0.932, 300), (20, 0.806, 300), (40, 0.452, 150), (60, 0.154, 100)],
+)
+def test_how_often_the_rule_planner_arrives(potholes: int | None, measured: float, worlds: int) -> None:
+    runs = [driven(seed, potholes) for seed in range(worlds)]
+    share = sum(run.metrics.successes for run in runs) / worlds
+    error = sqrt(measured * (1 - measured) * (1 / worlds + 1 / SKETCH_WORLDS))
+    assert abs(share - measured) < 3.3 * error + ROUNDING
+
+
+def test_the_drive_takes_about_35_ticks_and_goes_forward_most_of_the_time() -> None:
+    runs = [driven(seed, None) for seed in range(1000, 1100)]
+    arrived = [run.world.episode_tick for run in runs if run.world.outcome is Outcome.SUCCESS]
+    assert min(arrived) >= 29, "29 rows, one a tick"
+    assert 33.0 < sum(arrived) / len(arrived) < 38.0
+    total = Metrics(
+        forward=sum(run.metrics.forward for run in runs),
+        lateral=sum(run.metrics.lateral for run in runs),
+        diagonal=sum(run.metrics.diagonal for run in runs),
+        stay=sum(run.metrics.stay for run in runs),
+    )
+    assert total.forward / total.steps > 0.6
+    assert total.forward > total.lateral > total.diagonal > total.stay

@@ -1,0 +1,274 @@
+"""Walking time: the past is what it was, undo is as if never said, redo as if never undone."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from sim.actions import Add, Drive, Remove, Reset, Scenario, SetCount, SetMode, Where, WorldAction
+from sim.config import Config
+from sim.edit import EditError
+from sim.kinds import Kind, Mode, Move
+from sim.run import Run, decide
+from sim.timeline import MAX_SNAPSHOTS, RECENT_RUNS, SNAPSHOT_TICKS, Entry, Timeline
+
+CONFIG = Config(columns=6, rows=10, seed=21, potholes=4, pedestrians=2)
+
+ACTIONS = st.sampled_from(
+    [
+        Add(kind="pothole", count=2),
+        Add(kind="vehicle", count=1, where=Where(side="ahead")),
+        Add(kind="barrier", count=60),
+        SetCount(kind="vehicle", count=5),
+        Remove(kind="everything", count="all", where=Where(lane="left")),
+        Remove(kind="pothole", count=1, where=Where(nearest=True)),
+        Scenario(road="city", potholes=3),
+        Reset(),
+        SetMode(mode=Mode.MANUAL),
+        SetMode(mode=Mode.AUTO),
+        Drive(move=Move.LEFT),
+        Drive(move=Move.FORWARD),
+    ]
+)
+SCRIPTS = st.lists(st.tuples(st.integers(0, 25), st.lists(ACTIONS, max_size=3)), max_size=7)
+
+
+def said(timeline: Timeline, sequence: int, actions: Sequence[WorldAction]) -> bool:
+    """Whether the actions were accepted."""
+    try:
+        timeline.apply(sequence, actions)
+    except EditError:
+        return False
+    return True
+
+
+def played(
+    script: list[tuple[int, list[WorldAction]]], config: Config = CONFIG
+) -> tuple[Timeline, list[Run]]:
+    """A timeline, and the state at each tick as it was when the tick was left."""
+    timeline, seen = Timeline(config), []
+    for sequence, (ticks, actions) in enumerate(script, 1):
+        for _ in range(ticks):
+            seen.append(timeline.run)
+            timeline.advance()
+        said(timeline, sequence, actions)
+    seen.append(timeline.run)
+    return timeline, seen
+
+
+@settings(max_examples=40, deadline=None)
+@given(SCRIPTS)
+def test_every_past_state_is_what_was_seen_live(script: list[tuple[int, list[WorldAction]]]) -> None:
+    timeline, seen = played(script)
+    assert timeline.tick == len(seen) - 1
+    for tick, run in enumerate(seen):
+        assert timeline.at(tick) == run
+    assert list(timeline.between(0, timeline.tick)) == seen[:-1]
+    assert list(timeline.between(timeline.tick // 2, timeline.tick)) == seen[timeline.tick // 2 : -1]
+
+
+@settings(max_examples=30, deadline=None)
+@given(SCRIPTS)
+def test_every_past_decision_is_what_was_decided_live(script: list[tuple[int, list[WorldAction]]]) -> None:
+    timeline, decisions = Timeline(CONFIG), []
+    for sequence, (ticks, actions) in enumerate(script, 1):
+        for _ in range(ticks):
+            decisions.append(timeline.advance().decision)
+        said(timeline, sequence, actions)
+    for tick, decision in enumerate(decisions):
+        assert timeline.decision(tick) == decision
+    assert timeline.decision(timeline.tick) == decide(timeline.run)
+
+
+@settings(max_examples=40, deadline=None)
+@given(SCRIPTS, st.integers(1, 20))
+def test_undone_is_never_said_and_redone_is_never_undone(
+    script: list[tuple[int, list[WorldAction]]], later: int
+) -> None:
+    timeline, _ = played(script)
+    for _ in range(later):
+        timeline.advance()
+    last = timeline.entries[-1].sequence if timeline.entries else None
+    before, log = timeline.run, list(timeline.entries)
+
+    taken = timeline.undo()
+    assert taken == [entry for entry in log if entry.sequence == last]
+    never, _ = played([(ticks, [] if n == last else actions) for n, (ticks, actions) in enumerate(script, 1)])
+    for _ in range(later):
+        never.advance()
+    assert timeline.run == never.run
+    assert timeline.entries == never.entries
+    for tick in range(0, timeline.tick + 1, 5):
+        assert timeline.at(tick) == never.at(tick)
+
+    assert timeline.redo() == taken
+    assert timeline.run == before
+    assert timeline.entries == log
+    assert not timeline.can_redo
+
+
+@settings(max_examples=25, deadline=None)
+@given(SCRIPTS)
+def test_everything_can_be_undone_and_redone(script: list[tuple[int, list[WorldAction]]]) -> None:
+    timeline, seen = played(script)
+    log = list(timeline.entries)
+    changes = len({entry.sequence for entry in log})
+    for left in range(changes, 0, -1):
+        assert timeline.can_undo
+        assert len({entry.sequence for entry in timeline.entries}) == left
+        timeline.undo()
+    assert (timeline.can_undo, timeline.undo()) == (False, [])
+    assert timeline.run == played([(len(seen) - 1, [])])[0].run
+    for _ in range(changes):
+        assert timeline.redo()
+    assert (timeline.can_redo, timeline.redo()) == (False, [])
+    assert timeline.entries == log
+    assert [timeline.at(tick) for tick in range(len(seen))] == seen
+
+
+def test_what_is_said_after_an_undo_ends_the_redoing() -> None:
+    timeline, _ = played([(3, [Add(kind="pothole", count=1)]), (3, [])])
+    timeline.undo()
+    assert timeline.can_redo
+    timeline.apply(9, [Add(kind="barrier", count=1)])
+    assert not timeline.can_redo
+    assert timeline.redo() == []
+
+
+def test_redo_says_it_again_at_the_tick_it_was_said() -> None:
+    timeline, _ = played([(5, [Add(kind="pothole", count=3)])])
+    timeline.undo()
+    timeline.advance()
+    assert timeline.redo() == [Entry(1, 5, Add(kind="pothole", count=3))]
+    straight, _ = played([(5, [Add(kind="pothole", count=3)]), (1, [])])
+    assert timeline.run == straight.run
+
+
+def test_all_the_actions_or_none() -> None:
+    timeline, _ = played([(4, [Add(kind="pothole", count=1)])])
+    before = timeline.run
+    timeline.undo()
+    undone = timeline.run
+    with pytest.raises(EditError):
+        timeline.apply(2, [Add(kind="barrier", count=2), Add(kind="pothole", count=500)])
+    assert timeline.run == undone
+    assert timeline.entries == []
+    timeline.redo()
+    assert timeline.run == before, "a refused change does not end the redoing either"
+
+
+def test_actions_said_together_are_one_change() -> None:
+    timeline = Timeline(CONFIG)
+    done = timeline.apply(7, [Add(kind="barrier", count=1), Remove(kind="barrier", count="all")])
+    assert [len(applied.added) for applied in done] == [1, 0]
+    assert [entry.sequence for entry in timeline.entries] == [7, 7]
+    assert len(timeline.undo()) == 2
+    assert timeline.run == Run.start(CONFIG)
+
+
+def test_nothing_said_changes_nothing() -> None:
+    timeline, _ = played([(2, [Add(kind="pothole", count=1)])])
+    timeline.undo()
+    assert timeline.apply(2, []) == []
+    assert timeline.can_redo
+    assert timeline.entries == []
+
+
+def test_a_copy_goes_its_own_way() -> None:
+    timeline, seen = played([(9, [Add(kind="pothole", count=2)]), (9, [])])
+    copy = timeline.copy()
+    assert (copy.run, copy.entries, copy.tick) == (timeline.run, timeline.entries, timeline.tick)
+    copy.apply(50, [Scenario(potholes=0)])
+    for _ in range(80):
+        copy.advance()
+    copy.undo()
+    copy.undo()
+    assert (timeline.tick, len(timeline.entries), timeline.can_redo) == (18, 1, False)
+    assert [timeline.at(tick) for tick in range(19)] == seen
+    for _ in range(100):
+        timeline.advance()
+    assert copy.tick == 98
+    assert copy.run == played([(98, [])])[0].run
+
+
+def test_a_copy_of_an_undone_timeline_can_redo() -> None:
+    timeline, _ = played([(2, [Add(kind="pothole", count=2)])])
+    after = timeline.run
+    timeline.undo()
+    copy = timeline.copy()
+    copy.redo()
+    assert copy.run == after
+    assert timeline.can_redo
+
+
+@pytest.mark.parametrize("tick", [-1, 6, 10**9])
+def test_there_is_no_state_outside_of_what_has_been(tick: int) -> None:
+    timeline, _ = played([(5, [])])
+    for question in (timeline.at, timeline.decision):
+        with pytest.raises(IndexError, match="not between 0 and 5"):
+            question(tick)
+
+
+@pytest.mark.parametrize(("first", "stop"), [(-1, 3), (0, 7), (-5, -2)])
+def test_there_are_no_states_outside_of_what_has_been(first: int, stop: int) -> None:
+    timeline, _ = played([(5, [])])
+    with pytest.raises(IndexError, match="not between 0 and 5"):
+        list(timeline.between(first, stop))
+
+
+def test_the_last_few_states_are_kept_and_forgotten_when_the_past_changes() -> None:
+    timeline, seen = played([(RECENT_RUNS + 5, [Add(kind="pothole", count=5)]), (3, [])])
+    assert all(timeline.at(tick) is seen[tick] for tick in range(timeline.tick - RECENT_RUNS, timeline.tick))
+    timeline.undo()
+    timeline.advance()
+    never, _ = played([(timeline.tick, [])])
+    assert [timeline.at(tick) for tick in range(timeline.tick)] == [never.at(t) for t in range(timeline.tick)]
+
+
+def test_snapshots_thin_out_and_the_past_stays_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same with fewer of them, so that the bound is passed several times in little time."""
+    monkeypatch.setattr("sim.timeline.MAX_SNAPSHOTS", 5)
+    monkeypatch.setattr("sim.timeline.SNAPSHOT_TICKS", 4)
+    script: list[tuple[int, list[WorldAction]]] = [
+        (37, [Add(kind="pothole", count=2)]),
+        (27, [Add(kind="barrier", count=1)]),
+        (64, [Scenario(potholes=6)]),
+        (33, []),
+    ]
+    timeline, seen = played(script)
+    assert len(timeline._snapshots) <= 5
+    assert [timeline.at(tick) for tick in range(len(seen))] == seen
+    timeline.undo()
+    timeline.undo()
+    for _ in range(50):
+        timeline.advance()
+    never, _ = played([(37, [Add(kind="pothole", count=2)]), (len(seen) - 1 - 37 + 50, [])])
+    assert timeline.run == never.run
+    assert len(timeline._snapshots) <= 6
+    assert timeline.at(40) == never.at(40)
+
+
+def test_a_long_session_keeps_a_bounded_number_of_states() -> None:
+    """Past the real bound, on a road so small that it takes a second."""
+    config = Config(columns=3, rows=4, vehicles=0, potholes=0, reset_delay_s=0, seed=1)
+    timeline = Timeline(config)
+    ticks = MAX_SNAPSHOTS * SNAPSHOT_TICKS + 100
+    marks = {}
+    for tick in range(ticks):
+        if tick % 4111 == 0:
+            marks[tick] = timeline.run
+        timeline.advance()
+    assert len(timeline._snapshots) <= MAX_SNAPSHOTS
+    for tick, run in marks.items():
+        assert timeline.at(tick) == run
+
+
+def test_undo_reaches_across_the_end_of_an_episode() -> None:
+    timeline, _ = played([(1, [SetCount(kind="barrier", count=0), Add(kind="pothole", count=4)]), (60, [])])
+    assert timeline.run.world.episode > 1
+    timeline.undo()
+    assert timeline.run == played([(61, [])])[0].run
+    assert timeline.run.world.count(Kind.AV) == 1
