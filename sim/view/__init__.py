@@ -1,0 +1,59 @@
+"""Pictures of a world, with pygame: the only place that imports it. No window is needed.
+
+`render` draws, `encode` makes bytes of it. Drawing knows the world and nothing of where its
+pictures go. Importing this package does not import pygame; drawing does.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from sim.view.motion import STEP_FRAMES, eased
+
+if TYPE_CHECKING:
+    import pygame
+
+    from sim.plan import Decision
+    from sim.run import Run
+    from sim.world import World
+
+VIEWS = ("road", "schematic")
+FORMATS = ("png", "jpeg")
+MAX_SIDE = 2_160
+"""The longest side of a picture, in pixels."""
+
+__all__ = ["FORMATS", "MAX_SIDE", "STEP_FRAMES", "VIEWS", "eased", "encode", "render"]
+
+
+def render(
+    view: str,
+    run: Run,
+    *,
+    before: World | None = None,
+    decision: Decision | None = None,
+    phase: float = 1.0,
+    size: tuple[int, int] | None = None,
+) -> pygame.Surface:
+    """A picture of a run.
+
+    `before` is the world one tick earlier, from which things glide as `phase` goes from 0 to 1;
+    `decision` is what led from it to the present. `size` is the room for it in pixels (the
+    picture keeps its shape within). Raises `ValueError` for a view there is none of.
+    """
+    from sim.view.road_view import draw_road
+    from sim.view.schematic import draw_schematic
+
+    if view == "road":
+        return draw_road(run, before, decision, phase, size)
+    if view == "schematic":
+        return draw_schematic(run, size)
+    raise ValueError(f"there is no view called {view!r}; there are {', '.join(VIEWS)}")
+
+
+def encode(picture: pygame.Surface, form: str = "png") -> bytes:
+    """A picture as the bytes of a file. Raises `ValueError` for a format that is not offered."""
+    from sim.view.files import encoded
+
+    if form not in FORMATS:
+        raise ValueError(f"pictures can be had as {' and '.join(FORMATS)}, not as {form!r}")
+    return encoded(picture, form)

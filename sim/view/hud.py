@@ -1,0 +1,60 @@
+"""Figures over the road, and the verdict when an episode has ended."""
+
+from __future__ import annotations
+
+import pygame
+
+from sim.kinds import Outcome
+from sim.run import Run
+from sim.view import theme
+from sim.view.text import written
+
+
+def draw_figures(picture: pygame.Surface, run: Run, unit_px: int) -> None:
+    """Tick, time, way to go and success rate along the upper edge."""
+    world, rate = run.world, run.metrics.success_rate
+    row = world.road.cell(world.av)[1]
+    figures = [
+        ("tick", str(world.tick)),
+        ("time", f"{world.tick * run.config.step_seconds:.1f} s"),
+        ("to go", f"{row * run.config.cell_m:g} m"),
+        ("episode", str(world.episode)),
+        ("arrived", "–" if rate is None else f"{rate:.0%}"),
+    ]
+    height, width = max(18, int(unit_px * 0.5)), picture.get_width()
+    strip = pygame.Surface((width, height), pygame.SRCALPHA)
+    strip.fill(theme.PANEL)
+    share = width // len(figures)
+    for n, (label, value) in enumerate(figures):
+        name = written(label, int(height * 0.5), theme.TEXT_QUIET)
+        figure = written(value, int(height * 0.62), theme.TEXT)
+        x = n * share + (share - name.get_width() - figure.get_width() - height // 5) // 2
+        strip.blit(name, (x, (height - name.get_height()) // 2 + 1))
+        strip.blit(figure, (x + name.get_width() + height // 5, (height - figure.get_height()) // 2))
+    picture.blit(strip, (0, 0))
+
+
+def draw_verdict(picture: pygame.Surface, run: Run, unit_px: int) -> None:
+    """CRASH, SUCCESS or STUCK across the middle, with what was hit; nothing while the road is driven."""
+    world = run.world
+    if world.outcome is Outcome.RUNNING:
+        return
+    colour = theme.OUTCOMES[world.outcome]
+    width, height = picture.get_size()
+    band = pygame.Surface((width, int(unit_px * 1.5)), pygame.SRCALPHA)
+    band.fill(theme.PANEL)
+    band.fill(colour, (0, 0, width, max(2, unit_px // 24)))
+    title = written(world.outcome.upper(), int(unit_px * 0.95), colour)
+    told = written(_told(run), int(unit_px * 0.36), theme.TEXT)
+    band.blit(title, ((width - title.get_width()) // 2, int(unit_px * 0.26)))
+    band.blit(told, ((width - told.get_width()) // 2, int(unit_px * 1.0)))
+    picture.blit(band, (0, (height - band.get_height()) // 2))
+
+
+def _told(run: Run) -> str:
+    world = run.world
+    if world.cause is not None:
+        verb = "through" if world.cause.how == "swap" else "into"
+        return f"{verb} {' and '.join(world.cause.ids)}"
+    ticks = (world.ended or world.tick) - world.episode_start
+    return f"{ticks} ticks, {ticks * run.config.step_seconds:g} s"

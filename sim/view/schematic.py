@@ -1,0 +1,37 @@
+"""The schematic: the whole road at a glance, one small square a cell."""
+
+from __future__ import annotations
+
+import pygame
+
+from sim.kinds import Kind
+from sim.run import Run
+from sim.view import theme
+
+CELL_PX = 24
+
+
+def draw_schematic(run: Run, size: tuple[int, int] | None) -> pygame.Surface:
+    """See `sim.view.render`."""
+    road = run.world.road
+    px = CELL_PX if size is None else max(2, min(size[0] // road.columns, size[1] // road.rows))
+    picture = pygame.Surface((road.columns * px, road.rows * px))
+    picture.fill(theme.SCHEMATIC_GRID)
+    gap = 1 if px >= 6 else 0
+    for row in range(road.rows):
+        for column in range(road.columns):
+            colour = theme.FINISH[column % 2] if row == 0 else theme.SCHEMATIC_ROAD
+            picture.fill(colour, (column * px, row * px, px - gap, px - gap))
+    for thing in run.world.things():
+        _spot(picture, thing.kind, thing.cell, px)
+    _spot(picture, Kind.AV, road.cell(run.world.av), px)
+    return picture
+
+
+def _spot(picture: pygame.Surface, kind: Kind, cell: tuple[int, int], px: int) -> None:
+    inset = max(0, px // 8)
+    spot = pygame.Rect(cell[0] * px, cell[1] * px, px, px).inflate(-2 * inset, -2 * inset)
+    if kind in (Kind.POTHOLE, Kind.PEDESTRIAN):
+        pygame.draw.ellipse(picture, theme.SCHEMATIC[kind], spot)
+    else:
+        pygame.draw.rect(picture, theme.SCHEMATIC[kind], spot, border_radius=px // 5)

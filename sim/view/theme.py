@@ -1,0 +1,58 @@
+"""Colours and proportions, as data."""
+
+from __future__ import annotations
+
+from typing import Final
+
+Colour = tuple[int, int, int]
+
+CELL_PX: Final = 90
+"""side of a cell in the road view, in pixels, when no size is asked for"""
+
+VERGE: Final[Colour] = (34, 44, 38)
+ASPHALT: Final[Colour] = (52, 56, 63)
+ASPHALT_GRAIN: Final[tuple[Colour, ...]] = ((47, 51, 58), (57, 61, 68), (61, 65, 72))
+EDGE_LINE: Final[Colour] = (232, 226, 205)
+LANE_LINE: Final[Colour] = (112, 118, 127)
+FINISH: Final[tuple[Colour, Colour]] = ((238, 238, 234), (28, 30, 34))
+
+AV: Final[Colour] = (64, 132, 255)
+AV_GLASS: Final[Colour] = (20, 38, 74)
+VEHICLES: Final[tuple[Colour, ...]] = (
+    (222, 92, 84),
+    (226, 148, 66),
+    (190, 112, 200),
+    (92, 176, 142),
+    (206, 190, 96),
+    (150, 160, 176),
+)
+GLASS: Final[Colour] = (30, 34, 42)
+HEADLIGHT: Final[Colour] = (255, 240, 190)
+TAILLIGHT: Final[Colour] = (255, 74, 66)
+DISABLED: Final[Colour] = (104, 104, 108)
+PEDESTRIANS: Final[tuple[Colour, ...]] = ((236, 196, 92), (112, 200, 206), (238, 138, 150), (170, 200, 110))
+SKIN: Final[Colour] = (224, 184, 150)
+BARRIER: Final[tuple[Colour, Colour]] = ((240, 122, 48), (244, 240, 232))
+HOLE: Final[tuple[Colour, Colour, Colour]] = ((40, 42, 47), (24, 25, 28), (12, 12, 14))
+CRACK: Final[Colour] = (30, 32, 36)
+BOX: Final[Colour] = (255, 255, 255)
+MOVE: Final[Colour] = (96, 220, 140)
+
+PANEL: Final = (18, 20, 24, 205)
+TEXT: Final[Colour] = (236, 238, 242)
+TEXT_QUIET: Final[Colour] = (160, 168, 178)
+OUTCOMES: Final[dict[str, Colour]] = {
+    "success": (78, 201, 122),
+    "crash": (240, 84, 78),
+    "stuck": (240, 178, 70),
+}
+
+SCHEMATIC_ROAD: Final[Colour] = (38, 41, 47)
+SCHEMATIC_GRID: Final[Colour] = (52, 56, 63)
+SCHEMATIC: Final[dict[str, Colour]] = {
+    "av": AV,
+    "vehicle": (226, 84, 78),
+    "pedestrian": (112, 200, 206),
+    "pothole": (240, 200, 70),
+    "barrier": (240, 122, 48),
+}
