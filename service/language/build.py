@@ -1,0 +1,175 @@
+"""A filled frame → the actions it stands for, as JSON values.
+
+Templates come from the data: `$thing.count` is a value said, `$where` the place made of all its parts,
+`$amount` the number in the unit of the parameter it is for. A key whose value was not said is left out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from service.language.frames import Filled
+from service.language.lattice import Edge
+from service.language.noun_phrases import Amount
+
+_ABSENT = object()
+_MEASURES = ("number", "length", "speed", "seconds", "fraction", "times")
+_EXCLUSIVE = (
+    {"cell", "lane"},
+    {"cell", "row"},
+    {"cells", "distance_m"},
+    {"nearest", "cell"},
+    {"nearest", "lane"},
+)
+
+
+class CannotBuild(Exception):  # noqa: N818 - not an error of the program: the frame does not fit
+    """The items fill the frame, but contradict each other or do not fit its values."""
+
+
+@dataclass(frozen=True, slots=True)
+class Parameters:
+    """What kinds of amount each numeric parameter takes, from `parameters.yaml`."""
+
+    takes: Mapping[str, Sequence[str]]
+
+    def fits(self, parameter: str, dimension: str) -> bool:
+        """Whether an amount in this dimension can be a value of the parameter."""
+        return dimension in self.takes.get(parameter, ())
+
+
+def build(filled: Filled, parameters: Parameters) -> list[dict[str, Any]]:
+    """The actions of a filled frame, in the order their things were said."""
+    frame = filled.frame
+    maker = _Maker(filled, parameters)
+    if not frame.per:
+        return [maker.action(template, None) for template in frame.actions]
+    turns = filled.of(*frame.per)
+    if len(turns) > 1 and maker.where() is not None:
+        raise CannotBuild("one place for several things")
+    return [maker.action(template, turn) for turn in turns for template in frame.actions]
+
+
+class _Maker:
+    """Fills the templates of one frame."""
+
+    def __init__(self, filled: Filled, parameters: Parameters) -> None:
+        self._filled = filled
+        self._parameters = parameters
+
+    def action(self, template: Mapping[str, Any], turn: Edge | None) -> dict[str, Any]:
+        """One action; `turn` is the slot it is about when a frame makes one for each."""
+        value = self._value(template, turn)
+        if not isinstance(value, dict):
+            raise CannotBuild("an action must be a mapping")
+        return value
+
+    def _value(self, template: Any, turn: Edge | None) -> Any:
+        if isinstance(template, str) and template.startswith("$"):
+            return self._slot(template[1:], turn)
+        if isinstance(template, Mapping):
+            pairs = {key: self._value(part, turn) for key, part in template.items()}
+            merged: dict[str, Any] = {}
+            for key, part in pairs.items():
+                if key == "parts":
+                    merged.update(part)
+                elif part is not _ABSENT:
+                    merged[key] = part
+            return merged
+        if isinstance(template, list):
+            return [part for part in (self._value(t, turn) for t in template) if part is not _ABSENT]
+        return template
+
+    def _slot(self, path: str, turn: Edge | None) -> Any:
+        name, _, attribute = path.partition(".")
+        match name:
+            case "where":
+                where = self.where()
+                return _ABSENT if where is None else where
+            case "amount":
+                return self._amount()
+            case "down_amount":
+                return -self._amount()
+            case "parts":
+                return self.parts()
+            case "planners":
+                return [edge.sense.value for edge in self._filled.of("planner")] or _ABSENT
+            case "eval_scenario":
+                return self.parts(without=("planner",)) or _ABSENT
+            case "asked_move":
+                return self._asked_move()
+            case "concept" if turn:
+                return turn.concept
+            case "each" if turn:
+                return turn.sense.value
+        slots = [turn] if turn and turn.concept.partition(".")[0] == name else self._filled.of(name)
+        if not slots:
+            return _ABSENT
+        if len(slots) > 1 and len({repr(edge.sense.value) for edge in slots}) > 1:
+            raise CannotBuild(f"two values for {name}")
+        value = slots[0].sense.value
+        if isinstance(value, Amount):
+            return value.of if attribute == "of" else value.count
+        return value[attribute] if attribute else value
+
+    def where(self) -> dict[str, Any] | None:
+        """The place, of all its parts; parts that contradict each other are no place."""
+        where: dict[str, Any] = {}
+        for edge in self._filled.of("place", "side", "nearest"):
+            value = edge.sense.value
+            part = value if isinstance(value, dict) else {"side": value}
+            for key, value in part.items():
+                if where.get(key, value) != value:
+                    raise CannotBuild("two places")
+                where[key] = value
+        for edge in self._filled.of("length"):
+            if "distance_m" in where:
+                raise CannotBuild("two distances")
+            where["distance_m"] = edge.sense.value
+        for edge in self._filled.of("cells"):
+            if "cells" in where:
+                raise CannotBuild("two distances")
+            where["cells"] = edge.sense.value.count
+        if any(pair <= where.keys() for pair in _EXCLUSIVE):
+            raise CannotBuild("a place said twice over")
+        return where or None
+
+    def _amount(self) -> int | float:
+        """The one number said, in a unit its parameter takes."""
+        parameter = self._slot("param", None)
+        amounts = self._filled.of(*_MEASURES)
+        if len(amounts) != 1:
+            raise CannotBuild("not one amount")
+        sense = amounts[0].sense
+        if not self._parameters.fits(str(parameter), sense.concept):
+            raise CannotBuild(f"{parameter} is no {sense.concept}")
+        value: int | float = round(sense.value / 100, 9) if sense.concept == "fraction" else sense.value
+        return value
+
+    def _asked_move(self) -> Any:
+        """The move a question is about: a direction, or staying; absent when none was named."""
+        moves = [edge.sense.value for edge in self._filled.of("dir")]
+        moves += ["stay" for _ in self._filled.of("stay_word")]
+        if len(set(moves)) > 1:
+            raise CannotBuild("two moves")
+        return moves[0] if moves else _ABSENT
+
+    def parts(self, without: tuple[str, ...] = ()) -> dict[str, Any]:
+        """The keys of a scenario, from everything said that is one."""
+        parts: dict[str, Any] = {}
+        for edge in self._filled.of(
+            "weather", "time_of_day", "road", "traffic", "planner", "sensor", "thing"
+        ):
+            key, value = edge.concept, edge.sense.value
+            if key in without:
+                continue
+            if isinstance(value, Amount):
+                key, value = f"{value.of}s", value.count
+            if parts.get(key, value) != value:
+                raise CannotBuild(f"two values for {key}")
+            if key in parts:
+                raise CannotBuild(f"{key} said twice")
+            parts[key] = value
+        return parts

@@ -1,0 +1,242 @@
+"""Fragments → clauses: where one request ends and the next begins, and what is carried over.
+
+A sentence is cut at its separators ("and", "then", commas). A fragment is a clause when a frame fits it; it
+may also lean on the clause before it ("add two cones and a bus in lane 5"), or belong together
+with the fragments after it when a frame says that its parts may be listed ("highway, night, 10
+potholes"). Negated fragments are understood and then left out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+from service.language.frames import Filled
+from service.language.lattice import GLUE, Edge, Lattice
+from service.language.lexicon import Sense
+from service.language.noun_phrases import Amount, understood_nouns
+from service.language.paths import ALLOWS, NEGATION, SEPARATOR, Stretch
+
+MAX_JOINED = 16
+"""How many fragments one listing clause may have."""
+
+_LENIENT = ("counted", "the_many", "bare_many")
+_TOGETHER = frozenset({"pause", "and"})
+"""Separators inside a listing clause; any other ends it."""
+_OR = "or"
+
+
+@dataclass(frozen=True, slots=True)
+class Fragment:
+    """Tokens `[start, end)` between two separators, and the separator before them."""
+
+    after: str
+    start: int
+    end: int
+
+
+@dataclass(frozen=True, slots=True)
+class Clause:
+    """A request found in tokens `[start, end)`; no actions when it is negated."""
+
+    start: int
+    end: int
+    filled: Filled
+    actions: list[dict[str, Any]]
+    negated: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Context:
+    """What a clause hands on to the next: its verb, and the thing it was about."""
+
+    verb: tuple[Edge, ...] = ()
+    noun: Amount | None = None
+    verbless: bool = True
+    negated: bool = False
+
+
+@dataclass(slots=True)
+class Divided:
+    """The clauses found; `failed` is the first fragment that nothing fits, if any."""
+
+    clauses: list[Clause] = field(default_factory=list)
+    failed: Fragment | None = None
+
+
+class Matcher(Protocol):
+    """What finds the frame for a stretch of tokens."""
+
+    def match(
+        self, stretch: Stretch, *, verbless: bool | None = None
+    ) -> tuple[Filled, list[dict[str, Any]]] | None:
+        """The best frame, filled, and its actions; None when none fits or two fit equally well."""
+
+
+def fragments(lattice: Lattice, start: int, end: int) -> list[Fragment]:
+    """Tokens `[start, end)` cut at separators; parts with nothing but glue are dropped."""
+    found: list[Fragment] = []
+    after, begin, at, inside = "pause", start, start, start
+    while at < end:
+        separator = max(
+            (e for e in lattice.edges[at] if e.concept == SEPARATOR and e.end <= end),
+            key=lambda edge: edge.end,
+            default=None,
+        )
+        if separator is not None and inside <= at:
+            if _says_something(lattice, begin, at):
+                found.append(Fragment(after, begin, at))
+                after = str(separator.sense.value)
+            elif str(separator.sense.value) != "pause":
+                after = str(separator.sense.value)
+            at = begin = inside = separator.end
+            continue
+        for edge in lattice.edges[at]:
+            if edge.end <= end and edge.concept != SEPARATOR:
+                inside = max(inside, edge.end)
+        at += 1
+    if _says_something(lattice, begin, end):
+        found.append(Fragment(after, begin, end))
+    return found
+
+
+def _says_something(lattice: Lattice, start: int, end: int) -> bool:
+    """Whether the tokens are not all glue."""
+    at = start
+    while at < end:
+        glue = [e.end for e in lattice.edges[at] if e.concept == GLUE and not e.sense.form and e.end <= end]
+        if not glue:
+            return True
+        at = max(glue)
+    return False
+
+
+class Divider:
+    """Divides the fragments of one sentence into clauses."""
+
+    def __init__(self, matcher: Matcher, lattice: Lattice, vague: int, moods: frozenset[str]) -> None:
+        self._matcher = matcher
+        self._lattice = lattice
+        self._vague = vague
+        self._moods = moods
+
+    def divide(self, parts: Sequence[Fragment]) -> Divided:
+        """The clauses of the fragments, or those up to the first that nothing fits."""
+        divided = Divided()
+        context = Context()
+        at = 0
+        while at < len(parts):
+            clause, used = self._joined(parts, at, context)
+            if clause is None:
+                clause, used = self._single(parts[at], context), 1
+            if clause is None:
+                divided.failed = parts[at]
+                return divided
+            divided.clauses.append(clause)
+            context = _context(clause, context)
+            at += used
+        return divided
+
+    def _joined(self, parts: Sequence[Fragment], at: int, context: Context) -> tuple[Clause | None, int]:
+        """The longest listing clause that starts here, of two fragments or more."""
+        last = at + 1
+        while last < min(len(parts), at + MAX_JOINED) and parts[last].after in _TOGETHER:
+            last += 1
+        if parts[at].after == _OR:
+            return None, 0
+        for end in range(last, at + 1, -1):
+            start, stop = parts[at].start, parts[end - 1].end
+            stretch = self._stretch(start, stop, joined=True)
+            found = self._matcher.match(stretch, verbless=None if context.verbless else False)
+            if found is not None:
+                return Clause(start, stop, *found), end - at
+        return None, 0
+
+    def _single(self, part: Fragment, context: Context) -> Clause | None:
+        """One fragment as a clause: by itself, leaning on the clause before, or without a verb."""
+        if part.after == _OR and not context.negated:
+            return None
+        start, end = part.start, part.end
+        plain = self._stretch(start, end)
+        found = self._matcher.match(plain, verbless=False)
+        if found is not None:
+            return Clause(start, end, *found)
+        if NEGATION in plain.concepts:
+            return self._negated(part, context)
+        if context.verb:
+            leaning = self._stretch(start, end, context)
+            found = self._matcher.match(leaning, verbless=False)
+            if found is not None:
+                return Clause(start, end, found[0], [] if context.negated else found[1], context.negated)
+        if context.verbless:
+            found = self._matcher.match(plain, verbless=True)
+            if found is None and context.noun is not None:
+                noun = Context(noun=context.noun)
+                found = self._matcher.match(self._stretch(start, end, noun), verbless=True)
+            if found is not None:
+                return Clause(start, end, *found)
+        return None
+
+    def _negated(self, part: Fragment, context: Context) -> Clause | None:
+        """A fragment that says what not to do: understood, then left out."""
+        start, end = part.start, part.end
+        for given in (Context(negated=True), Context(context.verb, context.noun, negated=True)):
+            found = self._matcher.match(self._stretch(start, end, given, negation=True), verbless=False)
+            if found is not None:
+                return Clause(start, end, found[0], [], negated=True)
+        return None
+
+    def _stretch(
+        self,
+        start: int,
+        end: int,
+        context: Context | None = None,
+        *,
+        joined: bool = False,
+        negation: bool = False,
+    ) -> Stretch:
+        """The tokens to be read, with what the context adds to them."""
+        context = context or Context()
+        edges: dict[int, list[Edge]] = {}
+        forms = set(self._moods)
+        concepts: set[str] = {edge.concept for edge in context.verb}
+        for edge in self._lattice.between(start, end):
+            edges.setdefault(edge.start, []).append(edge)
+            concepts.add(edge.concept)
+            if edge.concept == ALLOWS:
+                forms.add(str(edge.sense.value))
+        if context.noun is not None:
+            for edge in understood_nouns(self._lattice, start, end, context.noun, self._vague):
+                edges.setdefault(edge.start, []).append(edge)
+                concepts.add(edge.concept)
+        if context.negated:
+            forms.add("ing")
+            for edge in [edge for starting in edges.values() for edge in starting]:
+                for lenient in _lenient(edge):
+                    edges[edge.start].append(lenient)
+                    concepts.add(lenient.concept)
+        return Stretch(
+            start, end, edges, frozenset(concepts), frozenset(forms), context.verb, joined, negation
+        )
+
+
+def _context(clause: Clause, before: Context) -> Context:
+    frame = clause.filled.frame
+    verb = tuple(
+        Edge(edge.start, edge.end, edge.sense)
+        for edge in clause.filled.slots
+        if edge.concept in frame.inherits
+    )
+    things = clause.filled.of("thing")
+    noun = things[-1].sense.value if things else before.noun
+    return Context(verb, noun, frame.verbless or not frame.inherits, clause.negated)
+
+
+def _lenient(edge: Edge) -> list[Edge]:
+    """Any amount may stand for any other in a negated part: "don't add any cars" is about adding."""
+    if not isinstance(edge.sense.value, Amount):
+        return []
+    name = edge.concept.partition(".")[0]
+    amount = Amount(edge.sense.value.of, 1)
+    return [Edge(edge.start, edge.end, Sense(f"{name}.{form}", amount)) for form in _LENIENT]

@@ -1,0 +1,87 @@
+"""Reads a language's folder: lexicon, numbers, frames, messages. The only place that knows its files."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from service.language.build import Parameters
+from service.language.frames import Frame, FrameError, read_frames
+from service.language.lexicon import Lexicon
+from service.language.numbers import NumberWords
+from service.language.patterns import PatternError, read_macros
+from service.language.tokens import Contractions
+from service.language.typos import TypoRules
+
+TEST_SUFFIX = ".test.yaml"
+
+
+class LanguageDataError(ValueError):
+    """The files of a language are unfit; the message names every defect found."""
+
+
+@dataclass(frozen=True, slots=True)
+class LanguageData:
+    """Everything a language's files say."""
+
+    lexicon: Lexicon
+    numbers: NumberWords
+    contractions: Contractions
+    typos: TypoRules
+    parameters: Parameters
+    frames: list[Frame]
+    messages: Mapping[str, str]
+    vague: int
+    number_words: frozenset[str]
+
+    def knows(self, word: str) -> bool:
+        """Whether a word means anything, alone or in a phrase."""
+        return self.lexicon.knows(word) or word in self.number_words
+
+
+def read_language(folder: Path) -> LanguageData:
+    """The language in a folder. Raises `LanguageDataError`."""
+    if not folder.is_dir():
+        raise LanguageDataError(f"there is no language in {folder}")
+    try:
+        return _read(folder)
+    except (PatternError, FrameError, KeyError, yaml.YAMLError) as error:
+        raise LanguageDataError(f"{folder}: {type(error).__name__}: {error}") from error
+
+
+def read_yaml(path: Path) -> Any:
+    """One YAML file."""
+    return yaml.load(path.read_bytes(), Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+
+
+def _read(folder: Path) -> LanguageData:
+    words = read_yaml(folder / "words.yaml")
+    lexicon = Lexicon(read_macros(read_yaml(folder / "macros.yaml")))
+    for path in sorted((folder / "lexicon").glob("*.yaml")):
+        if not path.name.endswith(TEST_SUFFIX):
+            lexicon.add_section(read_yaml(path))
+    frames: dict[str, Any] = {"sets": {}, "frames": {}}
+    for path in sorted((folder / "frames").glob("*.yaml")):
+        if not path.name.endswith(TEST_SUFFIX):
+            data = read_yaml(path)
+            frames["sets"].update(data.get("sets", {}))
+            for name, content in data.get("frames", {}).items():
+                if name in frames["frames"]:
+                    raise FrameError(f"frame {name} is there twice")
+                frames["frames"][name] = content
+    numbers = NumberWords.from_data(read_yaml(folder / "numbers.yaml"))
+    return LanguageData(
+        lexicon=lexicon,
+        numbers=numbers,
+        contractions=Contractions.from_data(words["contractions"]),
+        typos=TypoRules.from_data(read_yaml(folder / "typos.yaml")),
+        parameters=Parameters({name: takes.split() for name, takes in words["parameters"].items()}),
+        frames=read_frames(frames),
+        messages=words["messages"],
+        vague=int(words["vague"]),
+        number_words=numbers.words(),
+    )

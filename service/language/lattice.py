@@ -1,0 +1,123 @@
+"""Tokens → a lattice: everything that any stretch of a sentence can mean.
+
+Each edge is a stretch of tokens with one sense. Phrases overlap ("in the" and "the left lane", "one tick" as a
+command and as an amount); which of them are meant is left to the frames, which look for a path of
+edges from end to end. So a phrase that belongs to one kind of request cannot hide another.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from service.language.lexicon import Lexicon, Sense
+from service.language.numbers import Found, NumberWords
+from service.language.patterns import Words
+from service.language.tokens import Token
+
+GLUE = "glue"
+NUMBER = "number"
+UNIT = "unit"
+NAME = "name"
+SECOND = "second_part"
+
+
+@dataclass(frozen=True, slots=True)
+class Edge:
+    """Tokens `[start, end)` in one of their senses. `part` links the two halves of a split phrase."""
+
+    start: int
+    end: int
+    sense: Sense
+    part: Words = ()
+
+    @property
+    def concept(self) -> str:
+        """The concept of its sense."""
+        return self.sense.concept
+
+
+@dataclass(slots=True)
+class Lattice:
+    """The edges of a sentence by the token they start at, longest first once sorted."""
+
+    size: int
+    edges: list[list[Edge]] = field(default_factory=list)
+
+    def all(self) -> Iterator[Edge]:
+        """Every edge."""
+        for starting in self.edges:
+            yield from starting
+
+    def between(self, start: int, end: int) -> Iterator[Edge]:
+        """The edges inside tokens `[start, end)`."""
+        for at in range(start, end):
+            for edge in self.edges[at]:
+                if edge.end <= end:
+                    yield edge
+
+    def uncovered(self) -> list[int]:
+        """The tokens that no edge contains: words that mean nothing here."""
+        covered = [False] * self.size
+        for edge in self.all():
+            for at in range(edge.start, edge.end):
+                covered[at] = True
+        return [at for at, known in enumerate(covered) if not known]
+
+
+class Scanner:
+    """Finds all phrases, numbers and measures of a sentence."""
+
+    def __init__(self, lexicon: Lexicon, numbers: NumberWords) -> None:
+        self._lexicon = lexicon
+        self._numbers = numbers
+
+    def scan(self, tokens: Sequence[Token], names: Mapping[int, int], text: str) -> Lattice:
+        """The lattice of a sentence. `names` gives stretches to be kept as written: start → end."""
+        numbers: dict[int, Found] = {}
+        ordinals: dict[int, int] = {}
+        for at, token in enumerate(tokens):
+            if (found := self._numbers.read(tokens, at)) is not None:
+                numbers[at] = found
+            if (nth := self._numbers.ordinal(token)) is not None:
+                ordinals[at] = nth
+        lattice = Lattice(len(tokens), [[] for _ in tokens])
+        at = 0
+        while at < len(tokens):
+            if (end := names.get(at)) is not None:
+                name = text[tokens[at].start : tokens[end - 1].end]
+                lattice.edges[at].append(Edge(at, end, Sense(NAME, name)))
+                at = end
+                continue
+            matches = self._lexicon.matches(tokens, at, numbers, ordinals)
+            for end, senses, part in matches:
+                if not any(end > name > at for name in names):
+                    lattice.edges[at].extend(Edge(at, end, sense, part) for sense in senses)
+            if (number := numbers.get(at)) is not None and not _inside_number(numbers, at):
+                lattice.edges[at].extend(self._measures(tokens, at, number, numbers, ordinals))
+            at += 1
+        return lattice
+
+    def _measures(
+        self,
+        tokens: Sequence[Token],
+        at: int,
+        number: Found,
+        numbers: Mapping[int, Found],
+        ordinals: Mapping[int, int],
+    ) -> Iterator[Edge]:
+        """A number, or with its unit when one follows: "15 m" is the concept `length` and 15."""
+        best: Edge | None = None
+        if number.end < len(tokens):
+            for end, senses, _ in self._lexicon.matches(tokens, number.end, numbers, ordinals):
+                for sense in senses:
+                    if sense.concept == UNIT and (best is None or end > best.end):
+                        dimension, factor = sense.value
+                        value = number.value if factor == 1 else round(number.value * factor, 9)
+                        best = Edge(at, end, Sense(dimension, value))
+        yield best if best is not None else Edge(at, number.end, Sense(NUMBER, number.value))
+
+
+def _inside_number(numbers: Mapping[int, Found], at: int) -> bool:
+    """Whether a longer number that starts earlier contains this token: "fifty" of "two hundred and fifty"."""
+    return any(start < at < found.end for start, found in numbers.items() if start > at - 8)

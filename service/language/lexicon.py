@@ -1,0 +1,168 @@
+"""Words → concepts: a tree of all phrases, and the longest phrase at a place in a sentence.
+
+A phrase may have several senses ("clear" removes things and is a kind of weather); which one is
+meant is for the frames to find out. A concept written `v.add/ing` is `v.add` in the form `ing`,
+which only counts where that form is in place ("would you mind adding").
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from service.language.numbers import Found
+from service.language.patterns import GAP, NUMBER, ORDINAL, Words, expand
+from service.language.tokens import Token
+
+
+@dataclass(frozen=True, slots=True)
+class Sense:
+    """One thing a phrase can mean: a concept, its value (None when it needs none) and its form."""
+
+    concept: str
+    value: Any = None
+    form: str = ""
+
+
+@dataclass(slots=True)
+class Node:
+    """A place in the tree of phrases."""
+
+    next: dict[str, Node] = field(default_factory=dict)
+    senses: list[Sense] | None = None
+    split: dict[Words, Sense] | None = None
+    """Whole split phrase → the sense this half of it has."""
+
+
+Match = tuple[int, Sequence[Sense], Words]
+"""The end token of a phrase, its senses, and for half of a split phrase the whole of it."""
+
+SECOND = "second_part"
+"""Concept of the second half of a split phrase ("away" of "take ... away")."""
+
+
+class Lexicon:
+    """All phrases of a language."""
+
+    def __init__(self, macros: Mapping[str, tuple[Words, ...]]) -> None:
+        self._macros = macros
+        self._root = Node()
+        self.words: set[str] = set()
+        self.concepts: dict[str, set[str]] = {}
+        """Concept → its forms."""
+        self.collisions: list[str] = []
+
+    def add_section(self, data: Mapping[str, Any]) -> None:
+        """Add one file of the lexicon: concept → phrases, value → phrases, or a list of both."""
+        for key, content in data.items():
+            concept, _, form = key.partition("/")
+            self.concepts.setdefault(concept, set()).add(form)
+            if isinstance(content, str):
+                self._add_phrases(content, Sense(concept, None, form))
+            elif isinstance(content, list):
+                for entry in content:
+                    self._add_phrases(entry["say"], Sense(concept, entry["is"], form))
+            else:
+                for value, phrases in content.items():
+                    self._add_phrases(str(phrases), Sense(concept, value, form))
+
+    def _add_phrases(self, pattern: str, sense: Sense) -> None:
+        for words in expand(pattern, self._macros):
+            if GAP in words:
+                cut = words.index(GAP)
+                for half, halfsense in ((words[:cut], sense), (words[cut + 1 :], Sense(SECOND))):
+                    node = self._node(half)
+                    if node.split is None:
+                        node.split = {}
+                    node.split.setdefault(words, halfsense)
+            else:
+                self._add(words, sense)
+
+    def _node(self, words: Words) -> Node:
+        node = self._root
+        for word in words:
+            after = node.next.get(word)
+            if after is None:
+                after = node.next[word] = Node()
+                self.words.add(word)
+            node = after
+        return node
+
+    def _add(self, words: Words, sense: Sense) -> None:
+        node = self._node(words)
+        if node.senses is None:
+            node.senses = []
+        for other in node.senses:
+            if other.concept == sense.concept and other.form == sense.form:
+                if other.value != sense.value:
+                    self.collisions.append(
+                        f"{' '.join(words)!r} is both {other.value!r} and {sense.value!r} of {sense.concept}"
+                    )
+                return
+        node.senses.append(sense)
+
+    def knows(self, word: str) -> bool:
+        """Whether any phrase contains the word."""
+        return word in self.words
+
+    def senses_of(self, words: Words) -> tuple[Sense, ...]:
+        """The senses of exactly this phrase."""
+        node: Node | None = self._root
+        for word in words:
+            node = node.next.get(word) if node else None
+        return tuple(node.senses or ()) if node else ()
+
+    def matches(
+        self,
+        tokens: Sequence[Token],
+        at: int,
+        numbers: Mapping[int, Found],
+        ordinals: Mapping[int, int],
+    ) -> list[Match]:
+        """All phrases that start at token `at`; numbers and ordinals are given by their place."""
+        found: list[Match] = []
+        size = len(tokens)
+        open_paths: list[tuple[Node, int, tuple[Any, ...]]] = [(self._root, at, ())]
+        while open_paths:
+            node, here, slots = open_paths.pop()
+            if node.senses is not None:
+                senses = [_filled(sense, slots) for sense in node.senses] if slots else node.senses
+                found.append((here, senses, ()))
+            if node.split is not None:
+                found.extend((here, (sense,), whole) for whole, sense in node.split.items())
+            if here >= size or not node.next:
+                continue
+            if here in numbers and (after := node.next.get(NUMBER)) is not None:
+                number = numbers[here]
+                if isinstance(number.value, int) and number.value >= 0:
+                    open_paths.append((after, number.end, (*slots, number.value)))
+            if here in ordinals and (after := node.next.get(ORDINAL)) is not None:
+                open_paths.append((after, here + 1, (*slots, ordinals[here])))
+            if (after := node.next.get(tokens[here].text)) is not None:
+                open_paths.append((after, here + 1, slots))
+        return found
+
+    def phrases(self) -> Iterator[tuple[Words, tuple[Sense, ...]]]:
+        """Every phrase with its senses."""
+        stack: list[tuple[Node, Words]] = [(self._root, ())]
+        while stack:
+            node, words = stack.pop()
+            if node.senses is not None:
+                yield words, tuple(node.senses)
+            stack.extend((after, (*words, word)) for word, after in node.next.items())
+
+
+def _filled(sense: Sense, slots: tuple[Any, ...]) -> Sense:
+    """The sense with `$1`, `$2` in its value replaced by the numbers said."""
+    return Sense(sense.concept, _substitute(sense.value, slots), sense.form)
+
+
+def _substitute(value: Any, slots: tuple[Any, ...]) -> Any:
+    if isinstance(value, str) and value.startswith("$"):
+        return slots[int(value[1:]) - 1]
+    if isinstance(value, dict):
+        return {key: _substitute(part, slots) for key, part in value.items()}
+    if isinstance(value, list):
+        return [_substitute(part, slots) for part in value]
+    return value

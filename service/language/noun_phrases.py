@@ -1,0 +1,164 @@
+"""Nouns and their quantities as one: "all of the cars", "3 more cones", "exactly nine potholes".
+
+A noun and the quantities just before it become one edge whose concept says which kind of amount
+it is: `thing.counted` (five potholes), `.more` (two more), `.exact` (exactly nine), `.all` (every),
+`.the_many`, `.the_one`, `.that`, `.those`, `.bare_many`, `.bare_one`, `.any`, `.none`, `.post`
+("potholes: 10"). Frames say which of these they take, and so what a definite plural means.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from service.language.lattice import NUMBER, Edge, Lattice
+from service.language.lexicon import Sense
+
+NOUN = "noun."
+QUANTITY = "quantity"
+COLON = "colon"
+DETERMINED = "the"
+"""Form of senses that hold only after a bare definite article: "the car" is the vehicle itself."""
+
+_AMOUNTS = (NUMBER, QUANTITY)
+
+
+@dataclass(frozen=True, slots=True)
+class Amount:
+    """What a noun phrase says: how many of what."""
+
+    of: str
+    count: int | float | None
+
+
+@dataclass(slots=True)
+class _Gathered:
+    """The quantities found before a noun."""
+
+    start: int
+    number: int | float | None = None
+    said: set[str] = field(default_factory=set)
+
+
+def add_noun_phrases(lattice: Lattice, vague: int) -> None:
+    """Give each noun its quantity; a bare noun's edge is replaced. `vague` is what "a few" counts as."""
+    amounts: dict[int, list[Edge]] = {}
+    for edge in lattice.all():
+        if edge.concept in _AMOUNTS:
+            amounts.setdefault(edge.end, []).append(edge)
+    for at in range(lattice.size):
+        nouns = [edge for edge in lattice.edges[at] if edge.concept.startswith(NOUN)]
+        if not nouns:
+            continue
+        gathered = _gather(amounts, at)
+        lattice.edges[at] = [
+            edge
+            for edge in lattice.edges[at]
+            if edge not in nouns and (edge.sense.form != DETERMINED or not edge.sense.form)
+        ] + [
+            Edge(gathered.start, edge.end, Sense(edge.concept, edge.sense.value))
+            for edge in lattice.edges[at]
+            if edge.sense.form == DETERMINED and gathered.said == {"the"} and gathered.number is None
+        ]
+        for noun in nouns:
+            phrase = _joined(gathered, noun, vague)
+            lattice.edges[gathered.start].append(phrase)
+            after = _number_after(lattice, phrase)
+            if after is not None:
+                lattice.edges[gathered.start].append(after)
+
+
+def understood_nouns(lattice: Lattice, start: int, end: int, noun: Amount, vague: int) -> list[Edge]:
+    """Edges in which an amount stands for the noun spoken of before: "and two in the right lane"."""
+    amounts: dict[int, list[Edge]] = {}
+    for edge in lattice.between(start, end):
+        if edge.concept in _AMOUNTS:
+            amounts.setdefault(edge.end, []).append(edge)
+    found: list[Edge] = []
+    for at in sorted(amounts):
+        gathered = _gather(amounts, at)
+        whole = gathered.number is not None or gathered.said & {"another", "vague"}
+        if whole and gathered.start >= start and not any(edge.start < at < edge.end for edge in found):
+            sense = Sense("noun.thing.many", noun.of)
+            found.append(_joined(gathered, Edge(at, at, sense), vague))
+    return found
+
+
+def _gather(amounts: dict[int, list[Edge]], noun: int) -> _Gathered:
+    """The quantities that end where the noun starts, longest words first, at most one number."""
+    gathered = _Gathered(noun)
+    while gathered.start in amounts:
+        before = amounts[gathered.start]
+        if gathered.number is not None:
+            before = [edge for edge in before if edge.concept != NUMBER]
+        if not before:
+            break
+        longest = min(before, key=lambda edge: (edge.start, edge.concept != NUMBER))
+        if longest.concept == NUMBER:
+            gathered.number = longest.sense.value
+        else:
+            gathered.said.add(str(longest.sense.value))
+        gathered.start = longest.start
+    return gathered
+
+
+def _joined(gathered: _Gathered, noun: Edge, vague: int) -> Edge:
+    _, name, grammatical = noun.concept.split(".")
+    form, count = _form(gathered, grammatical == "many", vague)
+    return Edge(gathered.start, noun.end, Sense(f"{name}.{form}", Amount(str(noun.sense.value), count)))
+
+
+def _form(gathered: _Gathered, many: bool, vague: int) -> tuple[str, int | float | None]:
+    """The kind of amount and the count, from the words before the noun."""
+    said, number = gathered.said - {"filler"}, gathered.number
+    if "no" in said:
+        return ("none", 0) if said == {"no"} and number is None else ("odd", None)
+    if "any" in said:
+        return ("any", None) if said <= {"any", "more", "the"} and number is None else ("odd", None)
+    if number is not None:
+        if "all" in said:
+            return ("all", None)
+        if said & {"every", "that", "vague"}:
+            return ("odd", None)
+        if "those" in said:
+            return ("those_counted", number)
+        if "exact" in said:
+            return ("odd", None) if "more" in said else ("exact", number)
+        if said & {"more", "another"}:
+            return ("more", number)
+        return ("the_counted", number) if "the" in said else ("counted", number)
+    if said & {"all", "every"}:
+        return ("all", None)
+    if "those" in said:
+        return ("those", None)
+    if "that" in said:
+        return ("those", None) if many else ("that", None)
+    if "another" in said:
+        return ("more", 1)
+    if "vague" in said:
+        return ("more" if "more" in said else "counted", vague)
+    if "a" in said:
+        return ("exact" if "exact" in said else "more" if "more" in said else "counted", 1)
+    if "more" in said:
+        return ("more_bare", None)
+    if "exact" in said:
+        return ("odd", None)
+    if "the" in said:
+        return ("the_many" if many else "the_one", None)
+    return ("bare_many" if many else "bare_one", None)
+
+
+def _number_after(lattice: Lattice, phrase: Edge) -> Edge | None:
+    """ "potholes: 10": a bare noun takes the number that follows it."""
+    name, _, form = phrase.concept.partition(".")
+    if form not in ("bare_many", "bare_one"):
+        return None
+    at = phrase.end
+    if at < lattice.size and any(edge.concept == COLON for edge in lattice.edges[at]):
+        at += 1
+    if at >= lattice.size:
+        return None
+    for edge in lattice.edges[at]:
+        if edge.concept == NUMBER:
+            amount = Amount(phrase.sense.value.of, edge.sense.value)
+            return Edge(phrase.start, edge.end, Sense(f"{name}.post", amount))
+    return None

@@ -1,0 +1,81 @@
+"""One-edit typos in long words, read as the word meant, and every one of them reported.
+
+The distance is Damerau's (one letter wrong, missing, extra, or two swapped). A word is only repaired when it is
+unknown, long enough, not a real word that merely looks like one of ours (`typos.yaml` lists those), and
+one candidate alone is near it. Number words are never guessed: "eigth" might cost a pothole.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True, slots=True)
+class TypoRules:
+    """What is never repaired, and how long words must be (letters), from `typos.yaml`."""
+
+    shortest_written: int
+    shortest_meant: int
+    never: frozenset[str]
+
+    @classmethod
+    def from_data(cls, data: Mapping[str, Any]) -> TypoRules:
+        """From the YAML's mapping."""
+        return cls(
+            int(data["shortest_written"]), int(data["shortest_meant"]), frozenset(str(data["never"]).split())
+        )
+
+
+class Typos:
+    """Finds the word meant."""
+
+    def __init__(
+        self,
+        rules: TypoRules,
+        words: Iterable[str],
+        number_words: frozenset[str],
+        same: Callable[[str, str], bool],
+    ) -> None:
+        """`same` says whether two words of the vocabulary mean the same (then either will do)."""
+        self._rules = rules
+        self._numbers = number_words
+        self._same = same
+        self._by_shape: dict[str, list[str]] = {}
+        for word in words:
+            if len(word) >= rules.shortest_meant:
+                for shape in _shapes(word):
+                    self._by_shape.setdefault(shape, []).append(word)
+
+    def repair(self, word: str) -> str | None:
+        """The one word meant by an unknown word, or None."""
+        if len(word) < self._rules.shortest_written or len(word) > 30 or word in self._rules.never:
+            return None
+        near = {other for shape in _shapes(word) for other in self._by_shape.get(shape, ())}
+        near = {other for other in near if within_one_edit(word, other)}
+        if not near or near & self._numbers:
+            return None
+        best = min(near, key=lambda other: (other[-1] != word[-1], len(other) != len(word), other))
+        return best if all(other == best or self._same(best, other) for other in near) else None
+
+
+def _shapes(word: str) -> set[str]:
+    """The word and every word that is one letter shorter: two words one edit apart share one."""
+    return {word, *(word[:at] + word[at + 1 :] for at in range(len(word)))}
+
+
+def within_one_edit(a: str, b: str) -> bool:
+    """Whether two words are equal or one Damerau edit apart."""
+    if a == b:
+        return True
+    if abs(len(a) - len(b)) > 1:
+        return False
+    start = 0
+    while start < min(len(a), len(b)) and a[start] == b[start]:
+        start += 1
+    if len(a) == len(b):
+        swapped = a[start : start + 2] == b[start : start + 2][::-1] and a[start + 2 :] == b[start + 2 :]
+        return swapped or a[start + 1 :] == b[start + 1 :]
+    longer, shorter = (a, b) if len(a) > len(b) else (b, a)
+    return longer[start + 1 :] == shorter[start:]

@@ -1,0 +1,120 @@
+"""Sentences around other sentences: "what if …", "when I say …, I mean …"."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from service.language.clauses import Clause, Divided, Fragment
+from service.language.frames import Filled, Frame
+from service.language.lattice import GLUE, NAME, Edge, Lattice
+from service.language.paths import SEPARATOR
+
+WHAT_IF = "what_if"
+IF = "if"
+THEN_WHAT = "then_what"
+TEACH = "teach"
+MEANS = "means"
+
+CONDITIONAL = frozenset({"cond", "past"})
+"""Forms in place inside a condition."""
+
+Divide = Callable[[int, int, frozenset[str]], Divided]
+"""Reads tokens `[start, end)` as clauses, with these forms in place."""
+
+_FRAME = Frame("wrapper", (), frozenset(), frozenset())
+
+
+def wrapped(lattice: Lattice, divide: Divide) -> Clause | Fragment | None:
+    """The clause a wrapped sentence is, the part of it that nothing fits, or None when it is not wrapped."""
+    start = _past_glue(lattice)
+    if start == lattice.size:
+        return None
+    if (taught := _longest(lattice, start, TEACH)) is not None:
+        return _taught(lattice, taught, divide)
+    inner = _condition(lattice, start)
+    if inner is None:
+        return None
+    found = _inside(divide, *inner, CONDITIONAL)
+    if isinstance(found, Fragment):
+        return found
+    question = {"do": "ask", "about": "what_if", "change": found}
+    return Clause(0, lattice.size, Filled(_FRAME, []), [question])
+
+
+def _past_glue(lattice: Lattice) -> int:
+    """The first token that is neither glue nor a separator."""
+    at = 0
+    while at < lattice.size:
+        if any(_longest(lattice, at, concept) for concept in (WHAT_IF, IF, TEACH)):
+            return at
+        passed = [edge.end for edge in lattice.edges[at] if edge.concept in (GLUE, SEPARATOR)]
+        if not passed:
+            return at
+        at = max(passed)
+    return at
+
+
+def _longest(lattice: Lattice, at: int, concept: str) -> Edge | None:
+    """The longest edge with this concept that starts at a token."""
+    found = [edge for edge in lattice.edges[at] if edge.concept == concept]
+    return max(found, key=lambda edge: edge.end, default=None)
+
+
+def _condition(lattice: Lattice, start: int) -> tuple[int, int] | None:
+    """Where the condition of a what-if question is, whichever end the question itself stands at."""
+    opened = _longest(lattice, start, WHAT_IF)
+    if opened is not None and _longest(lattice, start, IF) is None:
+        return opened.end, lattice.size
+    if_edge = _longest(lattice, start, IF)
+    if if_edge is not None:
+        for at in range(if_edge.end + 1, lattice.size):
+            asked = _longest(lattice, at, THEN_WHAT)
+            if asked is not None and _only_marks(lattice, asked.end):
+                return if_edge.end, at
+    return (opened.end, lattice.size) if opened is not None else None
+
+
+def _only_marks(lattice: Lattice, at: int) -> bool:
+    while at < lattice.size:
+        passed = [edge.end for edge in lattice.edges[at] if edge.concept in (GLUE, SEPARATOR)]
+        if not passed:
+            return False
+        at = max(passed)
+    return True
+
+
+def _inside(divide: Divide, start: int, end: int, forms: frozenset[str]) -> list[dict[str, Any]] | Fragment:
+    """The actions of the inner sentence, or the part that nothing fits."""
+    whole = Fragment("pause", start, max(end, start + 1))
+    divided = divide(start, end, forms)
+    if divided.failed is not None:
+        return divided.failed
+    values = [value for clause in divided.clauses for value in clause.actions]
+    asks = any(clause.filled.frame.ask for clause in divided.clauses)
+    if asks or not values or any(value["do"] in ("ask", "teach") for value in values):
+        return whole
+    return values
+
+
+def _taught(lattice: Lattice, opened: Edge, divide: Divide) -> Clause | Fragment | None:
+    """ "when I say <phrase>, I mean <actions>"."""
+    if opened.end >= lattice.size:
+        return None
+    name = _longest(lattice, opened.end, NAME)
+    if name is None:
+        return None
+    at = name.end
+    while at < lattice.size and _longest(lattice, at, MEANS) is None:
+        at += 1
+    if at == lattice.size:
+        return None
+    means = _longest(lattice, at, MEANS)
+    if means is None or means.end >= lattice.size:
+        return None
+    found = _inside(divide, means.end, lattice.size, frozenset())
+    if isinstance(found, Fragment):
+        return found
+    phrase = str(name.sense.value).strip("\"' ")
+    taught = {"do": "teach", "phrase": phrase, "meaning": found}
+    return Clause(0, lattice.size, Filled(_FRAME, []), [taught])
