@@ -13,9 +13,11 @@ import httpx
 import structlog
 import typer
 import uvicorn
+from fastapi import FastAPI
 from pydantic import ValidationError
 
 from service.app import create_app
+from service.language import LanguageDataError
 from service.settings import Settings
 from service.store import Store, StoreError, open_store
 from service.version import VERSION
@@ -70,21 +72,10 @@ def serve(
     listener = _listener(settings.host, settings.port)
     try:
         store = open_store(settings.database)
-        app = create_app(settings, store=store)
-        config = uvicorn.Config(
-            app,
-            loop="auto",
-            ws="websockets-sansio",
-            ws_max_size=settings.max_body_bytes,
-            ws_per_message_deflate=False,
-            access_log=False,
-            log_level="warning",
-            timeout_graceful_shutdown=STOP_S,
-            lifespan="on",
-        )
+        config = server_config(create_app(settings, store=store), settings)
         with asyncio.Runner(loop_factory=config.get_loop_factory()) as runner:
             runner.run(_serve(config, store, listener))
-    except StoreError as error:
+    except (StoreError, LanguageDataError) as error:
         _fail(str(error))
     except KeyboardInterrupt:
         pass
@@ -135,6 +126,21 @@ def _values(answer: httpx.Response, url: str) -> dict[str, Any]:
     if not isinstance(values, dict):
         _fail(f"What answers at {url} is not this service.")
     return values
+
+
+def server_config(app: FastAPI, settings: Settings) -> uvicorn.Config:
+    """How the service is run: one process, no access log, no compression of small messages."""
+    return uvicorn.Config(
+        app,
+        loop="auto",
+        ws="websockets-sansio",
+        ws_max_size=settings.max_body_bytes,
+        ws_per_message_deflate=False,
+        access_log=False,
+        log_level="warning",
+        timeout_graceful_shutdown=STOP_S,
+        lifespan="on",
+    )
 
 
 async def _serve(config: uvicorn.Config, store: Store, listener: socket.socket) -> None:

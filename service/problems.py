@@ -189,7 +189,7 @@ class Internal(ProblemError):
 
     def __init__(self, headers: Mapping[str, str] | None = None) -> None:
         super().__init__(
-            "This is a defect of the service, not of your request. Nothing was changed; the log has the rest.",
+            "This is a defect of the service, not of your request. Nothing was changed; its log has more.",
             headers=headers,
         )
 

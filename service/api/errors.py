@@ -79,7 +79,7 @@ def invalid(errors: Iterable[FieldProblem]) -> Invalid:
     return Invalid(f"{said}{more}.", errors=listed)
 
 
-def field_problems(details: ErrorDetails, sent: Any = None) -> list[FieldProblem]:
+def field_problems(details: ErrorDetails, sent: Any) -> list[FieldProblem]:
     """pydantic's errors as fields and messages, one for each field; what was sent is not repeated."""
     by_field: dict[str, list[str]] = {}
     for detail in details:
@@ -89,16 +89,13 @@ def field_problems(details: ErrorDetails, sent: Any = None) -> list[FieldProblem
 
 def _path(detail: Any, sent: Any) -> str:
     """Where in what was sent: pydantic also names the types it tried, which nobody wrote."""
-    place, *parts = detail["loc"]
-    if place != "body":
-        return ".".join(str(part) for part in parts)
     kept = []
-    for part in parts:
+    for part in detail["loc"]:
         if (isinstance(sent, dict) and part in sent) or (isinstance(sent, list) and isinstance(part, int)):
             kept.append(str(part))
             sent = sent[part]
-    if detail["type"] == "missing" and parts:
-        kept.append(str(parts[-1]))
+    if detail["type"] == "missing" and detail["loc"]:
+        kept.append(str(detail["loc"][-1]))
     return ".".join(kept)
 
 
@@ -148,7 +145,11 @@ def _validation(error: RequestValidationError) -> ProblemError:
     details = error.errors()
     if any(detail["type"] == "json_invalid" for detail in details):
         return Malformed(f"The body cannot be read as JSON: {details[0]['ctx']['error']}.")
-    return invalid(field_problems(details, error.body))
+    # The framework puts first where a value was: in the body, the query or the path.
+    inside = [{**detail, "loc": detail["loc"][1:]} for detail in details]
+    in_body = all(detail["loc"][0] == "body" for detail in details)
+    sent = error.body if in_body else {detail["loc"][0]: None for detail in inside if detail["loc"]}
+    return invalid(field_problems(inside, sent))
 
 
 def _http(request: Request, error: HTTPException) -> ProblemError:

@@ -21,7 +21,8 @@ class SessionRecord:
     """How a session began, and how far its clock is known to have run.
 
     `number` orders sessions by age and is given by the store; `config` is JSON values; `paused` is
-    how the session began. `tick` is where the clock stood when last written: at creation or at a graceful stop.
+    how the session began. `tick` is where the clock stood when last written: at the beginning or at a
+    graceful stop.
     """
 
     id: str
