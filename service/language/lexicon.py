@@ -31,8 +31,8 @@ class Node:
 
     next: dict[str, Node] = field(default_factory=dict)
     senses: list[Sense] | None = None
-    split: dict[Words, Sense] | None = None
-    """Whole split phrase → the sense this half of it has."""
+    split: dict[Words, list[Sense]] | None = None
+    """Whole split phrase → the senses this half of it has."""
 
 
 Match = tuple[int, Sequence[Sense], Words]
@@ -75,7 +75,9 @@ class Lexicon:
                     node = self._node(half)
                     if node.split is None:
                         node.split = {}
-                    node.split.setdefault(words, halfsense)
+                    senses = node.split.setdefault(words, [])
+                    if halfsense not in senses:
+                        senses.append(halfsense)
             else:
                 self._add(words, sense)
 
@@ -130,7 +132,7 @@ class Lexicon:
                 senses = [_filled(sense, slots) for sense in node.senses] if slots else node.senses
                 found.append((here, senses, ()))
             if node.split is not None:
-                found.extend((here, (sense,), whole) for whole, sense in node.split.items())
+                found.extend((here, senses, whole) for whole, senses in node.split.items())
             if here >= size or not node.next:
                 continue
             if here in numbers and (after := node.next.get(NUMBER)) is not None:
