@@ -34,7 +34,8 @@ class Explained:
             hindered = list(decision.preferred)
         if not hindered:
             reason = self._sayings.reason(decision.chosen, "then")
-            return self._say("clear", fact=fact, reason=reason)
+            told = self._say("clear", fact=fact, reason=reason)
+            return " ".join([told, *(self._flip(flip, flip.move) for flip in explanation.counterfactuals)])
         reasons = self._sayings.joined([self._sayings.reason(option, "then") for option in hindered])
         told = self._say("because", fact=fact, reasons=reasons)
         return " ".join([told, *self._proofs(explanation)])

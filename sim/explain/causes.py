@@ -19,7 +19,7 @@ from collections.abc import Callable, Sequence
 from itertools import combinations
 
 from sim.explain.facts import Cause, Counterfactual, Explanation, Role, Verified
-from sim.explain.rerun import Rerun, removal
+from sim.explain.rerun import Rerun, removal, wall
 from sim.kinds import Move
 from sim.place import nearest_first
 from sim.plan import Decision
@@ -42,6 +42,7 @@ def explain_why(run: Run, decision: Decision) -> Explanation:
     groups = {name: _group(rerun, fact, name, names, enough) for name in enough}
     causes = _ranked(run, decision, enough, groups)
     told = dict.fromkeys(cause.group for cause in causes)
+    flips = [Counterfactual(removal(group), rerun.without(group)) for group in told]
     return Explanation(
         about="why",
         decision=decision,
@@ -52,9 +53,17 @@ def explain_why(run: Run, decision: Decision) -> Explanation:
             sufficient=rerun.keeping(enough) is fact,
             minimal=minimal,
         ),
-        counterfactuals=tuple(Counterfactual(removal(group), rerun.without(group)) for group in told),
+        counterfactuals=tuple(flips or _had_it_been_blocked(rerun, decision)),
         reruns=rerun.count,
     )
+
+
+def _had_it_been_blocked(rerun: Rerun, decision: Decision) -> list[Counterfactual]:
+    """For a move that nothing brought about: what would have been done had its cell been blocked."""
+    if decision.asked is not None or decision.chosen.cell is None or decision.move is Move.STAY:
+        return []
+    change = (wall(rerun.run.world, decision.chosen.cell),)
+    return [Counterfactual(change, rerun.after(change))]
 
 
 def spared(names: Sequence[str], holds: Callable[[Sequence[str]], bool]) -> list[str]:

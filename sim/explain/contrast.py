@@ -10,10 +10,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from sim.actions import Add, Where
+from sim.actions import Add
 from sim.explain.causes import spared
 from sim.explain.facts import Cause, Counterfactual, Explanation, Role, Verified
-from sim.explain.rerun import Rerun, removal
+from sim.explain.rerun import Rerun, removal, wall
 from sim.kinds import Move
 from sim.plan import Decision
 from sim.run import Run
@@ -66,11 +66,9 @@ def _walls(rerun: Rerun, cleared: Sequence[str], foil: Move) -> list[Add]:
     if seen.option(foil).cell is None or seen.asked is not None:
         return []
     world = rerun.run.world.without(frozenset(cleared))
-    walls = []
-    for option in seen.options[: seen.options.index(seen.option(foil))]:
-        if option.verdict == "free" and option.cell is not None:
-            held = world.moving >> world.road.index(option.cell) & 1
-            walls.append(Add(kind="pothole" if held else "barrier", count=1, where=Where(cell=option.cell)))
+    before = seen.options[: seen.options.index(seen.option(foil))]
+    cells = [option.cell for option in before if option.verdict == "free" and option.cell is not None]
+    walls = [wall(world, cell) for cell in cells]
     return walls if walls and rerun.after((*removal(cleared), *walls)) is foil else []
 
 

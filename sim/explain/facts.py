@@ -101,6 +101,6 @@ class Explanation:
     """the most telling first"""
     verified: Verified
     counterfactuals: tuple[Counterfactual, ...]
-    """one for each cause or group, in the order of the causes"""
+    """one for each cause or group, in the order of the causes; without causes, the move's cell blocked"""
     reruns: int
     """how often the decision was run again for this answer"""

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from sim.actions import Add, Remove, Where
 from sim.edit import apply
-from sim.kinds import Move, kind_of
+from sim.kinds import Cell, Move, kind_of
 from sim.plan import Decision
 from sim.run import Run, decide
 from sim.world import World
@@ -16,6 +16,12 @@ from sim.world import World
 def removal(ids: Iterable[str]) -> tuple[Remove, ...]:
     """The actions that take these things away."""
     return tuple(Remove(kind=kind_of(name).value, count=1, where=Where(id=name)) for name in ids)
+
+
+def wall(world: World, cell: Cell) -> Add:
+    """What blocks a cell: a barrier, or where a mover is just leaving it, a pothole that holds it there."""
+    held = world.moving >> world.road.index(cell) & 1
+    return Add(kind="pothole" if held else "barrier", count=1, where=Where(cell=cell))
 
 
 class Rerun:

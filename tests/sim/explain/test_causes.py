@@ -72,6 +72,8 @@ def test_a_free_road_has_no_causes() -> None:
     explanation = why(timeline)
     assert explanation.decision.move is Move.FORWARD
     assert explanation.causes == ()
+    (flip,) = explanation.counterfactuals
+    assert (flip.added, flip.move) == ((("barrier", (3, 2)),), Move.LEFT)
     assert explanation.verified.sufficient
 
 
