@@ -10,6 +10,7 @@ from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from functools import partial
 
+from anyio import CapacityLimiter
 from fastapi import FastAPI
 from fastapi.routing import APIRoute
 
@@ -53,7 +54,7 @@ def create_app(
     clock = clock or WheelClock()
     words = words or Narrator.load()
     manager = SessionManager(Surroundings(store, clock, words, settings))
-    context = Context(settings, store, clock, language or Grammar.load(), words, manager)
+    context = Context(settings, store, clock, language or Grammar.load(), words, manager, CapacityLimiter(1))
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:

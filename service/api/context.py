@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Protocol, cast
 
+from anyio import CapacityLimiter
 from fastapi import Depends
 from starlette.requests import HTTPConnection
 
@@ -35,6 +36,8 @@ class Context:
     language: Language
     words: Words
     manager: SessionManager
+    drawing: CapacityLimiter
+    """one picture at a time"""
 
 
 def context_of(connection: HTTPConnection) -> Context:

@@ -46,7 +46,8 @@ class FewSentences:
         if text in SENTENCES:
             return Understood(text, contract.load(SENTENCES[text]))
         words = tuple(text.split())
-        return Refused(text, "not_understood", "I do not understand that.", words, (), ("add five potholes",))
+        message = f"I do not understand: {text}."
+        return Refused(text, "not_understood", message, words, (), ("add five potholes",))
 
 
 class HandClock:

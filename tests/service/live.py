@@ -14,7 +14,6 @@ from fastapi import FastAPI
 from service.cli import server_config
 from service.settings import Settings
 
-
 SMALL_BYTES = 16_384
 """Size of socket buffers."""
 

@@ -55,7 +55,7 @@ async def live() -> AsyncIterator[Live]:
 
 
 async def receive(stream: ClientConnection) -> Json:
-    message: Json = json.loads(await asyncio.wait_for(socket.recv(), 5))
+    message: Json = json.loads(await asyncio.wait_for(stream.recv(), 5))
     return message
 
 

@@ -1,0 +1,360 @@
+"""The OpenAPI document is the contract: complete, true, and kept under any input."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import re
+from collections.abc import AsyncIterator, Iterator
+from typing import Any
+
+import httpx
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from pydantic import TypeAdapter
+
+from service import problems
+from service.api import schemas
+from service.app import create_app
+from service.settings import Settings
+from service.store import MemoryStore
+from tests.service.fakes import FewSentences, HandClock
+
+Json = dict[str, Any]
+APP = create_app(
+    Settings(database="memory:"), store=MemoryStore(), language=FewSentences(), clock=HandClock()
+)
+DOCUMENT: Json = APP.openapi()
+OPERATIONS = [
+    pytest.param(path, method, operation, id=f"{method} {path}")
+    for path, item in DOCUMENT["paths"].items()
+    for method, operation in item.items()
+]
+POSTS = sorted(path for path, item in DOCUMENT["paths"].items() if "post" in item)
+ROUTES = {
+    "POST /api/v1/sessions",
+    "GET /api/v1/sessions",
+    "GET /api/v1/sessions/{session_id}",
+    "DELETE /api/v1/sessions/{session_id}",
+    "POST /api/v1/sessions/{session_id}/commands",
+    "POST /api/v1/sessions/{session_id}/actions",
+    "POST /api/v1/sessions/{session_id}/step",
+    "POST /api/v1/sessions/{session_id}/ask",
+    "GET /api/v1/sessions/{session_id}/state",
+    "GET /api/v1/sessions/{session_id}/decisions",
+    "GET /api/v1/sessions/{session_id}/decisions/{tick}",
+    "GET /api/v1/sessions/{session_id}/events",
+    "GET /api/v1/sessions/{session_id}/recording",
+    "GET /api/v1/sessions/{session_id}/frame",
+    "POST /api/v1/parse",
+    "GET /healthz",
+    "GET /readyz",
+}
+MODELS: dict[str, type] = {
+    "sessions_make": schemas.Session,
+    "sessions_newest": schemas.SessionPage,
+    "sessions_look": schemas.Session,
+    "talking_say": schemas.CommandResult,
+    "talking_act": schemas.CommandResult,
+    "talking_step": schemas.StepResult,
+    "talking_ask": schemas.Answer,
+    "talking_parse": schemas.Parsed,
+    "watching_state": schemas.State,
+    "watching_decisions": schemas.DecisionPage,
+    "watching_decision": schemas.Decision,
+    "watching_events": schemas.EventPage,
+    "watching_recording": schemas.Recording,
+    "operating_healthz": schemas.Health,
+    "operating_readyz": schemas.Ready,
+}
+
+
+@pytest.fixture
+async def client() -> AsyncIterator[httpx.AsyncClient]:
+    transport = httpx.ASGITransport(APP, raise_app_exceptions=False)
+    async with httpx.AsyncClient(transport=transport, base_url="http://service") as client:
+        yield client
+
+
+async def new_session(client: httpx.AsyncClient) -> str:
+    answer = await client.post("/api/v1/sessions", json={"seed": 7, "paused": True})
+    identity = str(answer.json()["id"])
+    await client.post(f"/api/v1/sessions/{identity}/step", json={"ticks": 5})
+    return identity
+
+
+def resolved(schema: Json) -> Json:
+    while "$ref" in schema:
+        schema = DOCUMENT["components"]["schemas"][schema["$ref"].rsplit("/", 1)[1]]
+    return schema
+
+
+def test_it_is_the_whole_interface_and_nothing_else() -> None:
+    assert DOCUMENT["openapi"].startswith("3.1")
+    assert {f"{p.values[1].upper()} {p.values[0]}" for p in OPERATIONS} == ROUTES
+    operation_ids = [p.values[2]["operationId"] for p in OPERATIONS]
+    assert len(set(operation_ids)) == len(operation_ids)
+
+
+@pytest.mark.parametrize(("path", "method", "operation"), OPERATIONS)
+def test_every_call_is_described(path: str, method: str, operation: Json) -> None:
+    assert operation["summary"]
+    assert operation["description"]
+    assert operation["tags"]
+    for parameter in operation.get("parameters", []):
+        assert parameter["schema"]
+    body = operation.get("requestBody")
+    assert (body is not None) == (method == "post"), path
+    if body:
+        assert body["required"]
+        assert body["content"]["application/json"]["examples"]
+
+
+@pytest.mark.parametrize(("path", "method", "operation"), OPERATIONS)
+def test_every_status_says_what_comes_with_it(path: str, method: str, operation: Json) -> None:
+    responses = operation["responses"]
+    assert any(status.startswith("2") for status in responses)
+    expected = set()
+    if "{session_id}" in path:
+        expected |= {"404", "503"}
+    if method == "post":
+        expected |= {"400", "413", "415", "422"}
+    assert expected - {"503" if method == "delete" else ""} <= set(responses) | {""}
+    for status, response in responses.items():
+        assert response["description"]
+        if status == "204":
+            continue
+        for kind, content in response["content"].items():
+            if status.startswith("2"):
+                assert "schema" in content, (status, kind)
+            else:
+                assert kind in ("application/problem+json", "application/json")
+        if not status.startswith("2"):
+            examples = response["content"]["application/problem+json"]["examples"]
+            known = {kind.slug: kind for kind in problems.KINDS}
+            for slug, example in examples.items():
+                assert example["value"]["status"] == known[slug].status == int(status)
+                schemas.ProblemDocument.model_validate(example["value"])
+
+
+def request_examples() -> Iterator[Any]:
+    for parameter in OPERATIONS:
+        path, method, operation = parameter.values
+        if method != "post":
+            continue
+        for name, example in operation["requestBody"]["content"]["application/json"]["examples"].items():
+            yield pytest.param(path, operation, example["value"], id=f"{path} {name}")
+
+
+@pytest.mark.parametrize(("path", "operation", "body"), list(request_examples()))
+async def test_every_example_runs(client: httpx.AsyncClient, path: str, operation: Json, body: Json) -> None:
+    identity = await new_session(client)
+    answer = await client.post(path.format(session_id=identity), json=body)
+    assert answer.is_success, answer.text
+    assert str(answer.status_code) in operation["responses"]
+
+
+@pytest.mark.parametrize(("path", "method", "operation"), OPERATIONS)
+async def test_answers_have_the_documented_shape(
+    client: httpx.AsyncClient, path: str, method: str, operation: Json
+) -> None:
+    identity = await new_session(client)
+    body = None
+    if method == "post":
+        body = next(iter(operation["requestBody"]["content"]["application/json"]["examples"].values()))[
+            "value"
+        ]
+    answer = await client.request(method, path.format(session_id=identity, tick=2), json=body)
+    assert str(answer.status_code) in operation["responses"]
+    assert answer.is_success
+    if operation["operationId"] in MODELS:
+        TypeAdapter(MODELS[operation["operationId"]]).validate_json(answer.content)
+    else:
+        assert operation["operationId"] in ("sessions_end", "watching_frame")
+
+
+@pytest.mark.parametrize("path", POSTS)
+async def test_unknown_keys_are_refused_everywhere(client: httpx.AsyncClient, path: str) -> None:
+    identity = await new_session(client)
+    operation = DOCUMENT["paths"][path]["post"]
+    for example in operation["requestBody"]["content"]["application/json"]["examples"].values():
+        body = {**example["value"], "surprise": 1}
+        answer = await client.post(path.format(session_id=identity), json=body)
+        assert answer.status_code == 422
+        assert answer.json()["errors"] == [{"field": "surprise", "message": "is not a known key"}]
+
+
+@pytest.mark.parametrize("path", [path for path in DOCUMENT["paths"] if "{session_id}" in path])
+async def test_an_unknown_session_is_unknown_everywhere(client: httpx.AsyncClient, path: str) -> None:
+    for method, operation in DOCUMENT["paths"][path].items():
+        body = None
+        if method == "post":
+            body = next(iter(operation["requestBody"]["content"]["application/json"]["examples"].values()))[
+                "value"
+            ]
+        answer = await client.request(method, path.format(session_id="nobody", tick=1), json=body)
+        assert (answer.status_code, answer.json()["type"]) == (404, "/problems/unknown-session")
+        assert answer.headers["content-type"] == "application/problem+json"
+
+
+# Anything at all
+
+SCALARS = st.one_of(
+    st.none(),
+    st.booleans(),
+    st.integers(-(2**70), 2**70),
+    st.floats(allow_nan=False, allow_infinity=False),
+    st.text(max_size=40),
+    st.sampled_from(["pothole", "av", "all", "left", "highway", "priority", "forward", "add five potholes"]),
+)
+KEYS = st.one_of(
+    st.sampled_from(
+        sorted(
+            {
+                key
+                for model in (schemas.NewSession, schemas.Said, schemas.TypedActions, schemas.Recording)
+                for key in model.model_fields
+            }
+            | {
+                "do",
+                "kind",
+                "count",
+                "where",
+                "cell",
+                "lane",
+                "row",
+                "side",
+                "distance_m",
+                "ticks",
+                "question",
+            }
+            | {
+                "about",
+                "move",
+                "mode",
+                "rows",
+                "columns",
+                "seed",
+                "change",
+                "meaning",
+                "phrase",
+                "id",
+                "value",
+            }
+        )
+    ),
+    st.text(max_size=10),
+)
+ANYTHING = st.recursive(
+    SCALARS,
+    lambda inner: st.lists(inner, max_size=4) | st.dictionaries(KEYS, inner, max_size=5),
+    max_leaves=12,
+)
+VERBS = [
+    "add", "remove", "set_count", "scenario", "reset", "mode", "drive", "set", "adjust", "prefer", "pause",
+    "resume", "undo", "redo", "step", "rewind", "show", "ask", "evaluate", "teach", "load",
+]  # fmt: skip
+WHERE = st.fixed_dictionaries(
+    {},
+    optional={
+        "lane": st.sampled_from(["left", "middle", "right", 1, 8, 9, 0]),
+        "row": st.integers(-1, 31),
+        "cell": st.tuples(st.integers(-1, 9), st.integers(-1, 31)),
+        "side": st.sampled_from(["ahead", "behind", "left", "right"]),
+        "distance_m": st.floats(-1, 1e6),
+        "cells": st.integers(0, 40),
+        "nearest": st.just(True),
+        "id": st.sampled_from(["pothole-1", "vehicle-2", "av-1", "ghost"]),
+    },
+)
+ACTIONS = st.fixed_dictionaries(
+    {"do": st.sampled_from(VERBS)},
+    optional={
+        "kind": st.sampled_from(["pothole", "vehicle", "barrier", "pedestrian", "av", "everything"]),
+        "count": st.one_of(st.integers(-1, 250), st.just("all")),
+        "where": WHERE,
+        "ticks": st.integers(0, 40),
+        "move": st.sampled_from(["forward", "left", "stay", "up"]),
+        "mode": st.sampled_from(["auto", "manual"]),
+        "about": st.sampled_from(["why", "why_not", "status", "help", "scene"]),
+        "tick": st.integers(-1, 60),
+        "road": st.sampled_from(["highway", "city", "rural"]),
+        "potholes": st.integers(0, 300),
+        "avs": st.integers(0, 3),
+    },
+)
+FUZZ = settings(max_examples=120, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+
+
+def assert_in_contract(path: str, answer: httpx.Response) -> None:
+    responses = DOCUMENT["paths"][path]["post"]["responses"]
+    assert answer.status_code < 500, answer.text
+    assert str(answer.status_code) in responses, (answer.status_code, answer.text)
+    if not answer.is_success:
+        assert answer.headers["content-type"] == "application/problem+json"
+        document = schemas.ProblemDocument.model_validate_json(answer.content)
+        assert document.detail
+        assert document.status == answer.status_code
+
+
+async def post(path: str, content: bytes) -> None:
+    transport = httpx.ASGITransport(APP, raise_app_exceptions=False)
+    async with httpx.AsyncClient(transport=transport, base_url="http://service") as client:
+        identity = await new_session(client)
+        target = f"/api/v1/sessions/{identity}"
+        before = (await client.get(f"{target}/state")).json()
+        headers = {"content-type": "application/json"}
+        answer = await client.post(path.format(session_id=identity), content=content, headers=headers)
+        assert_in_contract(path, answer)
+        if not answer.is_success:
+            assert (await client.get(f"{target}/state")).json() == before
+        elif answer.status_code == 201:
+            await client.delete(answer.headers["location"])
+        await client.delete(target)
+
+
+@pytest.mark.parametrize("path", POSTS)
+def test_any_json_is_answered_and_a_refusal_changes_nothing(path: str) -> None:
+    @FUZZ
+    @given(body=st.one_of(st.dictionaries(KEYS, ANYTHING, max_size=4), ANYTHING))
+    def anything(body: Any) -> None:
+        asyncio.run(post(path, json.dumps(body).encode()))
+
+    anything()
+
+
+def test_any_actions_are_done_or_refused() -> None:
+    path = "/api/v1/sessions/{session_id}/actions"
+
+    @FUZZ
+    @given(actions=st.lists(ACTIONS, max_size=4))
+    def actions(actions: list[Json]) -> None:
+        fitting = [
+            {key: value for key, value in action.items() if _belongs(action["do"], key)} for action in actions
+        ]
+        asyncio.run(post(path, json.dumps({"actions": fitting}).encode()))
+
+    actions()
+
+
+def _belongs(verb: str, key: str) -> bool:
+    """Whether the contract gives this verb this key, so that most of what is tried gets past its shape."""
+    keys = {
+        "add": "kind count where", "remove": "kind count where", "set_count": "kind count", "step": "ticks",
+        "rewind": "ticks", "drive": "move", "mode": "mode", "ask": "about move tick",
+        "scenario": "road potholes avs",
+    }  # fmt: skip
+    return key == "do" or key in keys.get(verb, "").split()
+
+
+@FUZZ
+@given(body=st.binary(max_size=200))
+def test_any_bytes_are_answered(body: bytes) -> None:
+    asyncio.run(post("/api/v1/parse", body))
+
+
+def test_problem_types_are_written_alike() -> None:
+    for kind in problems.KINDS:
+        assert re.fullmatch(r"[a-z]+(-[a-z]+)*", kind.slug)
+        assert 400 <= kind.status < 600
