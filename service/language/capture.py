@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from service.language.lattice import GLUE
 from service.language.lexicon import Lexicon
 from service.language.tokens import Token
 
@@ -32,10 +33,15 @@ def names(tokens: Sequence[Token], lexicon: Lexicon) -> dict[int, int]:
         if not after:
             at += 1
             continue
+        if not _begins(tokens, at, lexicon):
+            at += 1
+            continue
         at = end = after
         while end < len(tokens) and not _is(lexicon, tokens[end], ENDS):
             end += 1
         last = end
+        if any(_names_a_thing(lexicon, token) for token in tokens[at:end]):
+            continue
         while last > at and _is(lexicon, tokens[last - 1], TRAILING):
             last -= 1
         if last > at:
@@ -58,6 +64,16 @@ def _longest(lexicon: Lexicon, tokens: Sequence[Token], at: int, concept: str) -
     """The end of the longest phrase at `at` with this concept; 0 when there is none."""
     matches = lexicon.matches(tokens, at, {}, {})
     return max((end for end, senses, _ in matches if any(s.concept == concept for s in senses)), default=0)
+
+
+def _begins(tokens: Sequence[Token], at: int, lexicon: Lexicon) -> bool:
+    """Whether a request can begin at this token: after a separator, or after nothing but glue."""
+    return at == 0 or _is(lexicon, tokens[at - 1], STARTS_AFTER) or _is(lexicon, tokens[at - 1], GLUE)
+
+
+def _names_a_thing(lexicon: Lexicon, token: Token) -> bool:
+    """Whether the word is a kind of thing: "load five cars" is no name."""
+    return any(sense.concept.startswith("noun.thing") for sense in lexicon.senses_of((token.text,)))
 
 
 def _is(lexicon: Lexicon, token: Token, concept: str) -> bool:

@@ -25,6 +25,10 @@ _LENIENT = ("counted", "the_many", "bare_many")
 _TOGETHER = frozenset({"pause", "and"})
 """Separators inside a listing clause; any other ends it."""
 _OR = "or"
+_WHOLE = (".all", ".the_many", ".bare_many", ".those")
+"""Amounts that hold again in another place: "the cones in lane 3 and in lane 5"."""
+
+INTERJECTION = "interjection"
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +56,7 @@ class Context:
     """What a clause hands on to the next: its verb, and the thing it was about."""
 
     verb: tuple[Edge, ...] = ()
-    noun: Amount | None = None
+    noun: Edge | None = None
     verbless: bool = True
     negated: bool = False
 
@@ -77,6 +81,7 @@ class Matcher(Protocol):
 def fragments(lattice: Lattice, start: int, end: int) -> list[Fragment]:
     """Tokens `[start, end)` cut at separators; parts with nothing but glue are dropped."""
     found: list[Fragment] = []
+    start = _past_interjection(lattice, start, end)
     after, begin, at, inside = "pause", start, start, start
     while at < end:
         separator = max(
@@ -99,6 +104,16 @@ def fragments(lattice: Lattice, start: int, end: int) -> list[Fragment]:
     if _says_something(lattice, begin, end):
         found.append(Fragment(after, begin, end))
     return found
+
+
+def _past_interjection(lattice: Lattice, start: int, end: int) -> int:
+    """Past a first part that only calls for attention: "right, …", "no, …", "car, …"."""
+    for edge in lattice.edges[start] if start < end else ():
+        if edge.concept == INTERJECTION and edge.end < end:
+            marks = [e for e in lattice.edges[edge.end] if e.concept == SEPARATOR and e.sense.value == "pause"]
+            if marks and _says_something(lattice, marks[0].end, end):
+                return marks[0].end
+    return start
 
 
 def _says_something(lattice: Lattice, start: int, end: int) -> bool:
@@ -167,6 +182,9 @@ class Divider:
         if context.verb:
             leaning = self._stretch(start, end, context)
             found = self._matcher.match(leaning, verbless=False)
+            if found is None and context.noun is not None and context.noun.concept.endswith(_WHOLE):
+                again = Context((*context.verb, context.noun), None, negated=context.negated)
+                found = self._matcher.match(self._stretch(start, end, again), verbless=False)
             if found is not None:
                 return Clause(start, end, found[0], [] if context.negated else found[1], context.negated)
         if context.verbless:
@@ -228,8 +246,8 @@ def _context(clause: Clause, before: Context) -> Context:
         for edge in clause.filled.slots
         if edge.concept in frame.inherits
     )
-    things = clause.filled.of("thing")
-    noun = things[-1].sense.value if things else before.noun
+    amounts = [edge for edge in clause.filled.slots if isinstance(edge.sense.value, Amount)]
+    noun = amounts[-1] if amounts else before.noun
     return Context(verb, noun, frame.verbless or not frame.inherits, clause.negated)
 
 

@@ -64,11 +64,12 @@ def _read(folder: Path) -> LanguageData:
     for path in sorted((folder / "lexicon").glob("*.yaml")):
         if not path.name.endswith(TEST_SUFFIX):
             lexicon.add_section(read_yaml(path))
-    frames: dict[str, Any] = {"sets": {}, "frames": {}}
+    frames: dict[str, Any] = {"sets": {}, "agree": {}, "frames": {}}
     for path in sorted((folder / "frames").glob("*.yaml")):
         if not path.name.endswith(TEST_SUFFIX):
             data = read_yaml(path)
             frames["sets"].update(data.get("sets", {}))
+            frames["agree"].update(data.get("agree", {}))
             for name, content in data.get("frames", {}).items():
                 if name in frames["frames"]:
                     raise FrameError(f"frame {name} is there twice")

@@ -77,7 +77,7 @@ class Language:
         words = self._lexicon.words | self.data.numbers.words()
 
         def same(a: str, b: str) -> bool:
-            return not self._meaning(a).isdisjoint(self._meaning(b))
+            return a.startswith(b) or b.startswith(a) or not self._meaning(a).isdisjoint(self._meaning(b))
 
         return Typos(self.data.typos, words, self.data.numbers.words(), same)
 

@@ -8,7 +8,7 @@ name (`$thing.count`). A frame with a question instead of actions is an ambiguit
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from service.language.lattice import Edge
@@ -39,6 +39,10 @@ class Frame:
     verbless: bool = False
     rank: int = 0
     ask: Ask | None = None
+    speaker: bool = True
+    """Whether the speaker may be the one to do it: "let me …", "can I …"."""
+    agree: Mapping[str, str] = field(default_factory=dict)
+    """Concept → the concept that must be there with it."""
     accepted: frozenset[str] = frozenset()
     """Every concept the frame has a use for."""
 
@@ -66,12 +70,16 @@ class FrameError(ValueError):
 def read_frames(data: Mapping[str, Any]) -> list[Frame]:
     """The frames of `frames.yaml` files, by descending rank; `sets` there names lists of concepts."""
     sets: dict[str, str] = data.get("sets", {})
-    frames = [_frame(name, content, sets) for name, content in data["frames"].items()]
+    agree: dict[str, str] = data.get("agree", {})
+    frames = [_frame(name, content, sets, agree) for name, content in data["frames"].items()]
     return sorted(frames, key=lambda frame: -frame.rank)
 
 
-def _frame(name: str, data: Mapping[str, Any], sets: Mapping[str, str]) -> Frame:
+def _frame(
+    name: str, data: Mapping[str, Any], sets: Mapping[str, str], agree: Mapping[str, str]
+) -> Frame:
     known = {"say", "needs", "takes", "do", "per", "forms", "inherits", "joins", "verbless", "rank", "ask"}
+    known.add("speaker")
     if odd := set(data) - known:
         raise FrameError(f"frame {name}: no such fields: {', '.join(sorted(odd))}")
     many: set[str] = set()
@@ -91,6 +99,8 @@ def _frame(name: str, data: Mapping[str, Any], sets: Mapping[str, str]) -> Frame
         per=tuple(str(data.get("per", "")).split()),
         forms=frozenset(str(data.get("forms", "")).split()),
         inherits=frozenset(_concepts(str(data.get("inherits", "")), sets, set())),
+        speaker=bool(data.get("speaker", True)),
+        agree=agree,
         joins=bool(data.get("joins", False)),
         verbless=bool(data.get("verbless", False)),
         rank=int(data.get("rank", 0)),

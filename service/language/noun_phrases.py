@@ -67,7 +67,7 @@ def add_noun_phrases(lattice: Lattice, vague: int) -> None:
                 lattice.edges[gathered.start].append(after)
 
 
-def understood_nouns(lattice: Lattice, start: int, end: int, noun: Amount, vague: int) -> list[Edge]:
+def understood_nouns(lattice: Lattice, start: int, end: int, noun: Edge, vague: int) -> list[Edge]:
     """Edges in which an amount stands for the noun spoken of before: "and two in the right lane"."""
     amounts: dict[int, list[Edge]] = {}
     for edge in lattice.between(start, end):
@@ -78,7 +78,8 @@ def understood_nouns(lattice: Lattice, start: int, end: int, noun: Amount, vague
         gathered = _gather(amounts, at)
         whole = gathered.number is not None or gathered.said & {"another", "vague"}
         if whole and gathered.start >= start and not any(edge.start < at < edge.end for edge in found):
-            sense = Sense("noun.thing.many", noun.of)
+            name = noun.concept.partition(".")[0]
+            sense = Sense(f"noun.{name}.many", noun.sense.value.of)
             found.append(_joined(gathered, Edge(at, at, sense), vague))
     return found
 
@@ -160,5 +161,12 @@ def _number_after(lattice: Lattice, phrase: Edge) -> Edge | None:
     for edge in lattice.edges[at]:
         if edge.concept == NUMBER:
             amount = Amount(phrase.sense.value.of, edge.sense.value)
+            more = next((e for e in _at(lattice, edge.end) if e.sense.value == "more"), None)
+            if more is not None:
+                return Edge(phrase.start, more.end, Sense(f"{name}.more", amount))
             return Edge(phrase.start, edge.end, Sense(f"{name}.post", amount))
     return None
+
+
+def _at(lattice: Lattice, at: int) -> list[Edge]:
+    return lattice.edges[at] if at < lattice.size else []

@@ -16,6 +16,9 @@ from service.language.lattice import GLUE, SECOND, Edge
 ALLOWS = "allows"
 """Concept of phrases that put a form in place: "would you mind" allows `ing`."""
 
+SPEAKER = "speaker"
+"""Concept of phrases that make the speaker the doer; glue, where a frame does not say otherwise."""
+
 SEPARATOR = "separator"
 NEGATION = "negation"
 MAX_STEPS = 600
@@ -85,6 +88,7 @@ def _usable(frame: Frame, stretch: Stretch) -> dict[int, list[tuple[Edge, bool]]
             elif (
                 (concept == GLUE and (not sense.form or sense.form in forms))
                 or concept == ALLOWS
+                or (concept == SPEAKER and frame.speaker)
                 or concept == SECOND
                 or (stretch.joined and concept == SEPARATOR)
                 or (stretch.negated and concept == NEGATION)
@@ -101,7 +105,8 @@ def _walk(search: _Search, at: int, needs: list[frozenset[str]], used: set[str],
     """The number of pieces of the first path from `at` to the end that meets all needs, else None."""
     frame = search.frame
     if at == search.stretch.end:
-        return pieces if not needs and _parts_match(search.slots, search.parts) else None
+        complete = not needs and _parts_match(search.slots, search.parts) and _agrees(frame, used)
+        return pieces if complete else None
     search.steps += 1
     if search.steps > MAX_STEPS:
         return None
@@ -126,6 +131,11 @@ def _walk(search: _Search, at: int, needs: list[frozenset[str]], used: set[str],
             return done
         search.slots.pop()
     return None
+
+
+def _agrees(frame: Frame, used: set[str]) -> bool:
+    """Whether each concept that must not stand alone has its partner: "weather" needs a weather."""
+    return all(frame.agree.get(concept, concept) in used for concept in used)
 
 
 def _parts_match(slots: Sequence[Edge], seconds: Sequence[Edge]) -> bool:
