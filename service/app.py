@@ -14,7 +14,19 @@ from anyio import CapacityLimiter
 from fastapi import FastAPI
 from fastapi.routing import APIRoute
 
-from service.api import commands, edges, errors, frames, health, pages, parse, sessions, stream, watching
+from service.api import (
+    commands,
+    edges,
+    errors,
+    frames,
+    health,
+    openapi,
+    pages,
+    parse,
+    sessions,
+    stream,
+    watching,
+)
 from service.api.context import Context, Language
 from service.api.views import PREFIX
 from service.language import Language as Grammar
@@ -84,6 +96,7 @@ def create_app(
     for resource in (sessions, commands, watching, frames, parse, stream):
         app.include_router(resource.router, prefix=PREFIX)
     app.include_router(health.router)
+    openapi.install(app)
     pages.install(app)
     return app
 

@@ -1,0 +1,53 @@
+"""The OpenAPI document, put right where the framework says what this service does not do.
+
+It documents a 422 of its own shape for every call with a parameter, and errors as plain JSON; here
+every error is a problem document, and a call answers the statuses it names and no others.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from fastapi import FastAPI
+
+from service.problems import MEDIA_TYPE
+
+_FRAMEWORK_ERRORS = ("HTTPValidationError", "ValidationError")
+
+
+def install(app: FastAPI) -> None:
+    """Serve the corrected document; it is made once."""
+    generate: Callable[[], dict[str, Any]] = app.openapi
+    made: list[dict[str, Any]] = []
+
+    def corrected() -> dict[str, Any]:
+        if not made:
+            made.append(_corrected(generate()))
+        return made[0]
+
+    app.openapi = corrected  # type: ignore[method-assign]
+
+
+def _corrected(document: dict[str, Any]) -> dict[str, Any]:
+    for item in document["paths"].values():
+        for operation in item.values():
+            operation["responses"] = {
+                status: _as_problem(response) if status >= "4" else response
+                for status, response in operation["responses"].items()
+                if not _of_the_framework(response)
+            }
+    for name in _FRAMEWORK_ERRORS:
+        document["components"]["schemas"].pop(name, None)
+    return document
+
+
+def _of_the_framework(response: dict[str, Any]) -> bool:
+    schema = response.get("content", {}).get("application/json", {}).get("schema", {})
+    return str(schema.get("$ref", "")).endswith("/HTTPValidationError")
+
+
+def _as_problem(response: dict[str, Any]) -> dict[str, Any]:
+    content = response["content"]
+    schema = content.pop("application/json")["schema"]
+    return {**response, "content": {MEDIA_TYPE: {"schema": schema, **content[MEDIA_TYPE]}}}
