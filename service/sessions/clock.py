@@ -1,7 +1,8 @@
 """One clock for all live sessions: a heap of slots, one timer, no task or thread per session.
 
 Deadlines are rounded up to slots of 2 ms, so that sessions due together wake the loop once.
-Time is the loop's monotonic clock: setting the wall clock does nothing here. A session that falls
+Time is the monotonic clock, not the loop's own, which stands still during a turn of the loop;
+setting the wall clock does nothing here. A session that falls
 behind (a stalled machine) goes on from now; what it missed is not made up for in a burst.
 
 Leaves out what a tick is: a `Ticker` knows that, and how it fails.
@@ -12,6 +13,7 @@ from __future__ import annotations
 import asyncio
 import heapq
 import math
+import time
 from array import array
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -91,10 +93,10 @@ class Lateness:
 class WheelClock:
     """The clock of a running service, on the event loop's timer.
 
-    `now` answers seconds that never run backwards; by default the loop's own.
+    `now` answers seconds that never run backwards.
     """
 
-    def __init__(self, now: Callable[[], float] | None = None) -> None:
+    def __init__(self, now: Callable[[], float] = time.monotonic) -> None:
         self._now = now
         self._loop: asyncio.AbstractEventLoop | None = None
         self._due: dict[Ticker, float] = {}
@@ -120,7 +122,7 @@ class WheelClock:
     def add(self, ticker: Ticker) -> None:
         """See `Clock.add`."""
         if ticker not in self._due:
-            self._schedule(ticker, self._time() + ticker.period_s)
+            self._schedule(ticker, self._now() + ticker.period_s)
             self._arm()
 
     def remove(self, ticker: Ticker) -> None:
@@ -133,8 +135,8 @@ class WheelClock:
 
     def serve(self) -> None:
         """Tick all that is due, for at most `TURN_S`; what is left comes next turn of the loop."""
-        began = self._time()
-        while self._order and self._order[0] * SLOT_S <= self._time():
+        began = self._now()
+        while self._order and self._order[0] * SLOT_S <= self._now():
             slot = self._order[0]
             tickers = self._slots[slot]
             while tickers:
@@ -142,13 +144,13 @@ class WheelClock:
                 # A ticker that was removed, or added anew for another time, is not due here.
                 if self._slot_of(self._due.get(ticker)) == slot:
                     self._serve_one(ticker, self._due.pop(ticker))
-                if self._time() - began > TURN_S:
+                if self._now() - began > TURN_S:
                     return
             heapq.heappop(self._order)
             del self._slots[slot]
 
     def _serve_one(self, ticker: Ticker, due: float) -> None:
-        now = self._time()
+        now = self._now()
         self._record(now - due)
         # Put back first: a ticker that leaves the clock while ticking must find itself on it.
         period = ticker.period_s
@@ -181,7 +183,7 @@ class WheelClock:
             if self._timer is not None:
                 self._timer.cancel()
         self._timer_slot = slot
-        self._timer = self._loop.call_later(max(0.0, slot * SLOT_S - self._time()), self._fire)
+        self._timer = self._loop.call_later(max(0.0, slot * SLOT_S - self._now()), self._fire)
 
     def _fire(self) -> None:
         self._timer = self._timer_slot = None
@@ -194,11 +196,6 @@ class WheelClock:
         else:
             self._samples[self._next_sample] = lateness_s
         self._next_sample = (self._next_sample + 1) % LATENESS_KEPT
-
-    def _time(self) -> float:
-        if self._now is not None:
-            return self._now()
-        return self._loop.time() if self._loop is not None else asyncio.get_running_loop().time()
 
     @staticmethod
     def _slot_of(due: float | None) -> int | None:
