@@ -31,6 +31,11 @@ QUIET = [
 Visit = Callable[..., Visitor]
 
 
+def chromium() -> str | None:
+    """The system's Chromium, else (None) the one that `playwright install chromium` brings."""
+    return shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """One at a time, in one worker: they count frames, and share a machine."""
     here = Path(__file__).parent
@@ -50,10 +55,9 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ServiceProcess
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
-    """The system's Chromium, else the one that `playwright install chromium` brings."""
-    found = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    """One for all visits of a module."""
     with sync_playwright() as playwright:
-        running = playwright.chromium.launch(executable_path=found, args=QUIET)
+        running = playwright.chromium.launch(executable_path=chromium(), args=QUIET)
         yield running
         running.close()
 
@@ -72,11 +76,7 @@ def visit(service: ServiceProcess, browser: Browser) -> Iterator[Visit]:
         return visitor
 
     yield open_page
-    problems = [
-        line
-        for visitor in visitors
-        for line in (*visitor.console, *visitor.violations(), *visitor.strangers())
-    ]
+    problems = [line for visitor in visitors for line in visitor.troubles()]
     for visitor in visitors:
         visitor.close()
     assert problems == []

@@ -72,7 +72,7 @@ class Script:
 
     def delete(self) -> None:
         """End the session."""
-        self._http.delete("").raise_for_status()
+        self._http.delete(str(self._http.base_url).rstrip("/")).raise_for_status()
 
     def close(self) -> None:
         """Let go of the connection."""

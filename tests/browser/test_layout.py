@@ -20,8 +20,8 @@ FAINT_TEXT = """
     return colour.startsWith("color(srgb") ? [r * 255, g * 255, b * 255, a] : [r, g, b, a];
   };
   const over = ([r, g, b, a], [x, y, z]) => [r * a + x * (1 - a), g * a + y * (1 - a), b * a + z * (1 - a)];
-  const light = (c) => c.map((v) => v / 255).map((v) => (v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4));
-  const luminance = (c) => { const [r, g, b] = light(c); return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
+  const linear = (v) => (v / 255 <= 0.04045 ? v / 255 / 12.92 : ((v / 255 + 0.055) / 1.055) ** 2.4);
+  const luminance = ([r, g, b]) => 0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b);
   const ground = (element) => {
     if (!element) return [255, 255, 255];
     const colour = parse(getComputedStyle(element).backgroundColor);
@@ -31,7 +31,8 @@ FAINT_TEXT = """
   const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
   for (let node = walker.nextNode(); node; node = walker.nextNode()) {
     const element = node.parentElement;
-    if (!node.data.trim() || !element.checkVisibility() || element.closest(".unseen, .verdict, .paused, :disabled")) continue;
+    if (!node.data.trim() || !element.checkVisibility()) continue;
+    if (element.closest(".unseen, .verdict, .paused, :disabled")) continue;
     const style = getComputedStyle(element);
     const below = ground(element);
     const a = luminance(over(parse(style.color), below)), b = luminance(below);
@@ -43,7 +44,8 @@ FAINT_TEXT = """
 """
 
 SMALL_TARGETS = """
-() => [...document.querySelectorAll("header button, .controls button, .command button, .command input, .example, .offer")]
+() => [...document.querySelectorAll(
+    "header button, .controls button, .command button, .command input, .example, .offer")]
   .filter((element) => element.checkVisibility())
   .map((element) => [element.textContent || element.id, element.getBoundingClientRect()])
   .filter(([, box]) => box.width < 44 || box.height < 44)
@@ -65,7 +67,7 @@ def test_text_can_be_read_and_targets_hit(visit: Visit, viewport: dict[str, int]
     assert visitor.page.evaluate(SMALL_TARGETS) == []
     assert visitor.page.evaluate(FAINT_TEXT) == []
     talkative(visitor)
-    visitor.page.wait_for_function("document.getAnimations().every((one) => one.playState !== 'running')")
+    visitor.page.evaluate("() => Promise.all(document.getAnimations().map((one) => one.finished))")
     assert visitor.page.evaluate(FAINT_TEXT) == []
     assert visitor.page.evaluate(SMALL_TARGETS) == []
 
@@ -92,7 +94,7 @@ def test_the_page_is_light_and_comes_from_one_place(visit: Visit) -> None:
     weights: list[dict[str, Any]] = visitor.page.evaluate(
         """() => performance.getEntriesByType("resource").concat(performance.getEntriesByType("navigation"))
              .filter((entry) => !entry.name.includes("/api/"))
-             .map((entry) => ({ name: entry.name, size: entry.decodedBodySize }))"""
+             .map((entry) => ({ name: entry.name, size: entry.encodedBodySize }))"""
     )
     total = sum(weight["size"] for weight in weights)
     print(f"{len(weights)} files, {total} bytes")

@@ -127,15 +127,12 @@ class Visitor:
         """The road in words, for those who do not see it."""
         return self.page.locator(".road-canvas").get_attribute("aria-label") or ""
 
-    def violations(self) -> list[str]:
-        """What the content security policy has stopped."""
-        found: list[str] = self.page.evaluate("window.policyViolations")
-        return found
-
-    def strangers(self) -> list[str]:
-        """Requests that went anywhere but to the service."""
-        home = self.url.split("://")[1]
-        return [url for url in self.requests if not re.match(rf"(http|ws)://{re.escape(home)}(/|$)", url)]
+    def troubles(self) -> list[str]:
+        """Errors logged, what the content security policy has stopped, requests that went elsewhere."""
+        home = re.escape(self.url.split("://")[1])
+        strangers = [url for url in self.requests if not re.match(rf"(http|ws)://{home}(/|$)", url)]
+        violations: list[str] = self.page.evaluate("window.policyViolations")
+        return [*self.console, *violations, *strangers]
 
     def close(self) -> None:
         """Leave."""

@@ -38,5 +38,5 @@ test("figures and names", () => {
   assert.equal(plain("success_rate"), "success rate");
   assert.equal(reasonWords("mover_enters"), "something moves in");
   assert.equal(reasonWords("too_risky"), "too risky");
-  assert.deepEqual([4, true, null, "highway"].map(valueWords), ["4", "on", "none", "highway"]);
+  assert.deepEqual([4, 0.15, true, null, "forward_left"].map(valueWords), ["4", "0.15", "on", "none", "forward left"]);
 });

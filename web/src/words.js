@@ -49,7 +49,7 @@ export function valueWords(value) {
   if (value === true) return "on";
   if (value === false) return "off";
   if (typeof value === "object") return JSON.stringify(value);
-  return plain(String(value));
+  return String(value).replaceAll("_", " ");
 }
 
 /**

@@ -21,7 +21,7 @@ export function answerElement(answer, reply, page) {
       make("ul", { class: "causes", "aria-label": "Causes" }, ...causes.map((cause) => causeElement(cause, page))),
     );
   }
-  const proof = proofElement(answer);
+  const proof = causes.length > 0 ? proofElement(answer) : null;
   if (proof) element.append(proof);
   const others = (answer.alternatives ?? []).filter(({ move }) => move !== answer.move);
   if (others.length > 0) element.append(alternativesElement(others));

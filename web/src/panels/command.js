@@ -5,6 +5,7 @@ import { make } from "../dom.js";
 import { History, localHistory } from "../history.js";
 import { icon } from "../icons.js";
 
+/** Well beyond what the service takes, so that it is the one to say that a text is too long. */
 const LONGEST_TEXT = 2_000;
 
 /**

@@ -19,7 +19,8 @@ import { answerElement } from "./answer.js";
  */
 export function exchangeElement(exchange, page, undoable) {
   const { said, standing, result, problem } = exchange;
-  const element = make("article", { class: "exchange", "data-standing": standing, "data-id": exchange.id });
+  const asked = problem?.choices?.length ? "asked" : standing;
+  const element = make("article", { class: "exchange", "data-standing": asked, "data-id": exchange.id });
   element.append(make("p", { class: "said" }, ...sentence(said, problem?.unparsed ?? [])));
   if (standing === "pending") element.append(make("p", { class: "reply pending" }, dots()));
   if (standing === "unknown") {
@@ -46,7 +47,9 @@ function resultParts(result, page, undoable) {
   const changes = changesOf(result);
   if (changes.length > 0) {
     const list = make("ul", { class: "changes", "aria-label": "What changed" });
-    for (const { path, before, after } of changes) list.append(changeElement(path, before, after));
+    const onRoad = changes.filter(({ path }) => !isSetting(path));
+    const settings = changes.filter(({ path }) => isSetting(path));
+    list.append(...onRoad.map(changeElement));
     if (undoable) {
       const undo = make(
         "button",
@@ -56,20 +59,32 @@ function resultParts(result, page, undoable) {
       list.append(make("li", { class: "change-undo" }, undo));
     }
     parts.push(list);
+    if (settings.length > 0) {
+      const title = `${settings.length} ${settings.length === 1 ? "setting" : "settings"} changed`;
+      parts.push(
+        make(
+          "details",
+          { class: "settings" },
+          make("summary", {}, title),
+          make("ul", { class: "changes" }, ...settings.map(changeElement)),
+        ),
+      );
+    }
   }
   return parts;
 }
 
-/**
- * @param {string} path
- * @param {unknown} before
- * @param {unknown} after
- */
-function changeElement(path, before, after) {
+/** What future roads are made from, rather than what is on this one. @param {string} path */
+function isSetting(path) {
+  return path.startsWith("config.");
+}
+
+/** @param {import("../protocol.js").Change} change */
+function changeElement({ path, before, after }) {
   return make(
     "li",
     { class: "change" },
-    `${plain(path)} `,
+    `${plain(path.replace("config.", ""))} `,
     make("span", { class: "before" }, valueWords(before)),
     " → ",
     make("span", { class: "after" }, valueWords(after)),

@@ -71,7 +71,8 @@ export function createRoad(host) {
       const fitted = view && tile ? { view, tile } : fit(world);
       const ego = egoOf(world);
       const egoPose = ego && stage.pose(ego.id, now);
-      const elapsedS = wantsStillness() ? Infinity : Math.min(LONGEST_FRAME_S, (now - drawnAt) / 1000);
+      const still = wantsStillness();
+      const elapsedS = still ? Infinity : Math.min(LONGEST_FRAME_S, (now - drawnAt) / 1000);
       drawnAt = now;
       const scrolling = camera.follow(egoPose?.row ?? world.rows - 1, world, fitted.view, elapsedS);
       const top = camera.top ?? 0;
@@ -84,8 +85,8 @@ export function createRoad(host) {
       // From here on one unit is a cell, and whole numbers are the centres of cells.
       pen.setTransform(ratio * cell, 0, 0, ratio * cell, ratio * (left + cell / 2), ratio * cell * (0.5 - top));
       const seen = stage.poses(now).filter(({ row }) => row > top - 2 && row < top + visibleRows + 1);
-      const progress = stage.progress(now);
-      const scene = { pen, sprites, palette, progress, now };
+      const progress = still ? 1 : stage.progress(now);
+      const scene = { pen, sprites, palette, progress, now: still ? 0 : now };
       for (const pose of seen) if (isFixed(pose.thing)) drawThing(scene, pose, null);
       drawTrail(pen, stage.trail.slice(0, -1), palette);
       drawCauses(seen, progress);
