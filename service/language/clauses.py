@@ -108,8 +108,9 @@ def fragments(lattice: Lattice, start: int, end: int) -> list[Fragment]:
 
 def _past_interjection(lattice: Lattice, start: int, end: int) -> int:
     """Past a first part that only calls for attention: "right, …", "no, …", "car, …"."""
+    longest = max((edge.end for edge in lattice.edges[start]), default=start) if start < end else start
     for edge in lattice.edges[start] if start < end else ():
-        if edge.concept == INTERJECTION and edge.end < end:
+        if edge.end == longest and edge.concept == INTERJECTION and edge.end < end:
             marks = [e for e in lattice.edges[edge.end] if e.concept == SEPARATOR and e.sense.value == "pause"]
             if marks and _says_something(lattice, marks[0].end, end):
                 return marks[0].end
@@ -228,14 +229,15 @@ class Divider:
             for edge in understood_nouns(self._lattice, start, end, context.noun, self._vague):
                 edges.setdefault(edge.start, []).append(edge)
                 concepts.add(edge.concept)
+        moods = self._moods | ({"ing"} if context.negated else set())
+        forms |= moods
         if context.negated:
-            forms.add("ing")
             for edge in [edge for starting in edges.values() for edge in starting]:
                 for lenient in _lenient(edge):
                     edges[edge.start].append(lenient)
                     concepts.add(lenient.concept)
         return Stretch(
-            start, end, edges, frozenset(concepts), frozenset(forms), context.verb, joined, negation
+            start, end, edges, frozenset(concepts), frozenset(forms), moods, context.verb, joined, negation, context.negated
         )
 
 

@@ -40,6 +40,8 @@ class Frames:
                 actions = build(filled[0], self._parameters)
             except CannotBuild:
                 continue
+            if stretch.lenient:
+                return filled[0], actions
             if best is None or filled[1] < best_pieces:
                 best, best_pieces, torn = (filled[0], actions), filled[1], False
             elif filled[1] == best_pieces and (best[1] != actions or best[0].frame.ask != frame.ask):

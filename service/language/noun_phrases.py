@@ -16,6 +16,9 @@ from service.language.lexicon import Sense
 NOUN = "noun."
 QUANTITY = "quantity"
 COLON = "colon"
+OF_THE = "of_the"
+"""Value of quantities that need another before them: "two of the"."""
+
 DETERMINED = "the"
 """Form of senses that hold only after a bare definite article: "the car" is the vehicle itself."""
 
@@ -91,6 +94,7 @@ def _gather(amounts: dict[int, list[Edge]], noun: int) -> _Gathered:
         before = amounts[gathered.start]
         if gathered.number is not None:
             before = [edge for edge in before if edge.concept != NUMBER]
+        before = [edge for edge in before if edge.sense.value != OF_THE or edge.start in amounts]
         if not before:
             break
         longest = min(before, key=lambda edge: (edge.start, edge.concept != NUMBER))
@@ -126,7 +130,9 @@ def _form(gathered: _Gathered, many: bool, vague: int) -> tuple[str, int | float
             return ("odd", None) if "more" in said else ("exact", number)
         if said & {"more", "another"}:
             return ("more", number)
-        return ("the_counted", number) if "the" in said else ("counted", number)
+        if "fewer" in said:
+            return ("fewer", number)
+        return ("the_counted", number) if said & {"the", OF_THE} else ("counted", number)
     if said & {"all", "every"}:
         return ("all", None)
     if "those" in said:

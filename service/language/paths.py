@@ -33,9 +33,12 @@ class Stretch:
     edges: Mapping[int, Sequence[Edge]]
     concepts: frozenset[str]
     forms: frozenset[str] = frozenset()
+    moods: frozenset[str] = frozenset()
     given: tuple[Edge, ...] = ()
     joined: bool = False
     negated: bool = False
+    lenient: bool = False
+    """Whether any frame that fits will do: nothing will be done anyway."""
 
 
 @dataclass(slots=True)
@@ -48,6 +51,7 @@ class _Search:
     steps: int = 0
     slots: list[Edge] = field(default_factory=list)
     parts: list[Edge] = field(default_factory=list)
+    glue: list[Edge] = field(default_factory=list)
 
 
 def fill(frame: Frame, stretch: Stretch) -> tuple[Filled, int] | None:
@@ -105,7 +109,12 @@ def _walk(search: _Search, at: int, needs: list[frozenset[str]], used: set[str],
     """The number of pieces of the first path from `at` to the end that meets all needs, else None."""
     frame = search.frame
     if at == search.stretch.end:
-        complete = not needs and _parts_match(search.slots, search.parts) and _agrees(frame, used)
+        complete = (
+            not needs
+            and _parts_match(search.slots, search.parts)
+            and _agrees(frame, used)
+            and _forms_in_place(search)
+        )
         return pieces if complete else None
     search.steps += 1
     if search.steps > MAX_STEPS:
@@ -114,9 +123,11 @@ def _walk(search: _Search, at: int, needs: list[frozenset[str]], used: set[str],
         if not fills:
             if edge.part:
                 search.parts.append(edge)
+            search.glue.append(edge)
             done = _walk(search, edge.end, needs, used, pieces + 1)
             if done is not None:
                 return done
+            search.glue.pop()
             if edge.part:
                 search.parts.pop()
             continue
@@ -131,6 +142,26 @@ def _walk(search: _Search, at: int, needs: list[frozenset[str]], used: set[str],
             return done
         search.slots.pop()
     return None
+
+
+def _forms_in_place(search: _Search) -> bool:
+    """Whether each form used is put in place by a phrase on the path, and each such phrase is needed."""
+    free = search.frame.forms | search.stretch.moods
+    used = {edge.sense.form for edge in search.slots if edge.sense.form} - free
+    only_for = {str(edge.sense.value) for edge in search.glue if edge.concept == ALLOWS}
+    said = {edge.sense.form for edge in search.slots}
+    if not only_for <= said:
+        return False
+    if not used:
+        return True
+    spans = {(edge.start, edge.end) for edge in (*search.glue, *search.slots)}
+    allowed = {
+        str(edge.sense.value)
+        for starting in search.stretch.edges.values()
+        for edge in starting
+        if edge.concept == ALLOWS and (edge.start, edge.end) in spans
+    }
+    return used <= allowed
 
 
 def _agrees(frame: Frame, used: set[str]) -> bool:
