@@ -12,6 +12,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 
 from annotated_types import Ge, Gt, Le, MaxLen, MinLen
 from pydantic import Discriminator, TypeAdapter
+from pydantic_core import to_json
 
 from sim.actions import (
     Add,
@@ -355,8 +356,12 @@ ACTIONS: TypeAdapter[tuple[Action, ...]] = TypeAdapter(tuple[Action, ...])
 
 
 def load(values: Any) -> tuple[Action, ...]:
-    """Actions from JSON values. Raises `pydantic.ValidationError`, naming each bad field."""
-    return ACTIONS.validate_python(values)
+    """Actions from JSON values. Raises `pydantic.ValidationError`, naming each bad field.
+
+    Strictly: `"5"` and `true` are no numbers. (Strictness over Python values would ask for
+    dataclasses where JSON has objects, hence the way through JSON.)
+    """
+    return ACTIONS.validate_json(to_json(values), strict=True)
 
 
 def dump(actions: tuple[Action, ...]) -> list[dict[str, Any]]:
