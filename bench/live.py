@@ -23,6 +23,7 @@ from pathlib import Path
 import httpx
 import orjson
 from websockets.asyncio.client import connect
+from websockets.exceptions import ConnectionClosed
 
 WARM_UP_S = 3.0
 """Connecting is not what is measured."""
@@ -73,16 +74,19 @@ async def _measure(sessions: int, seconds: float) -> None:
             raise SystemExit("the service did not start")
         try:
             await _watch_all(found[0], service.pid, sessions, seconds)
+        except* ConnectionClosed:
+            raise SystemExit("the service ended while it was measured") from None
         finally:
-            service.terminate()
+            if service.returncode is None:
+                service.terminate()
             await service.wait()
 
 
 async def _watch_all(url: str, pid: int, sessions: int, seconds: float) -> None:
-    async with httpx.AsyncClient(base_url=url, timeout=60) as client:
+    async with httpx.AsyncClient(base_url=url, timeout=60) as client, asyncio.TaskGroup() as group:
         gate = asyncio.Semaphore(MAX_ATTEMPTS_AT_ONCE)
         began = time.perf_counter()
-        watching = [asyncio.create_task(_watch(client, url, gate, seconds)) for _ in range(sessions)]
+        watching = [group.create_task(_watch(client, url, gate, seconds)) for _ in range(sessions)]
         health = (await client.get("/healthz")).json()
         while health["watchers"] < sessions:
             await asyncio.sleep(0.1)
@@ -94,7 +98,7 @@ async def _watch_all(url: str, pid: int, sessions: int, seconds: float) -> None:
         busy = (_cpu_s(pid) - cpu_began_s) / (time.perf_counter() - wall_began_s)
         lateness = (await client.get("/healthz")).json()["tick_lateness"]
         memory_mb = _memory_mb(pid)
-        heard = await asyncio.gather(*watching)
+    heard = [task.result() for task in watching]
     delays = sorted(delay for each in heard for delay in each.delays_ms(0.5))
     print(f"{sessions} sessions at 2 Hz, one socket each, {seconds:g} s (connected in {connected_s:.1f} s)")
     print(
