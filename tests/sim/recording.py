@@ -40,7 +40,7 @@ def digests() -> list[str]:
     for tick in range(TICKS):
         timeline.apply(tick, SCRIPT.get(tick, ()))
         world = timeline.run.world
-        ids = ",".join(f"{cell}:{name}" for cell, name in sorted((world.movers | world.hazards).items()))
+        ids = ",".join(f"{cell}:{name}" for cell, name in sorted({**world.movers, **world.hazards}.items()))
         told.append(f"{tick} {world.digest()} {world.episode} {world.outcome} {ids}")
         timeline.advance()
     return told

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 from hypothesis import strategies as st
 
 from sim import notation
 from sim.config import Config
-from sim.edit import Applied, apply
 from sim.kinds import Kind
 from sim.road import Road, board_of
 from sim.run import Run
@@ -16,12 +16,12 @@ from sim.world import World
 
 
 def road(*rows: str, tick: int = 0, lines: tuple[str, ...] = ()) -> World:
-    """A world from its rows of signs; a row without signs is one string of dots."""
+    """A world from its rows of signs."""
     head = f"road {len(rows[0])}x{len(rows)} tick {tick} episode 1 from 0 running"
     return notation.read("\n".join((head, *rows, *lines)))
 
 
-def run_on(world: World, **parts: object) -> Run:
+def run_on(world: World, **parts: Any) -> Run:
     """A run on a given road, with a configuration of its size."""
     config = Config(columns=world.road.columns, rows=world.road.rows, vehicles=0, potholes=0)
     return Run(config.with_parts(**parts), world)
@@ -30,16 +30,6 @@ def run_on(world: World, **parts: object) -> Run:
 def grid(world: World) -> list[str]:
     """The rows of signs of a world."""
     return notation.write(world).splitlines()[1 : world.road.rows + 1]
-
-
-def done(run: Run, *actions: object) -> Applied:
-    """The last of some actions applied one after another."""
-    applied = None
-    for action in actions:
-        applied = apply(run, action)  # type: ignore[arg-type]
-        run = applied.run
-    assert applied is not None
-    return applied
 
 
 @st.composite

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import fields
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -16,9 +17,9 @@ WIDE = {"columns": 64, "rows": 512}
 """A road with room for whatever the limits allow."""
 
 
-def problems(**parts: object) -> dict[str, str]:
+def problems(**parts: Any) -> dict[str, str]:
     with pytest.raises(ConfigError) as refused:
-        Config(**parts)  # type: ignore[arg-type]
+        Config(**parts)
     told = {problem.field: problem.message for problem in refused.value.problems}
     assert len(told) == len(refused.value.problems), "one problem a field"
     assert all(f"{field}: {message}" in str(refused.value) for field, message in told.items())
@@ -47,7 +48,8 @@ def test_the_limits_are_inclusive(name: str) -> None:
     room = {} if name in WIDE else WIDE
     bare = {"vehicles": 0, "potholes": 0} if name in ("columns", "rows", *COUNTS) else {}
     for value in (low, high):
-        assert getattr(Config(**{**room, **bare, name: value}), name) == value
+        parts: dict[str, Any] = {**room, **bare, name: value}
+        assert getattr(Config(**parts), name) == value
     for value in (low - step, high + step):
         assert list(problems(**{**room, **bare, name: value})) == [name]
 
@@ -71,7 +73,8 @@ def test_a_number_must_be_given(name: str) -> None:
 @pytest.mark.parametrize(("name", "choices"), list(CHOICES.items()))
 def test_words_are_among_those_known(name: str, choices: tuple[str, ...]) -> None:
     for choice in choices:
-        assert getattr(Config(**{name: choice}), name) == choice
+        parts: dict[str, Any] = {name: choice}
+        assert getattr(Config(**parts), name) == choice
     for wrong in ("", "elsewhere", 3):
         message = problems(**{name: wrong})[name]
         assert all(choice in message for choice in choices)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import sqrt
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -21,7 +22,7 @@ def furnished(draw: st.DrawFn) -> Config:
     """A configuration of exact numbers that the road can hold."""
     columns, rows = draw(st.integers(3, 12)), draw(st.integers(4, 20))
     room = columns * (rows - 2)
-    counts = {}
+    counts: dict[str, Any] = {}
     for name in COUNTS:
         counts[name] = draw(st.integers(0, room))
         room -= counts[name]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
 from sim.actions import Where
@@ -35,12 +37,12 @@ def cells(place: Place) -> set[Cell]:
     return {WORLD.road.cell(index) for index in bits(place.cells)}
 
 
-def adding(count: int = 1, **parts: object) -> set[Cell]:
-    return cells(place_for_adding(Where(**parts), count, WORLD, 5.0))  # type: ignore[arg-type]
+def adding(count: int = 1, **parts: Any) -> set[Cell]:
+    return cells(place_for_adding(Where(**parts), count, WORLD, 5.0))
 
 
-def finding(**parts: object) -> set[Cell]:
-    return cells(place_for_finding(Where(**parts), WORLD, 5.0))  # type: ignore[arg-type]
+def finding(**parts: Any) -> set[Cell]:
+    return cells(place_for_finding(Where(**parts), WORLD, 5.0))
 
 
 def block(columns: range, rows: range) -> set[Cell]:
@@ -91,7 +93,7 @@ def lane(column: int) -> set[Cell]:
         ({"row": 5, "side": "ahead"}, set()),
     ],
 )
-def test_where_one_new_thing_may_be_put(parts: dict[str, object], expected: set[Cell]) -> None:
+def test_where_one_new_thing_may_be_put(parts: dict[str, Any], expected: set[Cell]) -> None:
     assert adding(**parts) == expected
 
 
@@ -106,7 +108,7 @@ def test_where_one_new_thing_may_be_put(parts: dict[str, object], expected: set[
         ({"side": "left", "cells": 2}, {(0, 4), (1, 4)}),
     ],
 )
-def test_where_several_new_things_may_be_put(parts: dict[str, object], expected: set[Cell]) -> None:
+def test_where_several_new_things_may_be_put(parts: dict[str, Any], expected: set[Cell]) -> None:
     assert adding(count=3, **parts) == expected
 
 
@@ -143,9 +145,9 @@ def test_places_seen_from_the_vehicle_are_filled_from_the_nearest_on() -> None:
         ({"side": "right", "row": 1}, {(4, 1), (5, 1), (6, 1)}),
     ],
 )
-def test_where_things_that_are_meant_may_be(parts: dict[str, object], expected: set[Cell]) -> None:
+def test_where_things_that_are_meant_may_be(parts: dict[str, Any], expected: set[Cell]) -> None:
     assert finding(**parts) == expected
-    assert place_for_finding(Where(**parts), WORLD, 5.0).ordered  # type: ignore[arg-type]
+    assert place_for_finding(Where(**parts), WORLD, 5.0).ordered
 
 
 def test_no_place_is_everywhere_for_finding() -> None:
@@ -168,9 +170,7 @@ def test_no_place_is_everywhere_for_finding() -> None:
         ({"lane": "left", "cells": 9}, ("4 cells ahead",)),
     ],
 )
-def test_what_is_not_on_the_road_is_told_in_a_sentence(
-    parts: dict[str, object], words: tuple[str, ...]
-) -> None:
+def test_what_is_not_on_the_road_is_told_in_a_sentence(parts: dict[str, Any], words: tuple[str, ...]) -> None:
     for place in (adding, finding):
         with pytest.raises(PlaceError) as refused:
             place(**parts)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from sim.actions import Scenario
+from sim.actions import RoadType, Scenario, Traffic
 from sim.config import Config, ConfigError
 from sim.scenario import ROADS, TRAFFIC, configured
 
@@ -32,7 +32,7 @@ def test_numbers_said_are_exact() -> None:
 
 
 @pytest.mark.parametrize("road", [road for road in ROADS if road is not None])
-def test_a_type_of_road_brings_its_furniture(road) -> None:
+def test_a_type_of_road_brings_its_furniture(road: RoadType) -> None:
     config, preset = configured(Config(), Scenario(road=road)), ROADS[road]
     assert config.road == road
     assert (config.spawn_probability, config.pothole_probability) == (
@@ -54,7 +54,7 @@ def test_the_presets_differ_as_their_words_do() -> None:
 
 
 @pytest.mark.parametrize(("traffic", "probability"), list(TRAFFIC.items()))
-def test_traffic_overrides_what_the_road_brings(traffic, probability: float) -> None:
+def test_traffic_overrides_what_the_road_brings(traffic: Traffic, probability: float) -> None:
     assert configured(Config(), Scenario(road="rural", traffic=traffic)).spawn_probability == probability
 
 

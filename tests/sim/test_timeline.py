@@ -33,6 +33,9 @@ ACTIONS = st.sampled_from(
         Drive(move=Move.FORWARD),
     ]
 )
+Script = list[tuple[int, list[WorldAction]]]
+"""Pairs of ticks to let pass and actions said together then."""
+
 SCRIPTS = st.lists(st.tuples(st.integers(0, 25), st.lists(ACTIONS, max_size=3)), max_size=7)
 
 
@@ -45,11 +48,9 @@ def said(timeline: Timeline, sequence: int, actions: Sequence[WorldAction]) -> b
     return True
 
 
-def played(
-    script: list[tuple[int, list[WorldAction]]], config: Config = CONFIG
-) -> tuple[Timeline, list[Run]]:
+def played(script: Script) -> tuple[Timeline, list[Run]]:
     """A timeline, and the state at each tick as it was when the tick was left."""
-    timeline, seen = Timeline(config), []
+    timeline, seen = Timeline(CONFIG), []
     for sequence, (ticks, actions) in enumerate(script, 1):
         for _ in range(ticks):
             seen.append(timeline.run)
@@ -61,7 +62,7 @@ def played(
 
 @settings(max_examples=40, deadline=None)
 @given(SCRIPTS)
-def test_every_past_state_is_what_was_seen_live(script: list[tuple[int, list[WorldAction]]]) -> None:
+def test_every_past_state_is_what_was_seen_live(script: Script) -> None:
     timeline, seen = played(script)
     assert timeline.tick == len(seen) - 1
     for tick, run in enumerate(seen):
@@ -72,11 +73,10 @@ def test_every_past_state_is_what_was_seen_live(script: list[tuple[int, list[Wor
 
 @settings(max_examples=30, deadline=None)
 @given(SCRIPTS)
-def test_every_past_decision_is_what_was_decided_live(script: list[tuple[int, list[WorldAction]]]) -> None:
+def test_every_past_decision_is_what_was_decided_live(script: Script) -> None:
     timeline, decisions = Timeline(CONFIG), []
     for sequence, (ticks, actions) in enumerate(script, 1):
-        for _ in range(ticks):
-            decisions.append(timeline.advance().decision)
+        decisions += [timeline.advance().decision for _ in range(ticks)]
         said(timeline, sequence, actions)
     for tick, decision in enumerate(decisions):
         assert timeline.decision(tick) == decision
@@ -85,9 +85,7 @@ def test_every_past_decision_is_what_was_decided_live(script: list[tuple[int, li
 
 @settings(max_examples=40, deadline=None)
 @given(SCRIPTS, st.integers(1, 20))
-def test_undone_is_never_said_and_redone_is_never_undone(
-    script: list[tuple[int, list[WorldAction]]], later: int
-) -> None:
+def test_undone_is_never_said_and_redone_is_never_undone(script: Script, later: int) -> None:
     timeline, _ = played(script)
     for _ in range(later):
         timeline.advance()
@@ -112,7 +110,7 @@ def test_undone_is_never_said_and_redone_is_never_undone(
 
 @settings(max_examples=25, deadline=None)
 @given(SCRIPTS)
-def test_everything_can_be_undone_and_redone(script: list[tuple[int, list[WorldAction]]]) -> None:
+def test_everything_can_be_undone_and_redone(script: Script) -> None:
     timeline, seen = played(script)
     log = list(timeline.entries)
     changes = len({entry.sequence for entry in log})
@@ -132,10 +130,8 @@ def test_everything_can_be_undone_and_redone(script: list[tuple[int, list[WorldA
 def test_what_is_said_after_an_undo_ends_the_redoing() -> None:
     timeline, _ = played([(3, [Add(kind="pothole", count=1)]), (3, [])])
     timeline.undo()
-    assert timeline.can_redo
     timeline.apply(9, [Add(kind="barrier", count=1)])
-    assert not timeline.can_redo
-    assert timeline.redo() == []
+    assert (timeline.can_redo, timeline.redo()) == (False, [])
 
 
 def test_redo_says_it_again_at_the_tick_it_was_said() -> None:
@@ -232,7 +228,7 @@ def test_snapshots_thin_out_and_the_past_stays_the_same(monkeypatch: pytest.Monk
     """The same with fewer of them, so that the bound is passed several times in little time."""
     monkeypatch.setattr("sim.timeline.MAX_SNAPSHOTS", 5)
     monkeypatch.setattr("sim.timeline.SNAPSHOT_TICKS", 4)
-    script: list[tuple[int, list[WorldAction]]] = [
+    script: Script = [
         (37, [Add(kind="pothole", count=2)]),
         (27, [Add(kind="barrier", count=1)]),
         (64, [Scenario(potholes=6)]),

@@ -8,13 +8,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from sim.actions import Add
+from sim.actions import Add, Where
 from sim.config import Config
 from sim.courtesy import yielding
 from sim.edit import apply
 from sim.kinds import Kind, Mode, Move, Outcome
 from sim.road import bits
 from sim.run import Run, advance
+from sim.world import World
 from tests.sim import twin
 from tests.sim.roads import run_on, worlds
 
@@ -60,14 +61,8 @@ def random_run(random: Random) -> Run:
     run = Run.start(config)
     for thing in list(run.world.things()):
         if thing.kind.moves and random.random() < 0.1:
-            run = apply(run, Add(kind="pothole", count=1, where=_at(thing.cell))).run
+            run = apply(run, Add(kind="pothole", count=1, where=Where(cell=thing.cell))).run
     return run
-
-
-def _at(cell: tuple[int, int]):
-    from sim.actions import Where
-
-    return Where(cell=cell)
 
 
 @pytest.mark.parametrize("part", range(4))
@@ -79,13 +74,13 @@ def test_same_state_every_tick_on_random_roads(part: int) -> None:
 
 @settings(max_examples=150, deadline=None)
 @given(worlds(), st.sampled_from([0.0, 0.5, 1.0]))
-def test_same_state_on_any_crowded_road(world, courtesy: float) -> None:
+def test_same_state_on_any_crowded_road(world: World, courtesy: float) -> None:
     drive_both(run_on(world, courtesy=courtesy, seed=3), 30)
 
 
 @settings(max_examples=150, deadline=None)
 @given(worlds(), st.lists(st.sampled_from(list(Move)), min_size=1, max_size=25))
-def test_a_persons_moves_lead_to_the_same_states_and_ends(world, moves: list[Move]) -> None:
+def test_a_persons_moves_lead_to_the_same_states_and_ends(world: World, moves: list[Move]) -> None:
     run = Run(run_on(world).config, world, mode=Mode.MANUAL, queue=tuple(moves))
     slow = twin.position(world)
     for asked in moves:

@@ -100,14 +100,12 @@ def moved_bodies(now: Position, courteous: Collection[Cell] = ()) -> tuple[Body,
         return body.cell in courteous and wanted == now.av
 
     def winners(bodies: list[Body], taken: set[Cell]) -> dict[str, Cell]:
-        wishes = {body.id: body.beside(body.heading) for body in bodies}
-        asked = Counter(wishes.values())
+        wishes = [(body, body.beside(body.heading)) for body in bodies]
+        asked = Counter(cell for _, cell in wishes)
         return {
-            body.id: wishes[body.id]
-            for body in bodies
-            if asked[wishes[body.id]] == 1
-            and wishes[body.id] not in taken
-            and not blocked(body, wishes[body.id])
+            body.id: cell
+            for body, cell in wishes
+            if asked[cell] == 1 and cell not in taken and not blocked(body, cell)
         }
 
     first = winners(planning, taken=set())
