@@ -111,7 +111,9 @@ def _past_interjection(lattice: Lattice, start: int, end: int) -> int:
     longest = max((edge.end for edge in lattice.edges[start]), default=start) if start < end else start
     for edge in lattice.edges[start] if start < end else ():
         if edge.end == longest and edge.concept == INTERJECTION and edge.end < end:
-            marks = [e for e in lattice.edges[edge.end] if e.concept == SEPARATOR and e.sense.value == "pause"]
+            marks = [
+                e for e in lattice.edges[edge.end] if e.concept == SEPARATOR and e.sense.value == "pause"
+            ]
             if marks and _says_something(lattice, marks[0].end, end):
                 return marks[0].end
     return start
@@ -237,7 +239,16 @@ class Divider:
                     edges[edge.start].append(lenient)
                     concepts.add(lenient.concept)
         return Stretch(
-            start, end, edges, frozenset(concepts), frozenset(forms), moods, context.verb, joined, negation, context.negated
+            start,
+            end,
+            edges,
+            frozenset(concepts),
+            frozenset(forms),
+            moods,
+            context.verb,
+            joined,
+            negation,
+            context.negated,
         )
 
 

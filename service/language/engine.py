@@ -18,8 +18,9 @@ from pydantic import ValidationError
 from service.actions import load
 from service.language.capture import names
 from service.language.clauses import Clause, Divided, Divider, Fragment, fragments
-from service.language.data import LanguageData, read_language
+from service.language.data import LanguageData, LanguageDataError, read_language
 from service.language.lattice import GLUE, Lattice, Scanner
+from service.language.linter import defects, flaws
 from service.language.matching import Frames
 from service.language.noun_phrases import QUANTITY, Amount, add_noun_phrases
 from service.language.parse_types import Ambiguous, Choice, Correction, Parse, Reason, Refused, Understood
@@ -52,7 +53,10 @@ class Language:
 
         Raises `LanguageDataError`, naming every defect, when the files are unfit.
         """
-        return cls(read_language((folder or prompts_folder() / "language") / code))
+        data = read_language((folder or prompts_folder() / "language") / code)
+        if found := flaws(data):
+            raise LanguageDataError("; ".join(found))
+        return cls(data)
 
     def parse(self, text: str) -> Parse:
         """What a person said: `Understood`, `Refused` or `Ambiguous`. Never raises."""
@@ -70,6 +74,10 @@ class Language:
         tokens, corrections = self._repaired(plain, tokens, kept)
         lattice = self._scanner.scan(tokens, kept, plain)
         return _Reading(self, text, plain, tokens, lattice, corrections).parse(asking=asking)
+
+    def check(self) -> list[str]:
+        """Every defect of the language's data (see `linter`); empty when it is fit."""
+        return defects(self.data, self.parse)
 
     @cached_property
     def typos(self) -> Typos:

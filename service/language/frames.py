@@ -75,17 +75,14 @@ def read_frames(data: Mapping[str, Any]) -> list[Frame]:
     return sorted(frames, key=lambda frame: -frame.rank)
 
 
-def _frame(
-    name: str, data: Mapping[str, Any], sets: Mapping[str, str], agree: Mapping[str, str]
-) -> Frame:
+def _frame(name: str, data: Mapping[str, Any], sets: Mapping[str, str], agree: Mapping[str, str]) -> Frame:
     known = {"say", "needs", "takes", "do", "per", "forms", "inherits", "joins", "verbless", "rank", "ask"}
     known.add("speaker")
     if odd := set(data) - known:
         raise FrameError(f"frame {name}: no such fields: {', '.join(sorted(odd))}")
     many: set[str] = set()
-    needs = []
-    for group in str(data["needs"]).split():
-        needs.append(frozenset(_concepts(group.replace("|", " "), sets, many)))
+    groups = str(data["needs"]).split()
+    needs = [frozenset(_concepts(group.replace("|", " "), sets, many)) for group in groups]
     takes = frozenset(_concepts(str(data.get("takes", "")), sets, many))
     does = data.get("do", [])
     ask = data.get("ask")

@@ -1,7 +1,7 @@
 """Tokens → a lattice: everything that any stretch of a sentence can mean.
 
-Each edge is a stretch of tokens with one sense. Phrases overlap ("in the" and "the left lane", "one tick" as a
-command and as an amount); which of them are meant is left to the frames, which look for a path of
+Each edge is a stretch of tokens with one sense. Phrases overlap ("in the" and "the left lane", "one tick"
+as a command and as an amount); which of them are meant is left to the frames, which look for a path of
 edges from end to end. So a phrase that belongs to one kind of request cannot hide another.
 """
 

@@ -115,6 +115,8 @@ def _joined(gathered: _Gathered, noun: Edge, vague: int) -> Edge:
 def _form(gathered: _Gathered, many: bool, vague: int) -> tuple[str, int | float | None]:
     """The kind of amount and the count, from the words before the noun."""
     said, number = gathered.said - {"filler"}, gathered.number
+    if "how" in said:
+        return ("asked", None)
     if "no" in said:
         return ("none", 0) if said == {"no"} and number is None else ("odd", None)
     if "any" in said:

@@ -105,11 +105,10 @@ class NumberWords:
         total, part, last = 0, 1 if start != at else 0, "article" if start != at else "nothing"
         while at < len(tokens):
             word = tokens[at].text
-            if word in self.ones and last in ("nothing", "power", "join"):
+            begins = last in ("nothing", "power", "join")
+            if word in self.ones and (begins or (last == "tens" and self.ones[word] in range(1, 10))):
                 part, last = part + self.ones[word], "ones"
-            elif word in self.ones and last == "tens" and self.ones[word] in range(1, 10):
-                part, last = part + self.ones[word], "ones"
-            elif word in self.tens and last in ("nothing", "power", "join"):
+            elif word in self.tens and begins:
                 part, last = part + self.tens[word], "tens"
             elif word in self.powers and last in ("ones", "tens", "article", "power"):
                 power = self.powers[word]

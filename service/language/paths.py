@@ -91,9 +91,8 @@ def _usable(frame: Frame, stretch: Stretch) -> dict[int, list[tuple[Edge, bool]]
                 here.append((edge, True))
             elif (
                 (concept == GLUE and (not sense.form or sense.form in forms))
-                or concept == ALLOWS
+                or concept in (ALLOWS, SECOND)
                 or (concept == SPEAKER and frame.speaker)
-                or concept == SECOND
                 or (stretch.joined and concept == SEPARATOR)
                 or (stretch.negated and concept == NEGATION)
             ):

@@ -1,7 +1,7 @@
 """One-edit typos in long words, read as the word meant, and every one of them reported.
 
-The distance is Damerau's (one letter wrong, missing, extra, or two swapped). A word is only repaired when it is
-unknown, long enough, not a real word that merely looks like one of ours (`typos.yaml` lists those), and
+The distance is Damerau's (one letter wrong, missing, extra, or two swapped). A word is only repaired when it
+is unknown, long enough, not a real word that merely looks like one of ours (`typos.yaml` lists those), and
 one candidate alone is near it. Number words are never guessed: "eigth" might cost a pothole.
 """
 
