@@ -45,7 +45,7 @@ test("a change is one loud line and its own event is not repeated, now or after 
     sequence: 120,
     text: "add five potholes",
     reply: "Added 5 potholes.",
-    changes: [],
+    changes: [{ path: "potholes", before: 4, after: 9 }],
     events: [edited, disabled],
     state: wireState(),
   };
@@ -55,6 +55,18 @@ test("a change is one loud line and its own event is not repeated, now or after 
     ["event", "vehicle-1 is disabled."],
   ]);
   assert.equal(logEvents(log, [edited, disabled]), log);
+});
+
+test("pausing is a quiet note, stepping is told by its ticks alone", () => {
+  const base = { text: null, events: [logEvent(9, { type: "changed" })], state: wireState() };
+  const paused = [{ path: "paused", before: false, after: true }];
+  const [note] = logChange([], { ...base, sequence: 1, reply: "Paused.", changes: paused });
+  assert.deepEqual([note.tone, note.text], ["note", "Paused."]);
+  const ticked = logTick([], at(4, "Forward."));
+  const stepped = [{ path: "tick", before: 4, after: 5 }];
+  const log = logChange(ticked, { ...base, sequence: 2, reply: "Advanced 1 tick.", changes: stepped });
+  assert.deepEqual(log.map(({ text }) => text), ["Forward."]);
+  assert.equal(logEvents(log, base.events), log);
 });
 
 test("the log does not grow for ever", () => {

@@ -103,9 +103,9 @@ test("each act says what it will do now, and has a key of its own", () => {
   const act = (name) => ACTS.find((one) => one.name === name);
   const running = { world: { paused: false } };
   const paused = { world: { paused: true } };
-  assert.deepEqual(act("clock").now(running).actions, [{ do: "pause" }]);
-  assert.deepEqual(act("clock").now(paused).actions, [{ do: "resume" }]);
-  assert.deepEqual(act("step").now(paused).actions, [{ do: "step", ticks: 1 }]);
-  assert.deepEqual(act("step").now(running).actions, [{ do: "pause" }, { do: "step", ticks: 1 }]);
+  assert.deepEqual(act("clock").now(running).turns, [[{ do: "pause" }]]);
+  assert.deepEqual(act("clock").now(paused).turns, [[{ do: "resume" }]]);
+  assert.deepEqual(act("step").now(paused).turns, [[{ do: "step", ticks: 1 }]]);
+  assert.deepEqual(act("step").now(running).turns, [[{ do: "pause" }], [{ do: "step", ticks: 1 }]]);
   assert.equal(new Set(ACTS.map(({ key }) => key)).size, ACTS.length);
 });

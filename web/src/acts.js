@@ -9,7 +9,8 @@
  * @property {string} name
  * @property {string} key  as `KeyboardEvent.key` has it
  * @property {string} keyName  as people call it
- * @property {(state: State) => {label: string, icon: string, actions: Action[]}} now  what it does in this state
+ * @property {(state: State) => {label: string, icon: string, turns: Action[][]}} now  what it does in this state,
+ *   each turn a message of its own
  */
 
 const STEP = { do: "step", ticks: 1 };
@@ -20,7 +21,7 @@ export const ACTS = [
     name: "undo",
     key: "u",
     keyName: "U",
-    now: () => ({ label: "Undo", icon: "undo", actions: [{ do: "undo" }] }),
+    now: () => ({ label: "Undo", icon: "undo", turns: [[{ do: "undo" }]] }),
   },
   {
     name: "clock",
@@ -28,8 +29,8 @@ export const ACTS = [
     keyName: "Space",
     now: (state) =>
       state.world?.paused
-        ? { label: "Resume", icon: "play", actions: [{ do: "resume" }] }
-        : { label: "Pause", icon: "pause", actions: [{ do: "pause" }] },
+        ? { label: "Resume", icon: "play", turns: [[{ do: "resume" }]] }
+        : { label: "Pause", icon: "pause", turns: [[{ do: "pause" }]] },
   },
   {
     name: "step",
@@ -38,14 +39,15 @@ export const ACTS = [
     now: (state) => ({
       label: "Step",
       icon: "step",
-      actions: state.world?.paused === false ? [{ do: "pause" }, STEP] : [STEP],
+      // Two messages: a step that comes alone is streamed tick by tick, with its decision.
+      turns: state.world?.paused === false ? [[{ do: "pause" }], [STEP]] : [[STEP]],
     }),
   },
   {
     name: "reset",
     key: "r",
     keyName: "R",
-    now: () => ({ label: "Reset", icon: "reset", actions: [{ do: "reset" }] }),
+    now: () => ({ label: "Reset", icon: "reset", turns: [[{ do: "reset" }]] }),
   },
 ];
 

@@ -11,7 +11,7 @@
 /**
  * @typedef {object} Line
  * @property {string} key  unique and stable
- * @property {"tick" | "event" | "change"} tone
+ * @property {"tick" | "note" | "event" | "change"} tone  from quiet to loud; a note is about the clock alone
  * @property {string} type  the event's type, or "tick", or "change"
  * @property {number} from  the first tick the line speaks of
  * @property {number} to  the last
@@ -24,8 +24,11 @@ export const LOG_LINES = 400;
 /** Event types that only repeat what a tick's narration says. */
 const TOLD_BY_TICK = new Set(["moved"]);
 
+/** Changes that leave the road as it is. */
+const CLOCK = new Set(["paused", "tick"]);
+
 /** Event types that only repeat what a change's own line says. */
-const TOLD_BY_CHANGE = new Set(["edited", "said", "command", "changed"]);
+const TOLD_BY_CHANGE = new Set(["edited", "changed"]);
 
 /**
  * Lines for events, leaving out those already there.
@@ -69,13 +72,26 @@ export function logTick(log, message) {
  */
 export function logChange(log, message) {
   const { tick } = message.state;
-  const text = message.text ? `“${message.text}” ${message.reply}` : message.reply;
   const events = message.events ?? [];
+  const paths = (message.changes ?? []).map(({ path }) => path);
   const number = events.reduce((latest, event) => Math.max(latest, event.number), 0);
+  const others = events.filter(({ type }) => !TOLD_BY_CHANGE.has(type) && !TOLD_BY_TICK.has(type)).map(lineOf);
+  const last = log.at(-1);
+  if (last && paths.length > 0 && paths.every((path) => path === "tick")) {
+    // A step is told by its ticks. Its number is kept, so that it is not written after a reconnect either.
+    return trimmed([...log.slice(0, -1), { ...last, number: Math.max(last.number, number) }, ...others]);
+  }
   /** @type {Line} */
-  const line = { key: `c${message.sequence}`, tone: "change", type: "change", from: tick, to: tick, text, number };
-  const others = events.filter(({ type }) => !TOLD_BY_CHANGE.has(type) && !TOLD_BY_TICK.has(type));
-  return trimmed([...log, line, ...others.map(lineOf)]);
+  const line = {
+    key: `c${message.sequence}`,
+    tone: paths.every((path) => CLOCK.has(path)) ? "note" : "change",
+    type: "change",
+    from: tick,
+    to: tick,
+    text: message.text ? `“${message.text}” ${message.reply}` : message.reply,
+    number,
+  };
+  return trimmed([...log, line, ...others]);
 }
 
 /**
@@ -85,7 +101,7 @@ export function logChange(log, message) {
 function lineOf(event) {
   return {
     key: `e${event.number}`,
-    tone: "event",
+    tone: TOLD_BY_CHANGE.has(event.type) ? "change" : "event",
     type: event.type,
     from: event.tick,
     to: event.tick,

@@ -24,8 +24,8 @@ export function watchKeys(page, words) {
     else {
       const act = ACTS.find(({ key }) => key === event.key);
       if (!act || (event.repeat && act.name !== "step")) return;
-      const { actions, label } = act.now(page.state());
-      page.act(actions, label, true);
+      const { turns, label } = act.now(page.state());
+      for (const actions of turns) page.act(actions, label, true);
     }
     event.preventDefault();
   });

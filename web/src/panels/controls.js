@@ -23,8 +23,8 @@ export function createControls(host, help, page) {
         "data-act": act.name,
         "aria-keyshortcuts": act.key === " " ? "Space" : act.key,
         onclick: () => {
-          const { actions, label: said } = act.now(page.state());
-          page.act(actions, said, true);
+          const { turns, label: said } = act.now(page.state());
+          for (const actions of turns) page.act(actions, said, true);
         },
       },
       picture,

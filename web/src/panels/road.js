@@ -119,9 +119,12 @@ export function createRoad(host) {
   function drawHighlight(seen) {
     if (!state?.highlight) return;
     const { ids, cells } = state.highlight;
-    for (const [column, row] of cells) at(column, row, () => drawCell(pen, palette.accent));
-    for (const { thing, column, row } of seen) {
-      if (ids.includes(thing.id)) at(column, row, () => drawRing(pen, palette.accent, 1, 0.54));
+    const named = seen.filter(({ thing }) => ids.includes(thing.id));
+    for (const { column, row } of named) at(column, row, () => drawRing(pen, palette.accent, 1, 0.54));
+    for (const [column, row] of cells) {
+      // Where it was when it mattered, unless it is there still.
+      const there = named.some(({ thing: { cell } }) => cell[0] === column && cell[1] === row);
+      if (!there) at(column, row, () => drawCell(pen, palette.accent));
     }
   }
 
