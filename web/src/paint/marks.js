@@ -21,35 +21,48 @@ export function drawTrail(pen, cells, palette) {
   pen.globalAlpha = 1;
 }
 
+/** How much of a mark is left: it fades towards the end of its step. @param {number} progress  0–1 */
+function fading(progress) {
+  return 1 - Math.max(0, progress - 0.7) / 0.3;
+}
+
 /**
- * The move under way: a band to the cell it leads to, ending in an arrow head; standing still is a
- * bar across.
+ * Standing still: a bar across the way ahead.
+ * @param {Pen} pen  in cells
+ * @param {[number, number]} at
+ * @param {number} progress  0–1
+ * @param {Palette} palette
+ */
+export function drawWait(pen, at, progress, palette) {
+  pen.save();
+  pen.translate(at[0], at[1]);
+  pen.globalAlpha = fading(progress);
+  pen.lineCap = "round";
+  pen.strokeStyle = palette.danger;
+  pen.lineWidth = 0.07;
+  pen.beginPath();
+  pen.moveTo(-0.22, -0.56);
+  pen.lineTo(0.22, -0.56);
+  pen.stroke();
+  pen.restore();
+}
+
+/**
+ * The move under way: a band to the cell it leads to, ending in an arrow head.
  * @param {Pen} pen  in cells
  * @param {[number, number]} from
  * @param {[number, number]} to
- * @param {number} progress  0–1; the band fades as the move ends
+ * @param {number} progress  0–1
  * @param {Palette} palette
  */
 export function drawMove(pen, from, to, progress, palette) {
-  const alpha = 1 - Math.max(0, progress - 0.7) / 0.3;
-  if (alpha <= 0) return;
+  const alpha = fading(progress);
   const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
   const length = Math.hypot(dx, dy);
+  if (length < 0.01) return;
   pen.save();
   pen.translate(from[0], from[1]);
-  pen.globalAlpha = alpha;
-  pen.lineCap = "round";
   pen.lineJoin = "round";
-  if (length < 0.01) {
-    pen.strokeStyle = palette.danger;
-    pen.lineWidth = 0.07;
-    pen.beginPath();
-    pen.moveTo(-0.22, -0.56);
-    pen.lineTo(0.22, -0.56);
-    pen.stroke();
-    pen.restore();
-    return;
-  }
   pen.rotate(Math.atan2(dy, dx));
   const reach = length + 0.5;
   const band = pen.createLinearGradient(0, 0, reach, 0);

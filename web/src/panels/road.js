@@ -4,7 +4,7 @@
 import { Camera, viewOf } from "../camera.js";
 import { make } from "../dom.js";
 import { ease, Stage } from "../motion.js";
-import { drawCell, drawImpact, drawMove, drawRing, drawTrail } from "../paint/marks.js";
+import { drawCell, drawImpact, drawMove, drawRing, drawTrail, drawWait } from "../paint/marks.js";
 import { Sprites } from "../paint/sprites.js";
 import { drawLines, laySurface, surfaceTile } from "../paint/surface.js";
 import { drawThing, isFixed } from "../paint/things.js";
@@ -112,7 +112,8 @@ export function createRoad(host) {
 
   /** @param {Pose} ego @param {number} progress */
   function drawIntent({ thing, column, row }, progress) {
-    drawMove(pen, [column, row], state?.decision?.move === "stay" ? [column, row] : thing.cell, progress, palette);
+    if (state?.decision?.move === "stay") drawWait(pen, [column, row], progress, palette);
+    else drawMove(pen, [column, row], thing.cell, progress, palette);
   }
 
   /** @param {Pose[]} seen */
