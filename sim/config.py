@@ -151,4 +151,5 @@ class Config:
         if sum(counts.values()) + drawn <= room:
             return []
         largest = max(counts, key=lambda name: counts[name])
-        return [Problem(largest, f"too many things for the road: it has room for {room - drawn}")]
+        left = max(0, room - drawn - sum(counts.values()) + counts[largest])
+        return [Problem(largest, f"too many for this road: there is room for {left}")]

@@ -16,11 +16,10 @@ from sim.events import Event, EventType
 from sim.generate import lowest_ranked, named
 from sim.kinds import PLACEABLE, Kind, Outcome
 from sim.place import PlaceError, nearest_first, place_for_adding, place_for_finding
-from sim.plan import planner_named
 from sim.randomness import Stream
 from sim.road import Board, bits, board_of
 from sim.run import Run, next_episode, reconfigured, restarted
-from sim.scenario import configured
+from sim.scenario import configured, unavailable
 from sim.world import Thing, World
 
 MAX_QUEUE = 100
@@ -104,6 +103,8 @@ def _apply(run: Run, action: WorldAction) -> Applied:
 def _add(run: Run, action: Add) -> Applied:
     kind = _placeable(action.kind)
     where, world = action.where, run.world
+    if where is not None and where.id is not None:
+        raise EditError("bad-place", "A new thing is put in a lane, a row or a cell, not at an id.", "where")
     try:
         place = place_for_adding(where, action.count, world, run.config.cell_m)
     except PlaceError as error:
@@ -170,7 +171,7 @@ def _remove(run: Run, action: Remove) -> Applied:
             key=lambda thing: near[world.road.index(thing.cell)],
         )
     if action.count == "all":
-        return _taken(run, action, found)
+        return _taken(run, action, found) if found else Applied(action, run)
     there = " there" if where is not None and not where.nearest else " on the road"
     if not found:
         raise EditError("none-there", f"There is no {_noun(1, action.kind)}{there}.", "kind")
@@ -205,17 +206,15 @@ def _set_count(run: Run, action: SetCount) -> Applied:
 
 
 def _scenario(run: Run, action: Scenario) -> Applied:
-    if planner_named(action.planner or "priority") is None:
-        raise EditError("not-available", f"The planner {action.planner} is not available yet.", "planner")
-    if action.avs is not None and action.avs > 1:
-        raise EditError("not-available", "More than one autonomous vehicle is not available yet.", "avs")
+    missing = unavailable(action)
+    if missing is not None:
+        raise EditError("not-available", f"{missing.message} is not available yet.", missing.field)
     try:
         config = configured(run.config, action)
     except ConfigError as error:
         problem = error.problems[0]
-        raise EditError(
-            "does-not-fit", f"{problem.field.capitalize()}: {problem.message}.", problem.field
-        ) from None
+        named = f"{getattr(action, problem.field, None) or 'So many'} {problem.field} are {problem.message}."
+        raise EditError("does-not-fit", named, problem.field) from None
     begun, event = reconfigured(run, config)
     return Applied(action, begun, events=(event,))
 

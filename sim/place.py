@@ -1,7 +1,7 @@
 """Where a `Where` is: the cells it names on a given road, as seen from the vehicle, best first.
 
 Lanes and rows are absolute; sides are seen from the vehicle. "Ahead" without a lane is the
-vehicle's own lane for placing; for finding, its own lane comes first and the others follow.
+vehicle's own lane for placing, and every lane for finding, the nearest thing first.
 """
 
 from __future__ import annotations
@@ -70,8 +70,6 @@ def place_for_adding(where: Where | None, count: int, world: World, cell_m: floa
     road = world.road
     if where is None:
         return Place(road.between, ordered=False)
-    if where.id is not None:
-        raise PlaceError("A new thing cannot be placed by the id of another; name a lane, a row or a cell.")
     cells = _absolute(where, road)
     away = cells_away(where, cell_m)
     side = _side(where, away)

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from typing import Final
 
 from sim.actions import RoadType, Scenario, Traffic
-from sim.config import Config
+from sim.config import Config, Problem
+from sim.plan import planner_named
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +33,21 @@ ROADS: Final[dict[RoadType | None, RoadPreset]] = {
 
 TRAFFIC: Final[dict[Traffic, float]] = {"none": 0.0, "light": 0.34, "normal": 0.68, "heavy": 0.90}
 """Spawn probability of an obstacle vehicle in each row."""
+
+
+def unavailable(scenario: Scenario) -> Problem | None:
+    """The first thing named that this version has not, and what it is called; None if it has all."""
+    if scenario.weather not in (None, "clear"):
+        return Problem("weather", f"Weather other than clear ({scenario.weather})")
+    if scenario.time_of_day not in (None, "day"):
+        return Problem("time_of_day", f"Another time of day than day ({scenario.time_of_day})")
+    if scenario.sensor not in (None, "perfect"):
+        return Problem("sensor", f"A sensor other than the perfect one ({scenario.sensor})")
+    if planner_named(scenario.planner or "priority") is None:
+        return Problem("planner", f"The planner {scenario.planner}")
+    if scenario.avs:
+        return Problem("avs", "A second autonomous vehicle")
+    return None
 
 
 def configured(config: Config, scenario: Scenario) -> Config:

@@ -1,7 +1,7 @@
 """What this version does of all that can be said. The rest is understood and refused in words.
 
 The gate stands here and not in the language, so that typed calls, recordings and speech are told
-the same. Finer limits of an action that is offered (more than one vehicle, say) are the world's.
+the same. What a scenario may name is the world's rule.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 from service.actions import Action, Ask
 from sim.actions import Add, Drive, Remove, Reset, Scenario, SetCount, SetMode
 from sim.kinds import Kind
+from sim.scenario import unavailable
 
 _OFFERED = frozenset(
     (
@@ -63,23 +64,10 @@ def refusal(action: Action) -> str | None:
         case Add(kind=Kind.AV) | Remove(kind=Kind.AV) | SetCount(kind=Kind.AV):
             return "More or fewer autonomous vehicles are not available yet; there is always one."
         case Scenario():
-            return _scenario_refusal(action)
+            missing = unavailable(action)
+            return None if missing is None else _sentence(missing.message)
         case Drive() | Reset() | SetMode() | _:
             return None
-
-
-def _scenario_refusal(scenario: Scenario) -> str | None:
-    if scenario.weather not in (None, "clear"):
-        return f"Weather other than clear ({scenario.weather}) is not available yet."
-    if scenario.time_of_day not in (None, "day"):
-        return f"Another time of day than day ({scenario.time_of_day}) is not available yet."
-    if scenario.sensor not in (None, "perfect"):
-        return f"Sensors other than a perfect one ({scenario.sensor}) are not available yet."
-    if scenario.planner not in (None, "priority"):
-        return f"Planners other than priority ({scenario.planner}) are not available yet."
-    if scenario.avs not in (None, 0, 1):
-        return "More than one autonomous vehicle is not available yet."
-    return None
 
 
 def _sentence(what: str) -> str:

@@ -448,9 +448,14 @@ def test_planners_of_later_versions_are_refused(planner: PlannerName) -> None:
     assert planner in error.message
 
 
+def test_a_new_thing_is_not_placed_by_an_id() -> None:
+    error = refusal(FULL, Add(kind="pothole", count=1, where=Where(id="vehicle-1")))
+    assert (error.code, error.field) == ("bad-place", "where")
+
+
 def test_more_autonomous_vehicles_are_refused() -> None:
-    assert refusal(EMPTY, Scenario(avs=2)).code == "not-available"
-    assert apply(EMPTY, Scenario(avs=1)).run.world.count(Kind.AV) == 1
+    assert refusal(EMPTY, Scenario(avs=1)).code == "not-available"
+    assert apply(EMPTY, Scenario(avs=0)).run.world.count(Kind.AV) == 1
 
 
 def test_reset_goes_back_to_the_start_of_the_episode_with_time_going_on() -> None:

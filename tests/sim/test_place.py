@@ -180,11 +180,6 @@ def test_what_is_not_on_the_road_is_told_in_a_sentence(parts: dict[str, Any], wo
         assert message.endswith(".")
 
 
-def test_a_new_thing_is_not_placed_by_an_id() -> None:
-    with pytest.raises(PlaceError, match="by the id"):
-        adding(id="vehicle-1")
-
-
 @pytest.mark.parametrize(
     ("distance_m", "away"),
     [(0.1, 1), (2.4, 1), (5.0, 1), (7.4, 1), (7.6, 2), (10.0, 2), (17.5, 4), (12.5, 3)],

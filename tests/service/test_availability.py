@@ -1,0 +1,92 @@
+"""Every action of the language contract is either done or refused in words; none falls through."""
+
+from __future__ import annotations
+
+from typing import Any, get_args
+
+import pytest
+
+from service import actions as contract
+from service.sessions.availability import refusal
+from service.sessions.draft import Draft
+from service.sessions.history import History
+from sim.config import Config
+from sim.timeline import Timeline
+
+OFFERED: list[dict[str, Any]] = [
+    {"do": "add", "kind": "pothole", "count": 1},
+    {"do": "remove", "kind": "everything", "count": "all"},
+    {"do": "set_count", "kind": "vehicle", "count": 3},
+    {
+        "do": "scenario",
+        "road": "city",
+        "weather": "clear",
+        "time_of_day": "day",
+        "planner": "priority",
+        "avs": 0,
+    },
+    {"do": "reset"},
+    {"do": "mode", "mode": "manual"},
+    {"do": "drive", "move": "left"},
+    {"do": "pause"},
+    {"do": "resume"},
+    {"do": "step", "ticks": 2},
+    {"do": "undo"},
+    {"do": "redo"},
+    {"do": "ask", "about": "why"},
+    {"do": "ask", "about": "why_not", "move": "left"},
+    {"do": "ask", "about": "status"},
+    {"do": "ask", "about": "help"},
+]
+REFUSED: list[dict[str, Any]] = [
+    {"do": "set", "parameter": "weather", "value": "rain"},
+    {"do": "adjust", "parameter": "playback_speed", "factor": 2},
+    {"do": "prefer", "preference": "cautious"},
+    {"do": "show", "view": "log"},
+    {"do": "hide", "view": "log"},
+    {"do": "rewind", "ticks": 2},
+    {"do": "evaluate", "runs": 5},
+    {"do": "find_worst"},
+    {"do": "advise", "hazard": "pothole", "distance_m": 2, "speed_kmh": 40},
+    {"do": "save", "name": "monday"},
+    {"do": "load", "name": "monday"},
+    {"do": "record", "on": True},
+    {"do": "teach", "phrase": "rush hour", "meaning": [{"do": "pause"}]},
+    {"do": "add", "kind": "av", "count": 1},
+    {"do": "remove", "kind": "av", "count": "all"},
+    {"do": "set_count", "kind": "av", "count": 2},
+    *({"do": "scenario", key: value} for key, value in (
+        ("weather", "rain"), ("time_of_day", "night"), ("sensor", "lidar"), ("planner", "astar"), ("avs", 1),
+    )),
+    {"do": "ask", "about": "what_if", "change": [{"do": "remove", "kind": "pothole", "count": 1}]},
+    *({"do": "ask", "about": about} for about in (
+        "next", "scene", "metrics", "confidence", "maintenance",
+    )),
+]  # fmt: skip
+
+
+def test_the_lists_here_hold_every_action_there_is() -> None:
+    verbs = {kind.__dataclass_fields__["do"].default for kind in get_args(get_args(contract.Action)[0])}
+    assert {action["do"] for action in OFFERED + REFUSED} == verbs
+
+
+@pytest.mark.parametrize("action", OFFERED, ids=str)
+def test_what_is_offered_is_done(action: dict[str, Any]) -> None:
+    (loaded,) = contract.load([action])
+    assert refusal(loaded) is None
+    draft = Draft(Timeline(Config(seed=2)), False, History())
+    draft.perform(1, contract.load([{"do": "add", "kind": "barrier", "count": 1}]))
+    if action["do"] == "redo":
+        draft.perform(2, contract.load([{"do": "undo"}]))
+    (fact,) = draft.perform(3, (loaded,))
+    assert fact is not None
+
+
+@pytest.mark.parametrize("action", REFUSED, ids=str)
+def test_what_is_not_offered_says_so(action: dict[str, Any]) -> None:
+    (loaded,) = contract.load([action])
+    sentence = refusal(loaded)
+    assert sentence is not None
+    assert "not available yet" in sentence
+    assert sentence[0].isupper()
+    assert sentence.endswith(".")
