@@ -22,7 +22,7 @@ from service.language.data import LanguageData, LanguageDataError, read_language
 from service.language.lattice import GLUE, Lattice, Scanner
 from service.language.linter import defects, flaws
 from service.language.matching import Frames
-from service.language.noun_phrases import QUANTITY, Amount, add_noun_phrases
+from service.language.noun_phrases import NOUN, QUANTITY, Amount, add_noun_phrases
 from service.language.parse_types import Ambiguous, Choice, Correction, Parse, Reason, Refused, Understood
 from service.language.paths import ALLOWS, SEPARATOR
 from service.language.suggestions import Suggestions
@@ -85,17 +85,14 @@ class Language:
         words = self._lexicon.words | self.data.numbers.words()
 
         def same(a: str, b: str) -> bool:
-            return a.startswith(b) or b.startswith(a) or not self._meaning(a).isdisjoint(self._meaning(b))
+            return a.startswith(b) or b.startswith(a) or not self._nouns(a).isdisjoint(self._nouns(b))
 
         return Typos(self.data.typos, words, self.data.numbers.words(), same)
 
-    def _meaning(self, word: str) -> frozenset[tuple[str, str]]:
-        """What a word alone means, singular and plural taken together."""
-        return frozenset(
-            (sense.concept.removesuffix(".many").removesuffix(".one"), repr(sense.value))
-            for sense in self._lexicon.senses_of((word,))
-            if not sense.form
-        )
+    def _nouns(self, word: str) -> frozenset[str]:
+        """What a word alone is a noun for, singular and plural taken together."""
+        senses = self._lexicon.senses_of((word,))
+        return frozenset(str(sense.value) for sense in senses if sense.concept.startswith(NOUN))
 
     def _repaired(
         self, plain: str, tokens: list[Token], kept: dict[int, int]

@@ -19,7 +19,8 @@ GLUE = "glue"
 NUMBER = "number"
 UNIT = "unit"
 NAME = "name"
-SECOND = "second_part"
+QUOTES = "\"' "
+"""Marks around a name that are no part of it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +86,7 @@ class Scanner:
         at = 0
         while at < len(tokens):
             if (end := names.get(at)) is not None:
-                name = text[tokens[at].start : tokens[end - 1].end]
+                name = text[tokens[at].start : tokens[end - 1].end].strip(QUOTES)
                 lattice.edges[at].append(Edge(at, end, Sense(NAME, name)))
                 at = end
                 continue

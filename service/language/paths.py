@@ -11,7 +11,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from service.language.frames import Filled, Frame
-from service.language.lattice import GLUE, SECOND, Edge
+from service.language.lattice import GLUE, Edge
+from service.language.lexicon import SECOND
 
 ALLOWS = "allows"
 """Concept of phrases that put a form in place: "would you mind" allows `ing`."""

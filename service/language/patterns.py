@@ -25,7 +25,7 @@ class PatternError(ValueError):
 
 def expand(pattern: str, macros: Mapping[str, tuple[Words, ...]]) -> list[Words]:
     """All word lists a comma-separated pattern stands for, in the order written."""
-    if not any(mark in pattern for mark in "[(<{"):
+    if not any(mark in pattern for mark in "[]()<{"):
         return [tuple(phrase.split()) for phrase in pattern.split(",") if phrase.strip()]
     pieces = _PIECE.findall(pattern)
     phrases, at = _alternatives(pieces, 0, macros, ",")

@@ -14,7 +14,20 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 _VARIANTS = str.maketrans(
-    {"’": "'", "‘": "'", "´": "'", "`": "'", "–": "-", "—": "-", "−": "-", "_": " ", "×": "x"}
+    {
+        "“": '"',
+        "”": '"',
+        "„": '"',
+        "’": "'",
+        "‘": "'",
+        "´": "'",
+        "`": "'",
+        "–": "-",
+        "—": "-",
+        "−": "-",
+        "_": " ",
+        "×": "x",
+    }
 )
 
 _TOKEN = re.compile(
@@ -64,9 +77,8 @@ class Contractions:
 
 def normalise(text: str) -> str:
     """The text with compatibility characters and typographic variants in their plain form."""
-    if not text.isascii():
-        text = unicodedata.normalize("NFKC", text)
-    return text.translate(_VARIANTS)
+    text = text.translate(_VARIANTS)
+    return text if text.isascii() else unicodedata.normalize("NFKC", text)
 
 
 def tokenise(text: str, contractions: Contractions) -> list[Token]:
