@@ -1,8 +1,7 @@
 """Time that can be walked: a configuration and the actions with the tick at which each took effect.
 
 That list *is* the session; every state is derived from it by replay, and snapshots along the way
-only save time. Undo shortens the list and replays to the present tick, as if the latest change
-had never been said; redo lengthens it again.
+only save time. Undoing is rewriting the list without a change, which is then as if never said.
 """
 
 from __future__ import annotations
@@ -50,7 +49,6 @@ class Timeline:
         self.config = config
         self.run = Run.start(config)
         self.entries: list[Entry] = []
-        self._undone: list[list[Entry]] = []
         self._interval = SNAPSHOT_TICKS
         self._snapshots = [_Snapshot(0, self.run, 0)]
         self._recent: deque[Run] = deque(maxlen=RECENT_RUNS)
@@ -60,23 +58,12 @@ class Timeline:
         """The present tick."""
         return self.run.world.tick
 
-    @property
-    def can_undo(self) -> bool:
-        """Whether there is a change to take back."""
-        return bool(self.entries)
-
-    @property
-    def can_redo(self) -> bool:
-        """Whether there is an undone change to say again."""
-        return bool(self._undone)
-
     def copy(self) -> Timeline:
         """A timeline that goes its own way from here."""
         twin = Timeline.__new__(Timeline)
         twin.config = self.config
         twin.run = self.run
         twin.entries = list(self.entries)
-        twin._undone = list(self._undone)
         twin._interval = self._interval
         twin._snapshots = list(self._snapshots)
         twin._recent = self._recent.copy()
@@ -98,27 +85,27 @@ class Timeline:
             done.append(applied)
         self.run = run
         self.entries += [Entry(sequence, self.tick, action) for action in actions]
-        if actions:
-            self._undone.clear()
         return done
 
-    def undo(self) -> list[Entry]:
-        """Take back the latest change; its entries, or an empty list if there is none."""
-        if not self.entries:
-            return []
-        sequence = self.entries[-1].sequence
-        taken = [entry for entry in self.entries if entry.sequence == sequence]
-        self._undone.append(taken)
-        self._replace_log(self.entries[: -len(taken)], taken[0].tick)
-        return taken
+    def rewrite(self, entries: list[Entry], since: int) -> None:
+        """Make `entries` the log, as if nothing else had ever been said, and replay to the present tick.
 
-    def redo(self) -> list[Entry]:
-        """Say the latest undone change again, at the ticks it was said; its entries, or an empty list."""
-        if not self._undone:
-            return []
-        again = self._undone.pop()
-        self._replace_log(self.entries + again, again[0].tick)
-        return again
+        The new log may differ from the old at tick `since` and later; the time taken is that of
+        the ticks since then.
+        """
+        present = self.tick
+        self.entries = entries
+        self._recent.clear()
+        self._snapshots = [shot for shot in self._snapshots if shot.tick <= since]
+        run, position = self._nearest(since)
+        while True:
+            run, position = self._apply_due(run, position)
+            self.run = run
+            if run.world.tick == present:
+                return
+            run = advance(run).run
+            if run.world.tick % self._interval == 0 and run.world.tick > self._snapshots[-1].tick:
+                self._snapshots.append(_Snapshot(run.world.tick, run, position))
 
     def at(self, tick: int) -> Run:
         """The state at a past tick, after the actions of that tick. Raises `IndexError`."""
@@ -168,19 +155,3 @@ class Timeline:
             run = apply(run, self.entries[position].action).run
             position += 1
         return run, position
-
-    def _replace_log(self, entries: list[Entry], since: int) -> None:
-        """Make `entries` the log, which differs from `since` on, and replay to the present tick."""
-        present = self.tick
-        self.entries = entries
-        self._recent.clear()
-        self._snapshots = [shot for shot in self._snapshots if shot.tick <= since]
-        run, position = self._nearest(since)
-        while True:
-            run, position = self._apply_due(run, position)
-            self.run = run
-            if run.world.tick == present:
-                return
-            run = advance(run).run
-            if run.world.tick % self._interval == 0 and run.world.tick > self._snapshots[-1].tick:
-                self._snapshots.append(_Snapshot(run.world.tick, run, position))

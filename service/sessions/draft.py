@@ -46,6 +46,14 @@ class Draft:
             self._add_step(began)
         return tuple(facts)
 
+    def work_ticks(self, actions: Sequence[Action]) -> int:
+        """About how many ticks are to be run: those of steps, and those since what is undone or redone."""
+        ticks = ticks_to_run(actions)
+        for kind, steps in ((Undo, self.history.done), (Redo, self.history.undone)):
+            if steps and any(isinstance(action, kind) for action in actions):
+                ticks += self.timeline.tick - steps[-1].since
+        return ticks
+
     def _do(self, sequence: int, position: int, action: Action) -> Fact:
         sentence = availability.refusal(action)
         if sentence is not None:
@@ -111,8 +119,7 @@ class Draft:
         """Put the log's tail as the step left it, and replay."""
         before = self.timeline.run
         kept = len(self.timeline.entries) - len(step.before)
-        since = min(entry.tick for entry in (*step.before, *step.after))
-        self.timeline._replace_log([*self.timeline.entries[:kept], *step.after], since)
+        self.timeline.rewrite([*self.timeline.entries[:kept], *step.after], step.since)
         if self.paused == step.paused_before:
             self.paused = step.paused_after
         self._open = _Mark(self.timeline, self.paused, kept)

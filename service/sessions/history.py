@@ -22,6 +22,11 @@ class Step:
     paused_after: bool
 
     @property
+    def since(self) -> int:
+        """The earliest tick that it changed; it is not empty."""
+        return min(entry.tick for entry in (*self.before, *self.after))
+
+    @property
     def empty(self) -> bool:
         """Whether nothing changed."""
         return not self.before and not self.after

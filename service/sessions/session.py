@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import structlog
@@ -17,14 +17,15 @@ from anyio import to_thread
 from pydantic import ValidationError
 
 from service import actions as contract
-from service.actions import Action, Ask
+from service.actions import Ask
 from service.problems import Invalid, NotSaved, ProblemError, UnknownSession
 from service.sessions.clock import Clock
-from service.sessions.draft import Draft, check_ticks, ticks_to_run
-from service.sessions.facts import Asked, Fact, Stepped, changes_of, happened_in
+from service.sessions.draft import Draft, check_ticks
+from service.sessions.facts import Asked, Fact, changes_of, happened_in
 from service.sessions.history import History
 from service.sessions.log import Log, LogEvent
 from service.sessions.messages import changed_message, tick_message
+from service.sessions.utterance import Outcome, Utterance
 from service.sessions.watchers import Watchers
 from service.sessions.words import Words
 from service.settings import Settings
@@ -52,36 +53,6 @@ class Surroundings:
     clock: Clock
     words: Words
     settings: Settings
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Utterance:
-    """Actions to be done together, and what they were said as (None for typed actions)."""
-
-    actions: tuple[Action, ...]
-    text: str | None = None
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Outcome:
-    """What an utterance did, or with `dry_run` would do."""
-
-    utterance: Utterance
-    facts: tuple[Fact, ...]
-    reply: str
-    answer: dict[str, Any] | None
-    sequence: int
-    changes: tuple[Change, ...] = field(default=())
-
-    @property
-    def ticks(self) -> list[Tick]:
-        """The ticks that steps ran."""
-        return [tick for fact in self.facts if isinstance(fact, Stepped) for tick in fact.ticks]
-
-    @property
-    def only_steps(self) -> bool:
-        """Whether nothing but time has passed."""
-        return all(isinstance(fact, Stepped) for fact in self.facts)
 
 
 class ReplayError(Exception):
@@ -211,7 +182,9 @@ class Session:
 
     async def _perform(self, draft: Draft, utterance: Utterance) -> tuple[Fact, ...]:
         work: Callable[[], tuple[Fact, ...]] = lambda: draft.perform(self.sequence + 1, utterance.actions)  # noqa: E731
-        return await to_thread.run_sync(work) if ticks_to_run(utterance.actions) > THREAD_TICKS else work()
+        return (
+            await to_thread.run_sync(work) if draft.work_ticks(utterance.actions) > THREAD_TICKS else work()
+        )
 
     def _outcome(self, utterance: Utterance, facts: tuple[Fact, ...], sequence: int) -> Outcome:
         words = self._around.words

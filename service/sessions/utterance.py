@@ -1,0 +1,41 @@
+"""What is said to a session at once, and what came of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from service.actions import Action
+from service.sessions.facts import Fact, Stepped
+from sim.edit import Change
+from sim.run import Tick
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Utterance:
+    """Actions to be done together, and what they were said as (None for typed actions)."""
+
+    actions: tuple[Action, ...]
+    text: str | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Outcome:
+    """What an utterance did, or with `dry_run` would do."""
+
+    utterance: Utterance
+    facts: tuple[Fact, ...]
+    reply: str
+    answer: dict[str, Any] | None
+    sequence: int
+    changes: tuple[Change, ...]
+
+    @property
+    def ticks(self) -> list[Tick]:
+        """The ticks that steps ran."""
+        return [tick for fact in self.facts if isinstance(fact, Stepped) for tick in fact.ticks]
+
+    @property
+    def only_steps(self) -> bool:
+        """Whether nothing but time has passed."""
+        return all(isinstance(fact, Stepped) for fact in self.facts)
