@@ -28,13 +28,14 @@ class ServiceProcess:
             [*command, "--database", f"sqlite:///{self._database}"],
             cwd=ROOT,
             stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
             text=True,
         )
         assert self._process.stdout is not None
         ready = self._process.stdout.readline()
         self.url = ready.rsplit(" ", 1)[-1].strip().rstrip("/")
-        assert self.url.startswith("http://"), f"the service did not start: {ready!r}"
+        if not self.url.startswith("http://"):
+            self.kill()
+            raise RuntimeError(f"the service did not start; it said {ready!r} and, above, why")
         self._port = int(self.url.rsplit(":", 1)[1])
 
     def kill(self) -> None:

@@ -97,7 +97,7 @@ def test_help_says_what_can_be_said(visit: Visit) -> None:
 def test_the_log_tells_ticks_quietly_and_follows_until_scrolled(visit: Visit) -> None:
     visitor = visit(viewport={"width": 1100, "height": 600})
     visitor.script.act({"do": "pause"})
-    for _ in range(40):
+    for _ in range(120):
         visitor.script.act({"do": "step", "ticks": 3})
     lines = visitor.page.locator(".log-lines")
     expect(visitor.page.locator(".log-line").nth(30)).to_be_attached()

@@ -1,8 +1,8 @@
 // @ts-check
 /** What a person can do without words: each act's key, label and typed actions, once for buttons and keys. */
 
-/** @typedef {import("./state.js").State} State */
-/** @typedef {import("./protocol.js").Action} Action */
+/** @import { Action } from "./protocol.js" */
+/** @import { State } from "./state.js" */
 
 /**
  * @typedef {object} Act

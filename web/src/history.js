@@ -52,10 +52,7 @@ export class History {
   }
 }
 
-/**
- * @param {Pick<Storage, "getItem" | "setItem"> | null} storage
- * @returns {string[]}
- */
+/** @param {Pick<Storage, "getItem" | "setItem"> | null} storage @returns {string[]} */
 function read(storage) {
   try {
     const kept = JSON.parse(storage?.getItem(KEY) ?? "[]");

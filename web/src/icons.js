@@ -13,10 +13,7 @@ const PATHS = /** @type {Record<string, string>} */ ({
 
 const SVG = "http://www.w3.org/2000/svg";
 
-/**
- * @param {string} name
- * @returns {SVGSVGElement}
- */
+/** @param {string} name @returns {SVGSVGElement} */
 export function icon(name) {
   const picture = document.createElementNS(SVG, "svg");
   picture.setAttribute("viewBox", "0 0 24 24");

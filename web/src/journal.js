@@ -6,7 +6,7 @@
  * what matters out of sight.
  */
 
-/** @typedef {import("./protocol.js").LogEvent} LogEvent */
+/** @import { LogEvent, TickMessage, ChangedMessage } from "./protocol.js" */
 
 /**
  * @typedef {object} Line
@@ -43,11 +43,7 @@ export function logEvents(log, events) {
   return trimmed([...log, ...fresh.map(lineOf)]);
 }
 
-/**
- * @param {Line[]} log
- * @param {import("./protocol.js").TickMessage} message
- * @returns {Line[]}
- */
+/** @param {Line[]} log @param {TickMessage} message @returns {Line[]} */
 export function logTick(log, message) {
   const text = message.narration;
   let next = log;
@@ -65,11 +61,7 @@ export function logTick(log, message) {
   return logEvents(next, message.events ?? []);
 }
 
-/**
- * @param {Line[]} log
- * @param {import("./protocol.js").ChangedMessage} message
- * @returns {Line[]}
- */
+/** @param {Line[]} log @param {ChangedMessage} message @returns {Line[]} */
 export function logChange(log, message) {
   const { tick } = message.state;
   const events = message.events ?? [];
@@ -94,10 +86,7 @@ export function logChange(log, message) {
   return trimmed([...log, line, ...others]);
 }
 
-/**
- * @param {LogEvent} event
- * @returns {Line}
- */
+/** @param {LogEvent} event @returns {Line} */
 function lineOf(event) {
   return {
     key: `e${event.number}`,
@@ -110,10 +99,7 @@ function lineOf(event) {
   };
 }
 
-/**
- * @param {Line[]} log
- * @returns {Line[]}
- */
+/** @param {Line[]} log @returns {Line[]} */
 function trimmed(log) {
   return log.length > LOG_LINES ? log.slice(-LOG_LINES) : log;
 }

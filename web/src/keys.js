@@ -3,16 +3,13 @@
 
 import { ACTS, HELP } from "./acts.js";
 
-/** @typedef {import("./main.js").Page} Page */
+/** @import { Page } from "./main.js" */
 
 /** Elements that need the keys themselves. */
 const TYPING = "input, textarea, select, [contenteditable]";
 const PRESSABLE = "button, a[href], summary";
 
-/**
- * @param {Page} page
- * @param {HTMLElement} words  the command box
- */
+/** @param {Page} page @param {HTMLElement} words  the command box */
 export function watchKeys(page, words) {
   addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.isComposing) return;

@@ -15,15 +15,15 @@ import { Connection } from "./socket.js";
 import { INITIAL, reduce } from "./state.js";
 import { watchPreferences } from "./theme.js";
 
-/** @typedef {import("./state.js").State} State */
-/** @typedef {import("./protocol.js").Action} Action */
+/** @import { Action, ClientMessage } from "./protocol.js" */
+/** @import { State, Highlight, Event } from "./state.js" */
 
 /**
  * @typedef {object} Page  what panels may ask for
  * @property {(text: string) => void} say  send a sentence
  * @property {(actions: Action[], label: string, quiet?: boolean) => void} act  send typed actions; quiet ones are
  *   listed as talk only when they changed something or were refused
- * @property {(highlight: import("./state.js").Highlight | null) => void} highlight
+ * @property {(highlight: Highlight | null) => void} highlight
  * @property {() => void} startSession
  * @property {() => void} reconnect  now rather than after the pause
  * @property {() => State} state
@@ -35,7 +35,7 @@ let exchanges = 0;
 /** @type {Connection | null} */
 let connection = null;
 
-/** @param {import("./state.js").Event} event */
+/** @param {Event} event */
 function dispatch(event) {
   const next = reduce(state, event);
   if (next === state) return;
@@ -46,7 +46,7 @@ function dispatch(event) {
 /**
  * @param {string} label
  * @param {boolean} quiet
- * @param {(id: string) => import("./protocol.js").ClientMessage} message
+ * @param {(id: string) => ClientMessage} message
  */
 function send(label, quiet, message) {
   exchanges += 1;

@@ -9,8 +9,7 @@
 
 import { egoOf } from "./world.js";
 
-/** @typedef {import("./world.js").World} World */
-/** @typedef {import("./world.js").Thing} Thing */
+/** @import { World, Thing } from "./world.js" */
 
 /**
  * @typedef {object} Pose
@@ -160,11 +159,7 @@ export class Stage {
     return { ...old, thing, from, to: thing.cell, turnFrom: old.turnTo, turnTo, start: now };
   }
 
-  /**
-   * @param {Actor} actor
-   * @param {number} now
-   * @returns {Pose}
-   */
+  /** @param {Actor} actor @param {number} now @returns {Pose} */
   #pose(actor, now) {
     const { from, to, turnFrom, turnTo, start, bornAt, goneAt, thing } = actor;
     const t = this.#glideMs === 0 ? 1 : Math.min(1, Math.max(0, (now - start) / this.#glideMs));

@@ -173,10 +173,7 @@ export function decode(text) {
   return message;
 }
 
-/**
- * @param {ClientMessage} message
- * @returns {string}
- */
+/** @param {ClientMessage} message @returns {string} */
 export function encode(message) {
   return JSON.stringify(message);
 }

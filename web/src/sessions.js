@@ -3,7 +3,8 @@
 
 import { SESSIONS_PATH, sessionPath } from "./protocol.js";
 
-/** @typedef {import("./protocol.js").Session} Session */
+/** @import { Session } from "./protocol.js" */
+
 /** @typedef {"here" | "missing" | "unreachable"} Presence */
 
 /**
@@ -62,10 +63,7 @@ export function sessionInHash(hash) {
   }
 }
 
-/**
- * @param {string} id
- * @returns {string}
- */
+/** @param {string} id @returns {string} */
 export function hashOfSession(id) {
   return `#/s/${encodeURIComponent(id)}`;
 }

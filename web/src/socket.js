@@ -9,8 +9,8 @@
 
 import { decode, encode, ProtocolError, streamUrl } from "./protocol.js";
 
-/** @typedef {import("./protocol.js").ServerMessage} ServerMessage */
-/** @typedef {import("./protocol.js").ClientMessage} ClientMessage */
+/** @import { ServerMessage, ClientMessage } from "./protocol.js" */
+
 /** @typedef {{phase: "opening" | "live" | "missing" | "gone"} | {phase: "lost", retryMs: number}} Phase */
 
 /**
@@ -49,10 +49,7 @@ export class Connection {
   #attempt = 0;
   #closed = false;
 
-  /**
-   * @param {string} session
-   * @param {Wiring} wiring
-   */
+  /** @param {string} session @param {Wiring} wiring */
   constructor(session, wiring) {
     this.session = session;
     this.wiring = {

@@ -11,28 +11,31 @@ import { logChange, logEvents, logTick } from "./journal.js";
 import { answerExchange, beginExchange, endUnanswered, refuseExchange } from "./talk.js";
 import { worldAfter, worldOf } from "./world.js";
 
-/** @typedef {import("./protocol.js").ServerMessage} ServerMessage */
-/** @typedef {import("./world.js").World} World */
+/** @import { Line } from "./journal.js" */
+/** @import { ServerMessage, Decision, Cell, Problem, HelloMessage, TickMessage } from "./protocol.js" */
+/** @import { Phase } from "./socket.js" */
+/** @import { Exchange } from "./talk.js" */
+/** @import { World } from "./world.js" */
 
 /**
  * @typedef {object} State
- * @property {import("./socket.js").Phase} connection  how the stream stands; while it is not "live" the rest is stale
+ * @property {Phase} connection  how the stream stands; while it is not "live" the rest is stale
  * @property {string | null} session  the session's id
  * @property {string | null} trouble  a sentence when no session could be opened
  * @property {World | null} world  the road at the latest tick heard of
- * @property {import("./protocol.js").Decision | null} decision  the latest, as far as the stream tells it
+ * @property {Decision | null} decision  the latest, as far as the stream tells it
  * @property {string | null} narration  the latest decision in words
- * @property {import("./journal.js").Line[]} log  newest last, at most `LOG_LINES`
- * @property {import("./talk.js").Exchange[]} talk  what was said here and answered, newest last
+ * @property {Line[]} log  newest last, at most `LOG_LINES`
+ * @property {Exchange[]} talk  what was said here and answered, newest last
  * @property {Highlight | null} highlight  what the reader points at
  * @property {string | null} announcement  the latest sentence worth reading aloud
  */
 
-/** @typedef {{ids: string[], cells: import("./protocol.js").Cell[]}} Highlight */
+/** @typedef {{ids: string[], cells: Cell[]}} Highlight */
 
 /**
  * @typedef {{type: "session", id: string}
- *   | {type: "phase", phase: import("./socket.js").Phase}
+ *   | {type: "phase", phase: Phase}
  *   | {type: "trouble", text: string}
  *   | {type: "said", id: string, text: string, quiet: boolean}
  *   | {type: "unsent", id: string}
@@ -58,11 +61,7 @@ export const INITIAL = {
 /** Event types that are worth saying aloud, not only writing down. */
 const SPOKEN = new Set(["crashed", "arrived", "stuck"]);
 
-/**
- * @param {State} state
- * @param {Event} event
- * @returns {State}
- */
+/** @param {State} state @param {Event} event @returns {State} */
 export function reduce(state, event) {
   switch (event.type) {
     case "session":
@@ -109,7 +108,7 @@ export function reduce(state, event) {
   }
 }
 
-/** @type {import("./protocol.js").Problem} */
+/** @type {Problem} */
 const NOT_CONNECTED = {
   type: "about:blank",
   title: "Not connected",
@@ -117,21 +116,13 @@ const NOT_CONNECTED = {
   detail: "There is no connection to the service just now, so this was not sent. Press ↑ to have it back.",
 };
 
-/**
- * @param {State} state
- * @param {import("./socket.js").Phase} phase
- * @returns {State}
- */
+/** @param {State} state @param {Phase} phase @returns {State} */
 function afterPhase(state, phase) {
   if (phase.phase !== "lost") return { ...state, connection: phase };
   return { ...state, connection: phase, talk: endUnanswered(state.talk) };
 }
 
-/**
- * @param {State} state
- * @param {import("./protocol.js").HelloMessage} hello
- * @returns {State}
- */
+/** @param {State} state @param {HelloMessage} hello @returns {State} */
 function afterHello(state, hello) {
   return {
     ...state,
@@ -144,11 +135,7 @@ function afterHello(state, hello) {
   };
 }
 
-/**
- * @param {State} state
- * @param {import("./protocol.js").TickMessage} message
- * @returns {State}
- */
+/** @param {State} state @param {TickMessage} message @returns {State} */
 function afterTick(state, message) {
   if (state.world === null) return state;
   const spoken = (message.events ?? []).findLast((event) => SPOKEN.has(event.type));

@@ -1,8 +1,7 @@
 // @ts-check
 /** What was said in this page and what came back, as a list of exchanges. */
 
-/** @typedef {import("./protocol.js").CommandResult} CommandResult */
-/** @typedef {import("./protocol.js").Problem} Problem */
+/** @import { CommandResult, Problem } from "./protocol.js" */
 
 /**
  * @typedef {object} Exchange
@@ -16,33 +15,19 @@
 
 export const TALK_EXCHANGES = 100;
 
-/**
- * @param {Exchange[]} talk
- * @param {{id: string, text: string, quiet: boolean}} said
- * @returns {Exchange[]}
- */
+/** @param {Exchange[]} talk @param {{id: string, text: string, quiet: boolean}} said @returns {Exchange[]} */
 export function beginExchange(talk, { id, text, quiet }) {
   /** @type {Exchange} */
   const exchange = { id, said: text, quiet, standing: "pending", result: null, problem: null };
   return [...talk, exchange].slice(-TALK_EXCHANGES);
 }
 
-/**
- * @param {Exchange[]} talk
- * @param {string} id
- * @param {CommandResult} result
- * @returns {Exchange[]}
- */
+/** @param {Exchange[]} talk @param {string} id @param {CommandResult} result @returns {Exchange[]} */
 export function answerExchange(talk, id, result) {
   return replaced(talk, id, { standing: "done", result });
 }
 
-/**
- * @param {Exchange[]} talk
- * @param {string} id
- * @param {Problem} problem
- * @returns {Exchange[]}
- */
+/** @param {Exchange[]} talk @param {string} id @param {Problem} problem @returns {Exchange[]} */
 export function refuseExchange(talk, id, problem) {
   return replaced(talk, id, { standing: "refused", problem });
 }
@@ -80,12 +65,7 @@ export function changesOf(result) {
   return (result?.changes ?? []).filter(({ path }) => path !== "paused" && path !== "tick");
 }
 
-/**
- * @param {Exchange[]} talk
- * @param {string} id
- * @param {Partial<Exchange>} part
- * @returns {Exchange[]}
- */
+/** @param {Exchange[]} talk @param {string} id @param {Partial<Exchange>} part @returns {Exchange[]} */
 function replaced(talk, id, part) {
   return talk.map((exchange) => (exchange.id === id ? { ...exchange, ...part } : exchange));
 }

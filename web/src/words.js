@@ -1,7 +1,7 @@
 // @ts-check
 /** Small words of the page's own: moves, reasons, figures, and marking words inside a sentence. */
 
-/** @typedef {import("./protocol.js").Move} Move */
+/** @import { Move } from "./protocol.js" */
 
 /** Each move's arrow and name. */
 export const MOVES = /** @type {Record<Move, {arrow: string, name: string}>} */ ({
@@ -52,9 +52,7 @@ export function valueWords(value) {
   return String(value).replaceAll("_", " ");
 }
 
-/**
- * @param {number | null} fraction
- */
+/** @param {number | null} fraction */
 export function percent(fraction) {
   return fraction === null ? "–" : `${Math.round(fraction * 100)} %`;
 }

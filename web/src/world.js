@@ -1,9 +1,7 @@
 // @ts-check
 /** The road as the page knows it: one table of things by id, made from a full state and kept up by ticks. */
 
-/** @typedef {import("./protocol.js").WireState} WireState */
-/** @typedef {import("./protocol.js").TickMessage} TickMessage */
-/** @typedef {import("./protocol.js").Cell} Cell */
+/** @import { WireState, TickMessage, Cell, Status, Metrics, Move } from "./protocol.js" */
 
 /**
  * @typedef {object} Thing
@@ -19,7 +17,7 @@
  * @property {number} tick
  * @property {number} timeS
  * @property {number} episode
- * @property {import("./protocol.js").Status} status
+ * @property {Status} status
  * @property {{ids: string[], cell: Cell | null} | null} cause  of a crash
  * @property {number} columns
  * @property {number} rows
@@ -29,15 +27,12 @@
  * @property {string} mode
  * @property {string} planner
  * @property {Map<string, Thing>} things
- * @property {import("./protocol.js").Metrics} metrics
+ * @property {Metrics} metrics
  */
 
 const CELL_M = 5;
 
-/**
- * @param {WireState} state
- * @returns {World}
- */
+/** @param {WireState} state @returns {World} */
 export function worldOf(state) {
   const things = new Map();
   for (const thing of [...state.hazards, ...state.movers, ...state.vehicles]) {
@@ -130,7 +125,7 @@ export function toGo(world) {
 /**
  * The speed a move amounts to, in km/h: one cell a tick is 36 km/h when a tick is half a second.
  * @param {World} world
- * @param {import("./protocol.js").Move} move
+ * @param {Move} move
  */
 export function speedKmh(world, move) {
   const cells = move === "stay" ? 0 : move.startsWith("forward_") ? Math.SQRT2 : 1;

@@ -4,7 +4,8 @@
 import { hash, seeded } from "../seeded.js";
 import { blob, box, castShadow } from "./shapes.js";
 
-/** @typedef {import("../theme.js").Palette} Palette */
+/** @import { Palette } from "../theme.js" */
+
 /** @typedef {CanvasRenderingContext2D} Pen */
 /** @typedef {[number, number]} Point */
 
@@ -75,11 +76,7 @@ function wander(from, angle, steps, stride, random) {
   return line;
 }
 
-/**
- * @param {Pen} pen
- * @param {string} id
- * @param {Palette} palette
- */
+/** @param {Pen} pen @param {string} id @param {Palette} palette */
 export function paintPothole(pen, id, palette) {
   const rim = rimOf(id);
   const scaled = (/** @type {number} */ by, dx = 0, dy = 0) =>
@@ -123,11 +120,7 @@ export function paintPothole(pen, id, palette) {
   pen.restore();
 }
 
-/**
- * @param {Pen} pen
- * @param {string} id
- * @param {Palette} palette
- */
+/** @param {Pen} pen @param {string} id @param {Palette} palette */
 function rubble(pen, id, palette) {
   const random = seeded(`${id} rubble`);
   for (let stone = 0; stone < 12; stone++) {
@@ -156,10 +149,7 @@ export function paintBarrier(pen, id, palette) {
   }
 }
 
-/**
- * @param {Pen} pen
- * @param {Palette} palette
- */
+/** @param {Pen} pen @param {Palette} palette */
 function barricade(pen, palette) {
   castShadow(pen, palette.shadow, 0.07, () => {
     box(pen, 0.02, 0.09, 0.82, 0.22, 0.04);
@@ -200,12 +190,7 @@ function barricade(pen, palette) {
   }
 }
 
-/**
- * @param {Pen} pen
- * @param {number} x
- * @param {number} y
- * @param {Palette} palette
- */
+/** @param {Pen} pen @param {number} x @param {number} y @param {Palette} palette */
 function cone(pen, x, y, palette) {
   castShadow(pen, palette.shadow, 0.06, () => {
     box(pen, x + 0.03, y + 0.05, 0.22, 0.22, 0.05);

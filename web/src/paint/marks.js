@@ -1,8 +1,9 @@
 // @ts-check
 /** What is drawn on top to explain: the trail, the move under way, rings around causes, the impact. */
 
+/** @import { Palette } from "../theme.js" */
+
 /** @typedef {CanvasRenderingContext2D} Pen */
-/** @typedef {import("../theme.js").Palette} Palette */
 
 /**
  * Where the vehicle has been, fading with age. Units are cells; (0, 0) is the centre of cell [0, 0].

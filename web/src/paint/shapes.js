@@ -53,3 +53,16 @@ export function castShadow(pen, colour, blurCells, fill) {
   fill(pen);
   pen.restore();
 }
+
+/**
+ * A filled circle.
+ * @param {CanvasRenderingContext2D} pen
+ * @param {number} x
+ * @param {number} y
+ * @param {number} radius
+ */
+export function disc(pen, x, y, radius) {
+  pen.beginPath();
+  pen.arc(x, y, radius, 0, 2 * Math.PI);
+  pen.fill();
+}

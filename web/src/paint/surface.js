@@ -3,8 +3,8 @@
 
 import { seeded } from "../seeded.js";
 
-/** @typedef {import("../camera.js").View} View */
-/** @typedef {import("../theme.js").Palette} Palette */
+/** @import { View } from "../camera.js" */
+/** @import { Palette } from "../theme.js" */
 
 /** Rows after which the surface repeats. */
 const TILE_ROWS = 4;
@@ -53,12 +53,7 @@ export function surfaceTile(view, columns, palette) {
   return tile;
 }
 
-/**
- * @param {CanvasRenderingContext2D} pen
- * @param {View} view
- * @param {number} height
- * @param {Palette} palette
- */
+/** @param {CanvasRenderingContext2D} pen @param {View} view @param {number} height @param {Palette} palette */
 function verge(pen, view, height, palette) {
   pen.fillStyle = palette.verge;
   pen.fillRect(0, 0, view.width, height);

@@ -2,17 +2,20 @@
 /** One thing of any kind in its pose: which painter, which sprite, which shadow. */
 
 import { paintBarrier, paintPothole } from "./hazards.js";
-import { drawSignal, lookOf, paintBeams, paintEgo, paintVehicle, paintVehicleShadow, paintWarning } from "./vehicle.js";
+import { drawSignal, paintWarning } from "./signals.js";
+import { lookOf, paintBeams, paintEgo, paintVehicle, paintVehicleShadow } from "./vehicle.js";
 import { drawWalker, paintWalkerShadow } from "./walker.js";
 
-/** @typedef {import("../motion.js").Pose} Pose */
-/** @typedef {import("../protocol.js").Move} Move */
+/** @import { Pose } from "../motion.js" */
+/** @import { Move } from "../protocol.js" */
+/** @import { Palette } from "../theme.js" */
+/** @import { Sprites } from "./sprites.js" */
 
 /**
  * @typedef {object} Scene  what painters work with; the pen's unit is one cell
  * @property {CanvasRenderingContext2D} pen
- * @property {import("./sprites.js").Sprites} sprites
- * @property {import("../theme.js").Palette} palette
+ * @property {Sprites} sprites
+ * @property {Palette} palette
  * @property {number} progress  of the present step, 0–1
  * @property {number} now  ms
  */
@@ -94,11 +97,7 @@ function blinks(progress) {
   return progress < 1 && (progress * 4) % 2 < 1.2;
 }
 
-/**
- * @param {CanvasRenderingContext2D} pen
- * @param {number} facing
- * @param {() => void} stamp
- */
+/** @param {CanvasRenderingContext2D} pen @param {number} facing @param {() => void} stamp */
 function shadowed(pen, facing, stamp) {
   pen.save();
   pen.translate(SHADOW.x, SHADOW.y);
@@ -109,8 +108,8 @@ function shadowed(pen, facing, stamp) {
 
 /**
  * @param {CanvasRenderingContext2D} pen
- * @param {import("./sprites.js").Sprites} sprites
- * @param {import("../theme.js").Palette} palette
+ * @param {Sprites} sprites
+ * @param {Palette} palette
  */
 function beams(pen, sprites, palette) {
   sprites.stamp(pen, "beams", BEAM_CELLS, (brush) => paintBeams(brush, palette.lamps));

@@ -2,9 +2,10 @@
 /** Vehicles from above, facing right, one cell being the unit. */
 
 import { seeded } from "../seeded.js";
-import { box, castShadow } from "./shapes.js";
+import { box, castShadow, disc } from "./shapes.js";
 
-/** @typedef {import("../theme.js").Palette} Palette */
+/** @import { Palette } from "../theme.js" */
+
 /** @typedef {CanvasRenderingContext2D} Pen */
 
 /**
@@ -32,7 +33,7 @@ const BEAM_SPREADS = [0.1, 0.16, 0.22, 0.28, 0.34, 0.4];
 const GLASS = "#1a222e";
 
 /** @type {Record<Look["body"] | "ego", {length: number, width: number}>} in cells */
-const SIZES = {
+export const SIZES = {
   saloon: { length: 0.8, width: 0.4 },
   hatch: { length: 0.68, width: 0.39 },
   van: { length: 0.82, width: 0.43 },
@@ -55,11 +56,7 @@ export function lookOf(id, disabled) {
     : { key: `${body} ${colour}`, body, paint: PAINTS[colour] };
 }
 
-/**
- * @param {Pen} pen
- * @param {Look["body"] | "ego"} body
- * @param {Palette} palette
- */
+/** @param {Pen} pen @param {Look["body"] | "ego"} body @param {Palette} palette */
 export function paintVehicleShadow(pen, body, palette) {
   const { length, width } = SIZES[body];
   castShadow(pen, palette.shadow, 0.09, () => {
@@ -68,10 +65,7 @@ export function paintVehicleShadow(pen, body, palette) {
   });
 }
 
-/**
- * @param {Pen} pen
- * @param {Look} look
- */
+/** @param {Pen} pen @param {Look} look */
 export function paintVehicle(pen, look) {
   const { length, width } = SIZES[look.body];
   wheels(pen, length, width);
@@ -130,55 +124,7 @@ export function paintBeams(pen, strength) {
   }
 }
 
-/**
- * Lamps at the vehicle's rear corners: brakes, or one side's indicator.
- * @param {Pen} pen
- * @param {"brake" | "left" | "right"} signal
- */
-export function drawSignal(pen, signal) {
-  const { length, width } = SIZES.ego;
-  const spots =
-    signal === "brake"
-      ? [[-1, -1], [-1, 1]]
-      : [[-1, signal === "left" ? -1 : 1], [1, signal === "left" ? -1 : 1]];
-  for (const [end, side] of spots) {
-    const x = (end * length * 0.94) / 2;
-    const y = (side * width * 0.8) / 2;
-    const glow = pen.createRadialGradient(x, y, 0, x, y, 0.15);
-    glow.addColorStop(0, signal === "brake" ? "rgb(255 60 50 / 0.95)" : "rgb(255 176 46 / 0.95)");
-    glow.addColorStop(1, "rgb(255 120 46 / 0)");
-    pen.fillStyle = glow;
-    disc(pen, x, y, 0.15);
-  }
-}
-
-/**
- * The sign over a vehicle that will not move again.
- * @param {Pen} pen  unrotated
- */
-export function paintWarning(pen) {
-  pen.lineJoin = "round";
-  pen.beginPath();
-  pen.moveTo(0, -0.17);
-  pen.lineTo(0.18, 0.14);
-  pen.lineTo(-0.18, 0.14);
-  pen.closePath();
-  pen.fillStyle = "#fff";
-  pen.strokeStyle = "#d0342c";
-  pen.lineWidth = 0.065;
-  pen.stroke();
-  pen.fill();
-  pen.fillStyle = "#1b1f27";
-  box(pen, 0, -0.005, 0.034, 0.12, 0.017);
-  pen.fill();
-  disc(pen, 0, 0.095, 0.02);
-}
-
-/**
- * @param {Pen} pen
- * @param {number} length
- * @param {number} width
- */
+/** @param {Pen} pen @param {number} length @param {number} width */
 function wheels(pen, length, width) {
   pen.fillStyle = "#15171b";
   for (const x of [-0.29, 0.27]) {
@@ -242,12 +188,7 @@ function cabin(pen, paint, length, width, share, shift) {
   pen.fill();
 }
 
-/**
- * @param {Pen} pen
- * @param {Look["paint"]} paint
- * @param {number} length
- * @param {number} width
- */
+/** @param {Pen} pen @param {Look["paint"]} paint @param {number} length @param {number} width */
 function truck(pen, paint, length, width) {
   const cab = length * 0.28;
   pen.fillStyle = "#22252b";
@@ -275,11 +216,7 @@ function truck(pen, paint, length, width) {
   pen.fill();
 }
 
-/**
- * @param {Pen} pen
- * @param {number} length
- * @param {number} width
- */
+/** @param {Pen} pen @param {number} length @param {number} width */
 function lamps(pen, length, width) {
   for (const side of [-1, 1]) {
     pen.fillStyle = "#fff6d8";
@@ -291,14 +228,3 @@ function lamps(pen, length, width) {
   }
 }
 
-/**
- * @param {Pen} pen
- * @param {number} x
- * @param {number} y
- * @param {number} radius
- */
-function disc(pen, x, y, radius) {
-  pen.beginPath();
-  pen.arc(x, y, radius, 0, 2 * Math.PI);
-  pen.fill();
-}

@@ -4,15 +4,14 @@
 import { seeded } from "../seeded.js";
 import { castShadow } from "./shapes.js";
 
+/** @import { Palette } from "../theme.js" */
+
 /** @typedef {CanvasRenderingContext2D} Pen */
 
 const SHIRTS = ["#e4572e", "#2a9d8f", "#f2b134", "#9b5de5", "#ef798a", "#4c9f70", "#e9ecef"];
 const HAIR = ["#2b1d14", "#5a3a22", "#8d6a43", "#1b1b1f", "#b9a27c"];
 
-/**
- * @param {Pen} pen
- * @param {import("../theme.js").Palette} palette
- */
+/** @param {Pen} pen @param {Palette} palette */
 export function paintWalkerShadow(pen, palette) {
   castShadow(pen, palette.shadow, 0.07, () => {
     pen.beginPath();

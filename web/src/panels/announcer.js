@@ -7,12 +7,11 @@
 
 import { setText } from "../dom.js";
 
+/** @import { Panel } from "./index.js" */
+
 const APART_MS = 1_500;
 
-/**
- * @param {HTMLElement} host  a polite live region
- * @returns {import("./index.js").Panel}
- */
+/** @param {HTMLElement} host  a polite live region @returns {Panel} */
 export function createAnnouncer(host) {
   /** @type {string | null} */ let waiting = null;
   let timer = 0;

@@ -5,14 +5,10 @@ import { icon } from "../icons.js";
 import { make } from "../dom.js";
 import { MOVES, plain, reasonWords } from "../words.js";
 
-/** @typedef {import("../protocol.js").Answer} Answer */
-/** @typedef {import("../main.js").Page} Page */
+/** @import { Page } from "../main.js" */
+/** @import { Answer, Option } from "../protocol.js" */
 
-/**
- * @param {Answer} answer
- * @param {string} reply
- * @param {Page} page
- */
+/** @param {Answer} answer @param {string} reply @param {Page} page */
 export function answerElement(answer, reply, page) {
   const element = make("div", { class: "answer" }, make("p", { class: "reply" }, answer.text || reply));
   const causes = answer.causes ?? [];
@@ -28,10 +24,7 @@ export function answerElement(answer, reply, page) {
   return element;
 }
 
-/**
- * @param {Answer["causes"][number]} cause
- * @param {Page} page
- */
+/** @param {Answer["causes"][number]} cause @param {Page} page */
 function causeElement(cause, page) {
   const show = () => page.highlight({ ids: [cause.id], cells: cause.cell ? [cause.cell] : [] });
   const hide = () => page.highlight(null);
@@ -85,7 +78,7 @@ function proofElement({ verified }) {
   );
 }
 
-/** @param {import("../protocol.js").Option[]} alternatives */
+/** @param {Option[]} alternatives */
 function alternativesElement(alternatives) {
   return make(
     "details",

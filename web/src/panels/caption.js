@@ -4,10 +4,9 @@
 import { make, setText } from "../dom.js";
 import { MOVES } from "../words.js";
 
-/**
- * @param {HTMLElement} host
- * @returns {import("./index.js").Panel}
- */
+/** @import { Panel } from "./index.js" */
+
+/** @param {HTMLElement} host @returns {Panel} */
 export function createCaption(host) {
   const arrow = make("span", { class: "caption-arrow", "aria-hidden": "true" });
   const text = make("span", { class: "caption-text" });

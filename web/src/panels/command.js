@@ -5,13 +5,16 @@ import { make } from "../dom.js";
 import { History, localHistory } from "../history.js";
 import { icon } from "../icons.js";
 
+/** @import { Page } from "../main.js" */
+/** @import { Panel } from "./index.js" */
+
 /** Well beyond what the service takes, so that it is the one to say that a text is too long. */
 const LONGEST_TEXT = 2_000;
 
 /**
  * @param {HTMLElement} host  a form
- * @param {import("../main.js").Page} page
- * @returns {import("./index.js").Panel}
+ * @param {Page} page
+ * @returns {Panel}
  */
 export function createCommand(host, page) {
   const history = new History(localHistory());

@@ -3,11 +3,10 @@
 
 import { make, setText } from "../dom.js";
 
-/**
- * @param {HTMLElement} host
- * @param {import("../main.js").Page} page
- * @returns {import("./index.js").Panel}
- */
+/** @import { Page } from "../main.js" */
+/** @import { Panel } from "./index.js" */
+
+/** @param {HTMLElement} host @param {Page} page @returns {Panel} */
 export function createConnectionBadge(host, page) {
   const lamp = make("span", { class: "lamp", "aria-hidden": "true" });
   const text = make("span", { class: "connection-text" });

@@ -5,11 +5,14 @@ import { ACTS, HELP } from "../acts.js";
 import { icon } from "../icons.js";
 import { make, setText } from "../dom.js";
 
+/** @import { Page } from "../main.js" */
+/** @import { Panel } from "./index.js" */
+
 /**
  * @param {HTMLElement} host
  * @param {HTMLElement} help
- * @param {import("../main.js").Page} page
- * @returns {import("./index.js").Panel}
+ * @param {Page} page
+ * @returns {Panel}
  */
 export function createControls(host, help, page) {
   const buttons = ACTS.map((act) => {

@@ -6,10 +6,9 @@ import { changesOf } from "../talk.js";
 import { markWords, plain, valueWords } from "../words.js";
 import { answerElement } from "./answer.js";
 
-/** @typedef {import("../talk.js").Exchange} Exchange */
-/** @typedef {import("../main.js").Page} Page */
-/** @typedef {import("../protocol.js").CommandResult} CommandResult */
-/** @typedef {import("../protocol.js").Problem} Problem */
+/** @import { Page } from "../main.js" */
+/** @import { CommandResult, Problem, Change } from "../protocol.js" */
+/** @import { Exchange } from "../talk.js" */
 
 /**
  * @param {Exchange} exchange
@@ -32,11 +31,7 @@ export function exchangeElement(exchange, page, undoable) {
   return element;
 }
 
-/**
- * @param {CommandResult} result
- * @param {Page} page
- * @param {boolean} undoable
- */
+/** @param {CommandResult} result @param {Page} page @param {boolean} undoable */
 function resultParts(result, page, undoable) {
   const parts = [];
   for (const { from, to } of result.corrections ?? []) {
@@ -79,7 +74,7 @@ function isSetting(path) {
   return path.startsWith("config.");
 }
 
-/** @param {import("../protocol.js").Change} change */
+/** @param {Change} change */
 function changeElement({ path, before, after }) {
   return make(
     "li",
@@ -91,10 +86,7 @@ function changeElement({ path, before, after }) {
   );
 }
 
-/**
- * @param {Problem} problem
- * @param {Page} page
- */
+/** @param {Problem} problem @param {Page} page */
 function problemParts(problem, page) {
   /** @type {HTMLElement[]} */
   const parts = [make("p", { class: "reply" }, problem.detail || problem.title)];

@@ -14,7 +14,8 @@ import { createStatus } from "./status.js";
 import { createTalk } from "./talk.js";
 import { createVerdict } from "./verdict.js";
 
-/** @typedef {import("../state.js").State} State */
+/** @import { Page } from "../main.js" */
+/** @import { State } from "../state.js" */
 
 /**
  * @typedef {object} Panel  any of these; all are called at most once a frame
@@ -23,10 +24,7 @@ import { createVerdict } from "./verdict.js";
  * @property {() => void} [repaint]  size or colours have changed
  */
 
-/**
- * @param {import("../main.js").Page} page
- * @returns {Panel[]}
- */
+/** @param {Page} page @returns {Panel[]} */
 export function createPanels(page) {
   byId("new-session").addEventListener("click", () => page.startSession());
   return [

@@ -3,14 +3,12 @@
 
 import { make, setText } from "../dom.js";
 
-/** @typedef {import("../journal.js").Line} Line */
+/** @import { Line } from "../journal.js" */
+/** @import { Panel } from "./index.js" */
 
 const NEAR_END_PX = 24;
 
-/**
- * @param {HTMLElement} host
- * @returns {import("./index.js").Panel}
- */
+/** @param {HTMLElement} host @returns {Panel} */
 export function createLog(host) {
   const list = make("ol", { class: "log-lines", tabIndex: 0, "aria-label": "Driving log, newest last" });
   const newest = make(

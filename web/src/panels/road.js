@@ -11,17 +11,17 @@ import { drawThing, isFixed } from "../paint/things.js";
 import { readPalette, wantsStillness } from "../theme.js";
 import { describe, egoOf } from "../world.js";
 
-/** @typedef {import("../state.js").State} State */
-/** @typedef {import("../motion.js").Pose} Pose */
+/** @import { View } from "../camera.js" */
+/** @import { Pose } from "../motion.js" */
+/** @import { State } from "../state.js" */
+/** @import { World } from "../world.js" */
+/** @import { Panel } from "./index.js" */
 
 /** More pixels than this a cell cannot be told apart, and cost frames. */
 const LARGEST_RATIO = 2;
 const LONGEST_FRAME_S = 0.1;
 
-/**
- * @param {HTMLElement} host
- * @returns {import("./index.js").Panel}
- */
+/** @param {HTMLElement} host @returns {Panel} */
 export function createRoad(host) {
   const canvas = make("canvas", { class: "road-canvas", role: "img", "aria-label": "The road" });
   host.append(canvas);
@@ -31,11 +31,11 @@ export function createRoad(host) {
   const sprites = new Sprites();
   let palette = readPalette(document.documentElement);
   /** @type {State | null} */ let state = null;
-  /** @type {import("../camera.js").View | null} */ let view = null;
+  /** @type {View | null} */ let view = null;
   /** @type {HTMLCanvasElement | null} */ let tile = null;
   let drawnAt = 0;
 
-  /** Fit canvas, view and surface to the room there is. @param {import("../world.js").World} world */
+  /** Fit canvas, view and surface to the room there is. @param {World} world */
   function fit(world) {
     const ratio = Math.min(LARGEST_RATIO, devicePixelRatio || 1);
     const { clientWidth: width, clientHeight: height } = host;

@@ -4,7 +4,8 @@
 import { make } from "../dom.js";
 import { readPalette } from "../theme.js";
 
-/** @typedef {import("../world.js").World} World */
+/** @import { World } from "../world.js" */
+/** @import { Panel } from "./index.js" */
 
 const COLOURS = /** @type {Record<string, string>} */ ({
   av: "#2f6fed",
@@ -16,10 +17,7 @@ const COLOURS = /** @type {Record<string, string>} */ ({
 
 const MARGIN_PX = 12;
 
-/**
- * @param {HTMLElement} host
- * @returns {import("./index.js").Panel}
- */
+/** @param {HTMLElement} host @returns {Panel} */
 export function createSchematic(host) {
   const canvas = make("canvas", { "aria-hidden": "true" });
   host.append(canvas);

@@ -5,8 +5,9 @@ import { make, setText } from "../dom.js";
 import { clock, percent } from "../words.js";
 import { speedKmh, toGo } from "../world.js";
 
-/** @typedef {import("../state.js").State} State */
-/** @typedef {import("../world.js").World} World */
+/** @import { State } from "../state.js" */
+/** @import { World } from "../world.js" */
+/** @import { Panel } from "./index.js" */
 
 /** @type {{key: string, label: string, value: (world: World, state: State) => string, note?: (world: World) => string}[]} */
 const FIGURES = [
@@ -32,10 +33,7 @@ const FIGURES = [
   { key: "driver", label: "Driver", value: (world) => (world.mode === "manual" ? "you" : world.planner) },
 ];
 
-/**
- * @param {HTMLElement} host  a definition list
- * @returns {import("./index.js").Panel}
- */
+/** @param {HTMLElement} host  a definition list @returns {Panel} */
 export function createStatus(host) {
   const cells = FIGURES.map(({ key, label }) => {
     const value = make("span", { class: "figure-value" }, "–");

@@ -5,7 +5,9 @@ import { make } from "../dom.js";
 import { changesOf, shown } from "../talk.js";
 import { exchangeElement } from "./exchange.js";
 
-/** @typedef {import("../talk.js").Exchange} Exchange */
+/** @import { Page } from "../main.js" */
+/** @import { Exchange } from "../talk.js" */
+/** @import { Panel } from "./index.js" */
 
 const EXAMPLES = [
   { text: "add five potholes", what: "change the road" },
@@ -13,11 +15,7 @@ const EXAMPLES = [
   { text: "simulate a highway with 10 potholes and 2 obstacles", what: "start a new road" },
 ];
 
-/**
- * @param {HTMLElement} host
- * @param {import("../main.js").Page} page
- * @returns {import("./index.js").Panel}
- */
+/** @param {HTMLElement} host @param {Page} page @returns {Panel} */
 export function createTalk(host, page) {
   const list = make("div", { class: "exchanges", tabIndex: 0, role: "log", "aria-label": "Conversation", "aria-live": "off" });
   host.append(list);
@@ -54,7 +52,7 @@ export function createTalk(host, page) {
   };
 }
 
-/** @param {import("../main.js").Page} page */
+/** @param {Page} page */
 function welcome(page) {
   return make(
     "div",

@@ -3,7 +3,9 @@
 
 import { make } from "../dom.js";
 
-/** @typedef {import("../state.js").State} State */
+/** @import { Page } from "../main.js" */
+/** @import { State } from "../state.js" */
+/** @import { Panel } from "./index.js" */
 
 const ENDS = /** @type {Record<string, {title: string, tone: string}>} */ ({
   crash: { title: "Crash", tone: "bad" },
@@ -11,11 +13,7 @@ const ENDS = /** @type {Record<string, {title: string, tone: string}>} */ ({
   stuck: { title: "Stuck", tone: "bad" },
 });
 
-/**
- * @param {HTMLElement} host
- * @param {import("../main.js").Page} page
- * @returns {import("./index.js").Panel}
- */
+/** @param {HTMLElement} host @param {Page} page @returns {Panel} */
 export function createVerdict(host, page) {
   const over = make("div", { class: "verdict", hidden: true });
   const paused = make("p", { class: "paused", hidden: true }, "Paused");
@@ -52,10 +50,7 @@ function keyOf(state) {
   return world.status === "running" ? "" : `${world.status} ${world.episode}`;
 }
 
-/**
- * @param {State} state
- * @returns {{title: string, tone: string, text?: string, offer?: string}}
- */
+/** @param {State} state @returns {{title: string, tone: string, text?: string, offer?: string}} */
 function contentOf(state) {
   if (state.trouble) return { title: "No session", tone: "bad", text: state.trouble, offer: "Try again" };
   const { phase } = state.connection;
