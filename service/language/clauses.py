@@ -28,6 +28,9 @@ _OR = "or"
 _WHOLE = (".all", ".the_many", ".bare_many", ".those")
 """Amounts that hold again in another place: "the cones in lane 3 and in lane 5"."""
 
+_NEGATED = frozenset({"ing", "negated"})
+"""Forms in place in a negated part: "don't go adding anything"."""
+
 INTERJECTION = "interjection"
 
 
@@ -179,7 +182,7 @@ class Divider:
         plain = self._stretch(start, end)
         found = self._matcher.match(plain, verbless=False)
         if found is not None:
-            return Clause(start, end, *found)
+            return Clause(start, end, *found, negated=found[0].frame.leaves_out)
         if NEGATION in plain.concepts:
             return self._negated(part, context)
         if context.verb:
@@ -231,7 +234,7 @@ class Divider:
             for edge in understood_nouns(self._lattice, start, end, context.noun, self._vague):
                 edges.setdefault(edge.start, []).append(edge)
                 concepts.add(edge.concept)
-        moods = self._moods | ({"ing"} if context.negated else set())
+        moods = self._moods | (_NEGATED if context.negated else frozenset())
         forms |= moods
         if context.negated:
             for edge in [edge for starting in edges.values() for edge in starting]:

@@ -36,6 +36,8 @@ class Frame:
     forms: frozenset[str] = frozenset()
     inherits: frozenset[str] = frozenset()
     joins: bool = False
+    leaves_out: bool = False
+    """Whether it says what there shall not be, and so does nothing: "but no cars"."""
     verbless: bool = False
     rank: int = 0
     ask: Ask | None = None
@@ -77,7 +79,7 @@ def read_frames(data: Mapping[str, Any]) -> list[Frame]:
 
 def _frame(name: str, data: Mapping[str, Any], sets: Mapping[str, str], agree: Mapping[str, str]) -> Frame:
     known = {"say", "needs", "takes", "do", "per", "forms", "inherits", "joins", "verbless", "rank", "ask"}
-    known.add("speaker")
+    known |= {"speaker", "leaves_out"}
     if odd := set(data) - known:
         raise FrameError(f"frame {name}: no such fields: {', '.join(sorted(odd))}")
     many: set[str] = set()
@@ -98,6 +100,7 @@ def _frame(name: str, data: Mapping[str, Any], sets: Mapping[str, str], agree: M
         inherits=frozenset(_concepts(str(data.get("inherits", "")), sets, set())),
         speaker=bool(data.get("speaker", True)),
         agree=agree,
+        leaves_out=bool(data.get("leaves_out", False)),
         joins=bool(data.get("joins", False)),
         verbless=bool(data.get("verbless", False)),
         rank=int(data.get("rank", 0)),

@@ -28,7 +28,7 @@ AMOUNT_FORMS = frozenset(
     {"counted", "more", "exact", "fewer", "all", "any", "none", "those", "that", "the_one", "the_many"}
     | {"the_counted", "bare_one", "bare_many", "more_bare", "post", "those_counted", "asked"}
 )
-DIMENSIONS = frozenset({"number", "length", "speed", "seconds", "fraction", "times"})
+DIMENSIONS = frozenset({"number", "length", "speed", "seconds", "fraction", "times", "real_times"})
 
 
 def flaws(data: LanguageData) -> list[str]:
@@ -80,7 +80,7 @@ def _sayings(frame: Frame, parse: Callable[[str], Parse]) -> Iterator[str]:
 
 def _empty(frame: Frame) -> Iterator[str]:
     """Frames that do nothing, or ask without a choice."""
-    if not frame.actions and frame.ask is None:
+    if not frame.actions and frame.ask is None and not frame.leaves_out:
         yield f"frame {frame.name} has neither actions nor a question"
     if frame.ask is not None and len(frame.ask.choices) < 2:
         yield f"frame {frame.name} asks, but offers fewer than two choices"

@@ -188,6 +188,10 @@ class NumberWords:
             return Found(int(value) if value == int(value) else value, at)
         return found
 
+    def _names_parts(self, word: str, how_many: Value) -> bool:
+        """Whether a word after a number names so many parts: "one half", "three quarters"."""
+        return word.rstrip("s") in self.fractions and (word.endswith("s") or how_many == 1)
+
     def _with_tail(self, tokens: Sequence[Token], found: Found) -> Found:
         """ "two and a half", "three quarters"."""
         at = found.end
@@ -197,10 +201,6 @@ class NumberWords:
             and (tail := self._fraction(tokens, at + 1)) is not None
         ):
             return Found(found.value + tail.value, tail.end)
-        if (
-            at < len(tokens)
-            and tokens[at].text.rstrip("s") in self.fractions
-            and tokens[at].text.endswith("s")
-        ):
+        if at < len(tokens) and self._names_parts(tokens[at].text, found.value):
             return Found(found.value * self.fractions[tokens[at].text.rstrip("s")], at + 1)
         return found

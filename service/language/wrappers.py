@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 from service.language.clauses import Clause, Divided, Fragment
@@ -32,14 +32,15 @@ def wrapped(lattice: Lattice, divide: Divide) -> Clause | Fragment | None:
         return None
     if (taught := _longest(lattice, start, TEACH)) is not None:
         return _taught(lattice, taught, divide)
-    inner = _condition(lattice, start)
-    if inner is None:
-        return None
-    found = _inside(divide, *inner, CONDITIONAL)
-    if isinstance(found, Fragment):
-        return found
-    question = {"do": "ask", "about": "what_if", "change": found}
-    return Clause(0, lattice.size, Filled(_FRAME, []), [question])
+    failed: Fragment | None = None
+    for first, last in _conditions(lattice, start):
+        found = _inside(divide, first, last, CONDITIONAL)
+        if isinstance(found, Fragment):
+            failed = failed or found
+        else:
+            question = {"do": "ask", "about": "what_if", "change": found}
+            return Clause(0, lattice.size, Filled(_FRAME, []), [question])
+    return failed
 
 
 def _past_glue(lattice: Lattice) -> int:
@@ -61,18 +62,16 @@ def _longest(lattice: Lattice, at: int, concept: str) -> Edge | None:
     return max(found, key=lambda edge: edge.end, default=None)
 
 
-def _condition(lattice: Lattice, start: int) -> tuple[int, int] | None:
-    """Where the condition of a what-if question is, whichever end the question itself stands at."""
-    opened = _longest(lattice, start, WHAT_IF)
-    if opened is not None and _longest(lattice, start, IF) is None:
-        return opened.end, lattice.size
-    if_edge = _longest(lattice, start, IF)
-    if if_edge is not None:
-        for at in range(if_edge.end + 1, lattice.size):
+def _conditions(lattice: Lattice, start: int) -> Iterator[tuple[int, int]]:
+    """Where the condition of a what-if question may be, whichever end the question itself stands at."""
+    opened = sorted((e for e in lattice.edges[start] if e.concept in (WHAT_IF, IF)), key=lambda e: -e.end)
+    for edge in opened:
+        if edge.concept == WHAT_IF and edge.end < lattice.size:
+            yield edge.end, lattice.size
+        for at in range(edge.end + 1, lattice.size):
             asked = _longest(lattice, at, THEN_WHAT)
             if asked is not None and _only_marks(lattice, asked.end):
-                return if_edge.end, at
-    return (opened.end, lattice.size) if opened is not None else None
+                yield edge.end, at
 
 
 def _only_marks(lattice: Lattice, at: int) -> bool:
