@@ -7,7 +7,7 @@ from typing import Annotated
 from fastapi import APIRouter, Body, Response
 
 from service import actions as contract
-from service.api import examples, schemas
+from service.api import bodies, examples, schemas
 from service.api.context import JSON_ONLY, Here, TheSession
 from service.api.errors import documented
 from service.api.respond import StrictRoute, etag, json_response
@@ -28,7 +28,7 @@ from service.problems import (
     TooLarge,
     UnknownSession,
 )
-from service.sessions.session import Utterance
+from service.sessions.utterance import Utterance
 
 router = APIRouter(tags=["talking"], route_class=StrictRoute, dependencies=[JSON_ONLY])
 
@@ -43,7 +43,7 @@ _CHANGING = (*_ALWAYS, DoesNotFit, NotAvailable, NothingToUndo, NotSaved)
     responses=documented(*_CHANGING, NotUnderstood, Ambiguous),
 )
 async def say(
-    body: Annotated[schemas.Said, Body(openapi_examples=examples.SAID)], session: TheSession, here: Here
+    body: Annotated[bodies.Said, Body(openapi_examples=examples.SAID)], session: TheSession, here: Here
 ) -> Response:
     """Done as a whole or not at all; one undo takes the whole back.
 
@@ -61,7 +61,7 @@ async def say(
     responses=documented(*_CHANGING),
 )
 async def act(
-    body: Annotated[schemas.TypedActions, Body(openapi_examples=examples.ACTIONS)], session: TheSession
+    body: Annotated[bodies.TypedActions, Body(openapi_examples=examples.ACTIONS)], session: TheSession
 ) -> Response:
     """The same as saying it, without language."""
     outcome = await session.change(Utterance(actions=tuple(body.actions)), dry_run=body.dry_run)
@@ -75,7 +75,7 @@ async def act(
     responses=documented(*_ALWAYS, NotSaved),
 )
 async def step(
-    body: Annotated[schemas.StepTicks, Body(openapi_examples=examples.STEP)], session: TheSession, here: Here
+    body: Annotated[bodies.StepTicks, Body(openapi_examples=examples.STEP)], session: TheSession, here: Here
 ) -> Response:
     """Pauses, then runs the ticks as fast as it can; answers what was decided in each."""
     before = session.run
@@ -94,7 +94,7 @@ async def step(
     responses=documented(*_ALWAYS, NotUnderstood, Ambiguous, NotAvailable, NotAQuestion),
 )
 async def ask(
-    body: Annotated[schemas.Question, Body(openapi_examples=examples.QUESTION)],
+    body: Annotated[bodies.Question, Body(openapi_examples=examples.QUESTION)],
     session: TheSession,
     here: Here,
 ) -> Response:

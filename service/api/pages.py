@@ -27,8 +27,7 @@ _REVALIDATE = {"Cache-Control": "no-cache"}
 _DOCS_POLICY = {
     # Swagger UI draws its icons from data: URLs; it needs no other exception.
     "Content-Security-Policy": (
-        "default-src 'self'; img-src 'self' data:; "
-        "base-uri 'none'; frame-ancestors 'none'; object-src 'none'"
+        "default-src 'self'; img-src 'self' data:; base-uri 'none'; frame-ancestors 'none'; object-src 'none'"
     )
 }
 

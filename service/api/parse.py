@@ -7,7 +7,7 @@ from typing import Annotated
 from fastapi import APIRouter, Body, Response
 
 from service import actions as contract
-from service.api import examples, schemas
+from service.api import bodies, examples, schemas
 from service.api.context import JSON_ONLY, Here
 from service.api.errors import documented
 from service.api.respond import StrictRoute, json_response
@@ -24,7 +24,7 @@ router = APIRouter(tags=["talking"], route_class=StrictRoute)
     dependencies=[JSON_ONLY],
     responses=documented(Malformed, Ambiguous, TooLarge, NotJson, Invalid, NotUnderstood),
 )
-async def parse(body: Annotated[schemas.Text, Body(openapi_examples=examples.TEXT)], here: Here) -> Response:
+async def parse(body: Annotated[bodies.Text, Body(openapi_examples=examples.TEXT)], here: Here) -> Response:
     """The actions a sentence means, whether or not this version does them."""
     understood = understand(here, body.text)
     return json_response(

@@ -1,4 +1,4 @@
-"""The documented shape of everything sent and answered. Answers are not encoded through these.
+"""The documented shape of everything answered. Answers are not encoded through these.
 
 A test holds real answers against them, so that they cannot drift from `service.wire`.
 """
@@ -7,100 +7,21 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, WithJsonSchema
+from pydantic import BaseModel, ConfigDict, Field
 
 from service.actions import Action
-from service.api.config_schema import CONFIG_SCHEMA
-from sim.actions import PlannerName
+from service.api.bodies import Tick
 from sim.kinds import Kind, Mode, Move, Outcome
 
-Tick = Annotated[int, Field(ge=0, le=2**53 - 1, description="Ticks since the session began.")]
 CellPair = Annotated[
     list[int], Field(min_length=2, max_length=2, description="[column, row], row 0 at the goal")
 ]
-ConfigParts = Annotated[dict[str, Any], WithJsonSchema(CONFIG_SCHEMA)]
-
-MAX_ACTIONS = 100
-"""Actions that may be sent at once."""
-
-
-class Sent(BaseModel):
-    """What callers send: unknown keys and values of another type are refused."""
-
-    model_config = ConfigDict(extra="forbid", strict=True)
 
 
 class Answered(BaseModel):
     """What callers are answered."""
 
     model_config = ConfigDict(extra="forbid")
-
-
-class RecordedEntry(Sent):
-    """One accepted change of a recording."""
-
-    sequence: int = Field(ge=1)
-    tick: Tick
-    text: str | None
-    actions: list[Action] = Field(max_length=MAX_ACTIONS)
-
-
-class Recording(Sent):
-    """A session as one small file."""
-
-    format: Literal["roadtalk-recording"]
-    version: Literal[1]
-    name: str | None = Field(None, max_length=80)
-    config: ConfigParts
-    entries: list[RecordedEntry] = Field(max_length=10_000)
-    tick: Tick = Field(description="Where it ends.")
-    digest: str = Field(description="What the world at its end must be.", max_length=64)
-
-
-class NewSession(Sent):
-    """How a session begins. Everything may be left out; without a seed one is drawn and told."""
-
-    name: str | None = Field(None, min_length=1, max_length=80)
-    scenario: str | None = Field(None, description="A sentence that describes a road.")
-    config: ConfigParts | None = None
-    seed: int | None = Field(None, ge=0, le=2**53 - 1)
-    planner: PlannerName | None = None
-    paused: bool | None = Field(
-        None, description="Default: running, or paused when replayed from a recording."
-    )
-    recording: Recording | None = Field(None, description="Replay this; alone but for name and paused.")
-
-
-class Said(Sent):
-    """Something said to a session."""
-
-    text: str = Field(description="At most 500 characters, unless the service is set otherwise.")
-    dry_run: bool = Field(False, description="Say what would be done, and do nothing.")
-
-
-class TypedActions(Sent):
-    """Actions of the language contract, no language involved; done together or not at all."""
-
-    actions: list[Action] = Field(min_length=1, max_length=MAX_ACTIONS)
-    dry_run: bool = Field(False, description="Say what would be done, and do nothing.")
-
-
-class StepTicks(Sent):
-    """How many ticks to run."""
-
-    ticks: int = Field(1, ge=1, le=1_000)
-
-
-class Question(Sent):
-    """A question, and nothing but one."""
-
-    question: str
-
-
-class Text(Sent):
-    """A sentence to be understood."""
-
-    text: str
 
 
 class Vehicle(Answered):

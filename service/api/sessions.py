@@ -9,7 +9,7 @@ from typing import Annotated
 from fastapi import APIRouter, Body, Query, Response
 
 from service import actions as contract
-from service.api import examples, schemas
+from service.api import bodies, examples, schemas
 from service.api.context import JSON_ONLY, Context, Here, TheSession
 from service.api.errors import documented, invalid
 from service.api.respond import StrictRoute, etag, json_response
@@ -31,13 +31,12 @@ from service.problems import (
     TooManySessions,
     UnknownSession,
 )
-from service.sessions import availability
 from service.sessions.manager import Recorded
 from service.settings import Settings
 from service.store import EntryRecord
 from sim.actions import Scenario
 from sim.config import Config, ConfigError
-from sim.scenario import configured
+from sim.scenario import configured, unavailable
 
 router = APIRouter(tags=["sessions"], route_class=StrictRoute)
 
@@ -63,7 +62,7 @@ router = APIRouter(tags=["sessions"], route_class=StrictRoute)
     ),
 )
 async def make(
-    body: Annotated[schemas.NewSession, Body(openapi_examples=examples.NEW_SESSION)], here: Here
+    body: Annotated[bodies.NewSession, Body(openapi_examples=examples.NEW_SESSION)], here: Here
 ) -> Response:
     """A new road with a vehicle on it, running unless `paused`.
 
@@ -131,7 +130,7 @@ async def end(session_id: str, here: Here) -> Response:
     return Response(status_code=204)
 
 
-def _config(here: Context, body: schemas.NewSession) -> Config:
+def _config(here: Context, body: bodies.NewSession) -> Config:
     """The configuration that was asked for, in figures and in words."""
     parts = dict(body.config or {})
     for name in ("seed", "planner"):
@@ -164,9 +163,7 @@ def _scenario(here: Context, text: str, config: Config) -> Scenario:
             understood=[text],
         )
     scenario = parse.actions[0]
-    refusal = availability.refusal(scenario)
-    if refusal is not None:
-        raise NotAvailable(refusal, errors=[FieldProblem("scenario", refusal)])
+    _check_available(scenario, "scenario")
     return replace(scenario, planner=scenario.planner or config.planner)
 
 
@@ -174,13 +171,18 @@ def _check_offered(settings: Settings, config: Config) -> None:
     if config.columns * config.rows > settings.max_road_cells:
         message = f"makes a road of more than {settings.max_road_cells} cells, the most there can be here"
         raise invalid([FieldProblem("config.rows", message)])
-    refusal = availability.refusal(Scenario(planner=config.planner, sensor=config.sensor))
-    if refusal is not None:
-        raise NotAvailable(refusal, errors=[FieldProblem("config", refusal)])
+    _check_available(Scenario(planner=config.planner, sensor=config.sensor), "config")
+
+
+def _check_available(scenario: Scenario, field: str) -> None:
+    missing = unavailable(scenario)
+    if missing is not None:
+        sentence = f"{missing.message} is not available yet."
+        raise NotAvailable(sentence, errors=[FieldProblem(field, sentence)])
 
 
 def _recorded(
-    settings: Settings, body: schemas.NewSession, recording: schemas.Recording
+    settings: Settings, body: bodies.NewSession, recording: bodies.Recording
 ) -> tuple[Config, Recorded]:
     """What a recording says, checked as far as can be before it is replayed."""
     beside = [name for name in ("scenario", "config", "seed", "planner") if getattr(body, name) is not None]

@@ -11,7 +11,7 @@ from service.api.errors import invalid
 from service.language.parse_types import Ambiguous as AmbiguousParse
 from service.language.parse_types import Refused, Understood
 from service.problems import Ambiguous, FieldProblem, NotAQuestion, NotUnderstood
-from service.sessions.session import Outcome, Utterance
+from service.sessions.utterance import Outcome, Utterance
 
 
 def understand(context: Context, text: str, field: str = "text") -> Understood:

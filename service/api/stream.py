@@ -21,15 +21,16 @@ from pydantic import Discriminator, Field, TypeAdapter, ValidationError
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from service.actions import Action
+from service.api.bodies import MAX_ACTIONS, Sent
 from service.api.context import Context, context_of
 from service.api.errors import field_problems, invalid
 from service.api.respond import problem_response
-from service.api.schemas import MAX_ACTIONS, Sent
 from service.api.speech import result_json, understand, utterance_of
 from service.api.views import session_json, told_decision
 from service.problems import CrossSite, Internal, Malformed, ProblemError
 from service.sessions.messages import hello_message, state_message
-from service.sessions.session import Session, Utterance
+from service.sessions.session import Session
+from service.sessions.utterance import Utterance
 from service.sessions.watchers import Gone, Missed, Watcher
 from service.wire.encode import encoded
 

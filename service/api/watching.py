@@ -7,7 +7,7 @@ from typing import Annotated
 from anyio import to_thread
 from fastapi import APIRouter, Path, Query, Response
 
-from service.api import schemas
+from service.api import bodies, schemas
 from service.api.context import Here, TheSession
 from service.api.errors import documented, invalid
 from service.api.respond import StrictRoute, etag, json_response
@@ -104,7 +104,7 @@ async def events(
 
 @router.get(
     "/sessions/{session_id}/recording",
-    response_model=schemas.Recording,
+    response_model=bodies.Recording,
     summary="The whole session as one file",
     responses=documented(UnknownSession, NotRestorable, NotSaved),
 )

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from pydantic import TypeAdapter
 
 from service import problems
-from service.api import schemas
+from service.api import bodies, schemas
 from service.app import create_app
 from service.settings import Settings
 from service.store import MemoryStore
@@ -64,7 +64,7 @@ MODELS: dict[str, type] = {
     "watching_decisions": schemas.DecisionPage,
     "watching_decision": schemas.Decision,
     "watching_events": schemas.EventPage,
-    "watching_recording": schemas.Recording,
+    "watching_recording": bodies.Recording,
     "operating_healthz": schemas.Health,
     "operating_readyz": schemas.Ready,
 }
@@ -214,7 +214,7 @@ KEYS = st.one_of(
         sorted(
             {
                 key
-                for model in (schemas.NewSession, schemas.Said, schemas.TypedActions, schemas.Recording)
+                for model in (bodies.NewSession, bodies.Said, bodies.TypedActions, bodies.Recording)
                 for key in model.model_fields
             }
             | {

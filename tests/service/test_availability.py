@@ -7,6 +7,7 @@ from typing import Any, get_args
 import pytest
 
 from service import actions as contract
+from service.problems import NotAvailable
 from service.sessions.availability import refusal
 from service.sessions.draft import Draft
 from service.sessions.history import History
@@ -84,9 +85,9 @@ def test_what_is_offered_is_done(action: dict[str, Any]) -> None:
 
 @pytest.mark.parametrize("action", REFUSED, ids=str)
 def test_what_is_not_offered_says_so(action: dict[str, Any]) -> None:
-    (loaded,) = contract.load([action])
-    sentence = refusal(loaded)
-    assert sentence is not None
-    assert "not available yet" in sentence
-    assert sentence[0].isupper()
-    assert sentence.endswith(".")
+    draft = Draft(Timeline(Config(seed=2)), False, History())
+    before = draft.timeline.run
+    with pytest.raises(NotAvailable, match=r"^[A-Z].* not available yet.*\.$") as raised:
+        draft.perform(1, contract.load([action]))
+    assert raised.value.errors[0].field.startswith("actions.0")
+    assert draft.timeline.run == before

@@ -23,7 +23,8 @@ from service.problems import (
 )
 from service.sessions.manager import Recorded, SessionManager
 from service.sessions.recording import recording_json
-from service.sessions.session import Session, Surroundings, Utterance
+from service.sessions.session import Session, Surroundings
+from service.sessions.utterance import Utterance
 from service.settings import Settings
 from service.store import EntryRecord, MemoryStore, StoreError
 from sim.config import Config
