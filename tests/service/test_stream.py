@@ -286,8 +286,9 @@ async def test_a_closed_reader_is_forgotten(live: Live) -> None:
         async with live.open() as stream:
             await receive(stream)
             assert len(session.watchers) == 1
-        while len(session.watchers):  # noqa: ASYNC110 - the server hears of the close in its own time
-            await asyncio.sleep(0)
+        async with asyncio.timeout(5):
+            while len(session.watchers):  # noqa: ASYNC110 - the server hears of the close in its own time
+                await asyncio.sleep(0)
 
 
 async def test_stopping_tells_readers_to_come_back(live: Live) -> None:
