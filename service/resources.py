@@ -21,8 +21,8 @@ def web_folder() -> Path:
 
 def _folder(name: str) -> Path:
     """A checkout's folder wins, so that an edit shows at once. Raises `FileNotFoundError`."""
-    for folder in (_CHECKOUT / name, _BUNDLED / name):
-        if (_CHECKOUT / "pyproject.toml").is_file() or folder.parent == _BUNDLED:
-            if folder.is_dir():
-                return folder
+    roots = (_CHECKOUT, _BUNDLED) if (_CHECKOUT / "pyproject.toml").is_file() else (_BUNDLED,)
+    for root in roots:
+        if (root / name).is_dir():
+            return root / name
     raise FileNotFoundError(f"no {name} folder beside {_PACKAGE} or in {_BUNDLED}")

@@ -25,6 +25,9 @@ _LENIENT = ("counted", "the_many", "bare_many")
 _TOGETHER = frozenset({"pause", "and"})
 """Separators inside a listing clause; any other ends it."""
 _OR = "or"
+_BUT = "but"
+"""After this a part says for itself what to do: "remove all but two cars" leans on nothing."""
+
 _WHOLE = (".all", ".the_many", ".bare_many", ".those")
 """Amounts that hold again in another place: "the cones in lane 3 and in lane 5"."""
 
@@ -185,6 +188,8 @@ class Divider:
             return Clause(start, end, *found, negated=found[0].frame.leaves_out)
         if NEGATION in plain.concepts:
             return self._negated(part, context)
+        if part.after == _BUT:
+            return None
         if context.verb:
             leaning = self._stretch(start, end, context)
             found = self._matcher.match(leaning, verbless=False)
