@@ -4,6 +4,9 @@ The server sends `hello`, then `tick` and `changed` as they happen; a reader tha
 a full `state` and is told what it missed. The client sends `command`, `actions` and `ping`, and is
 answered under its own `id`. Nothing a client sends can do more here than over HTTP.
 
+A reader that comes back after a loss says `?after=<sequence>`, the last change it saw. It needs no
+other answer than anyone: `hello` brings the whole state and the latest lines of the log, numbered.
+
 Codes it closes with: 1000 the session was deleted, 1008 too many malformed messages, 1009 a
 message too large (by the server itself), 1012 the service stops, 4404 no such session.
 """
