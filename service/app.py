@@ -31,6 +31,7 @@ from service.api.context import Context, Language
 from service.api.views import PREFIX
 from service.language import Language as Grammar
 from service.narrate import Narrator
+from service.sessions.availability import refusal
 from service.sessions.clock import Clock, WheelClock
 from service.sessions.manager import SessionManager
 from service.sessions.session import Surroundings
@@ -47,6 +48,13 @@ Everything the page does is a call documented here. Errors are problems (RFC 945
 a stream: open a WebSocket on `/api/v1/sessions/{id}/stream`; it sends `hello`, then `tick` and
 `changed` messages, and takes `{"type": "command", "id": "1", "text": "add five potholes"}`.
 """
+
+
+def _grammar() -> Grammar:
+    """English, suggesting only what this version does; ready before anyone is refused."""
+    grammar = Grammar.load(offered=lambda action: refusal(action) is None)
+    grammar.suggestions.nearest("", frozenset())
+    return grammar
 
 
 def create_app(
@@ -66,7 +74,7 @@ def create_app(
     clock = clock or WheelClock()
     words = words or Narrator.load()
     manager = SessionManager(Surroundings(store, clock, words, settings))
-    context = Context(settings, store, clock, language or Grammar.load(), words, manager, CapacityLimiter(1))
+    context = Context(settings, store, clock, language or _grammar(), words, manager, CapacityLimiter(1))
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:

@@ -9,13 +9,13 @@ pure function of the text; no input raises.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cached_property
 from pathlib import Path
 
 from pydantic import ValidationError
 
-from service.actions import load
+from service.actions import Action, load
 from service.language.capture import names
 from service.language.clauses import Clause, Divided, Divider, Fragment, fragments
 from service.language.data import LanguageData, LanguageDataError, read_language
@@ -41,22 +41,29 @@ MAX_UNPARSED = 8
 class Language:
     """One language, loaded. Immutable after loading; safe to share between threads."""
 
-    def __init__(self, data: LanguageData) -> None:
+    def __init__(self, data: LanguageData, offered: Callable[[Action], bool] | None = None) -> None:
         self.data = data
+        self._offered = offered
         self._lexicon = data.lexicon
         self._scanner = Scanner(data.lexicon, data.numbers)
         self.frames = Frames(data.frames, data.parameters)
 
     @classmethod
-    def load(cls, code: str = "en", folder: Path | None = None) -> Language:
+    def load(
+        cls,
+        code: str = "en",
+        folder: Path | None = None,
+        offered: Callable[[Action], bool] | None = None,
+    ) -> Language:
         """The language with this code, from `folder` (default: the project's prompts).
 
+        Everything in it is understood; only what is `offered` is suggested.
         Raises `LanguageDataError`, naming every defect, when the files are unfit.
         """
         data = read_language((folder or prompts_folder() / "language") / code)
         if found := flaws(data):
             raise LanguageDataError("; ".join(found))
-        return cls(data)
+        return cls(data, offered)
 
     def parse(self, text: str) -> Parse:
         """What a person said: `Understood`, `Refused` or `Ambiguous`. Never raises."""
@@ -113,8 +120,14 @@ class Language:
     @cached_property
     def suggestions(self) -> Suggestions:
         """The example sayings of all frames, ready to be ranked; made at the first refusal."""
-        sayings = [say for frame in self.data.frames for say in frame.says]
+        sayings = [say for frame in self.data.frames for say in frame.says if self._suggests(say)]
         return Suggestions((say, self.concepts(say)) for say in sayings)
+
+    def _suggests(self, say: str) -> bool:
+        if self._offered is None:
+            return True
+        parse = self.parse(say)
+        return isinstance(parse, Understood) and all(map(self._offered, parse.actions))
 
     def concepts(self, text: str) -> frozenset[str]:
         """The content concepts that occur in a text."""

@@ -7,6 +7,8 @@ from typing import Any, get_args
 import pytest
 
 from service import actions as contract
+from service.language import Language
+from service.language.parse_types import Refused, Understood
 from service.problems import NotAvailable
 from service.sessions.availability import refusal
 from service.sessions.draft import Draft
@@ -91,3 +93,15 @@ def test_what_is_not_offered_says_so(action: dict[str, Any]) -> None:
         draft.perform(1, contract.load([action]))
     assert raised.value.errors[0].field.startswith("actions.0")
     assert draft.timeline.run == before
+
+
+def test_nothing_is_suggested_that_is_not_offered() -> None:
+    language = Language.load(offered=lambda action: refusal(action) is None)
+    for said in ("add five potholes and order pizza", "make it rain cats", "avoid potholes or else", "zebra"):
+        parse = language.parse(said)
+        assert isinstance(parse, Refused), said
+        for suggestion in parse.suggestions:
+            meant = language.parse(suggestion)
+            assert isinstance(meant, Understood)
+            assert all(refusal(action) is None for action in meant.actions), suggestion
+    assert language.parse("add five potholes and order pizza").suggestions  # type: ignore[union-attr]
