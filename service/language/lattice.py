@@ -52,8 +52,8 @@ class Lattice:
 
     def between(self, start: int, end: int) -> Iterator[Edge]:
         """The edges inside tokens `[start, end)`."""
-        for at in range(start, end):
-            for edge in self.edges[at]:
+        for starting in self.edges[start:end]:
+            for edge in starting:
                 if edge.end <= end:
                     yield edge
 
