@@ -8,7 +8,7 @@ A change that was begun is finished even when whoever asked for it has gone.
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -181,10 +181,9 @@ class Session:
                 self._take_tick_due()
 
     async def _perform(self, draft: Draft, utterance: Utterance) -> tuple[Fact, ...]:
-        work: Callable[[], tuple[Fact, ...]] = lambda: draft.perform(self.sequence + 1, utterance.actions)  # noqa: E731
-        return (
-            await to_thread.run_sync(work) if draft.work_ticks(utterance.actions) > THREAD_TICKS else work()
-        )
+        if draft.work_ticks(utterance.actions) > THREAD_TICKS:
+            return await to_thread.run_sync(draft.perform, self.sequence + 1, utterance.actions)
+        return draft.perform(self.sequence + 1, utterance.actions)
 
     def _outcome(self, utterance: Utterance, facts: tuple[Fact, ...], sequence: int) -> Outcome:
         words = self._around.words

@@ -311,6 +311,26 @@ async def test_a_step_pauses_and_may_be_long() -> None:
     assert session.timeline.tick == 900
 
 
+async def test_an_undo_of_long_ago_leaves_the_loop_free() -> None:
+    """What was said 20,000 ticks ago is taken out of the past beside the loop, not in its way."""
+    service = Service(max_step_ticks=10_000)
+    session = await service.session()
+    await do(session, ADD)
+    for _ in range(2):
+        await do(session, {"do": "step", "ticks": 10_000})
+    undoing = asyncio.create_task(do(session, UNDO))
+    turns = 0
+    while not undoing.done():
+        await asyncio.sleep(0.001)
+        turns += 1
+    await undoing
+    assert turns > 20
+    untouched = await Service(max_step_ticks=10_000).session()
+    for _ in range(2):
+        await do(untouched, {"do": "step", "ticks": 10_000})
+    assert session.run.world.digest() == untouched.run.world.digest()
+
+
 async def test_a_failed_tick_pauses_and_tells() -> None:
     session = await Service().session()
     watcher = session.watchers.join()
