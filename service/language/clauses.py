@@ -22,7 +22,7 @@ MAX_JOINED = 16
 """How many fragments one listing clause may have."""
 
 _LENIENT = ("counted", "the_many", "bare_many")
-_TOGETHER = frozenset({"pause", "and"})
+_TOGETHER = frozenset({"pause", "and", "but"})
 """Separators inside a listing clause; any other ends it."""
 _OR = "or"
 _BUT = "but"

@@ -37,6 +37,8 @@ class LanguageData:
     messages: Mapping[str, str]
     vague: int
     number_words: frozenset[str]
+    nouns: Mapping[str, str]
+    """for each concept that may only stand with a value of its own kind ("weather"), that kind"""
 
     def knows(self, word: str) -> bool:
         """Whether a word means anything, alone or in a phrase."""
@@ -85,4 +87,5 @@ def _read(folder: Path) -> LanguageData:
         messages=words["messages"],
         vague=int(words["vague"]),
         number_words=numbers.words(),
+        nouns=frames["agree"],
     )

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 from pydantic import ValidationError
 
@@ -80,6 +81,7 @@ class Language:
         kept = names(tokens, self._lexicon)
         tokens, corrections = self._repaired(plain, tokens, kept)
         lattice = self._scanner.scan(tokens, kept, plain)
+        lattice.keep_whole(self.data.nouns)
         return _Reading(self, text, plain, tokens, lattice, corrections).parse(asking=asking)
 
     def check(self) -> list[str]:
@@ -145,6 +147,19 @@ def _content(lattice: Lattice) -> frozenset[str]:
     )
 
 
+def _once(values: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Without what is only said again for emphasis: "stop, hold on" pauses once."""
+    return [
+        value
+        for value, before in zip(values, [None, *values], strict=False)
+        if value != before or value["do"] not in _STEADY
+    ]
+
+
+_STEADY = ("pause", "resume")
+"""Actions that make no difference the second time."""
+
+
 class _Reading:
     """One utterance on its way through the engine."""
 
@@ -183,7 +198,7 @@ class _Reading:
         )
         if question is not None:
             return self._asked(question) if asking else self._refused([self._plain], ())
-        values = [value for clause in clauses for value in clause.actions]
+        values = _once([value for clause in clauses for value in clause.actions])
         if not values:
             return self._refusal("negation", self._messages["negation"])
         try:

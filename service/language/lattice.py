@@ -57,6 +57,17 @@ class Lattice:
                 if edge.end <= end:
                     yield edge
 
+    def keep_whole(self, nouns: Mapping[str, str]) -> None:
+        """Let no value be read inside its own noun: the "day" of "time of day" is not the day.
+
+        `nouns` gives for each noun's concept that of its values.
+        """
+        for outer in [edge for edge in self.all() if edge.concept in nouns and edge.end - edge.start > 1]:
+            for starting in self.edges[outer.start : outer.end]:
+                starting[:] = [
+                    edge for edge in starting if edge.concept != nouns[outer.concept] or edge.end > outer.end
+                ]
+
     def uncovered(self) -> list[int]:
         """The tokens that no edge contains: words that mean nothing here."""
         covered = [False] * self.size
