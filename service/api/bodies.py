@@ -5,16 +5,25 @@ The language contract's actions are `service.actions`; what is answered is in `s
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, TypeVar
 
-from pydantic import BaseModel, ConfigDict, Field, WithJsonSchema
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
 
-from service.actions import Action
+from service.actions import Action, load
 from service.api.config_schema import CONFIG_SCHEMA
 from sim.actions import PlannerName
 
 Tick = Annotated[int, Field(ge=0, le=2**53 - 1, description="Ticks since the session began.")]
 ConfigParts = Annotated[dict[str, Any], WithJsonSchema(CONFIG_SCHEMA)]
+
+
+def _strictly(values: Any) -> Any:
+    """Actions as `service.actions.load` reads them: `"5"` and `true` are no numbers."""
+    return list(load(values)) if isinstance(values, list) else values
+
+
+Value = TypeVar("Value")
+Strictly = Annotated[Value, BeforeValidator(_strictly)]
 
 MAX_ACTIONS = 100
 """Actions that may be sent at once."""
@@ -32,7 +41,7 @@ class RecordedEntry(Sent):
     sequence: int = Field(ge=1)
     tick: Tick
     text: str | None
-    actions: list[Action] = Field(max_length=MAX_ACTIONS)
+    actions: Strictly[list[Action]] = Field(max_length=MAX_ACTIONS)
 
 
 class Recording(Sent):
@@ -71,7 +80,7 @@ class Said(Sent):
 class TypedActions(Sent):
     """Actions of the language contract, no language involved; done together or not at all."""
 
-    actions: list[Action] = Field(min_length=1, max_length=MAX_ACTIONS)
+    actions: Strictly[list[Action]] = Field(min_length=1, max_length=MAX_ACTIONS)
     dry_run: bool = Field(False, description="Say what would be done, and do nothing.")
 
 

@@ -24,7 +24,7 @@ from pydantic import Discriminator, Field, TypeAdapter, ValidationError
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from service.actions import Action
-from service.api.bodies import MAX_ACTIONS, Sent
+from service.api.bodies import MAX_ACTIONS, Sent, Strictly
 from service.api.context import Context, context_of
 from service.api.errors import field_problems, invalid
 from service.api.respond import problem_response
@@ -61,7 +61,7 @@ class Actions(Sent):
 
     type: Literal["actions"]
     id: Id
-    actions: list[Action] = Field(min_length=1, max_length=MAX_ACTIONS)
+    actions: Strictly[list[Action]] = Field(min_length=1, max_length=MAX_ACTIONS)
     dry_run: bool = False
 
 

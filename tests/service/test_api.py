@@ -141,6 +141,17 @@ async def test_bad_actions_name_their_fields(service: Service) -> None:
     assert errors["actions.0.count"] == "must be at least 1"
 
 
+@pytest.mark.parametrize("count", ["5", True, 2.5, 0, None, [1]])
+async def test_only_a_number_is_a_number(service: Service, count: object) -> None:
+    session = (await service.client.post("/api/v1/sessions", json={"paused": True})).json()
+    action = {"do": "add", "kind": "pothole", "count": count}
+    answer = await service.client.post(
+        f"/api/v1/sessions/{session['id']}/actions", json={"actions": [action]}
+    )
+    assert answer.status_code == 422
+    assert [error["field"] for error in answer.json()["errors"]] == ["actions.0.count"]
+
+
 async def test_steps_answer_their_decisions(service: Service) -> None:
     path = await service.session()
     answer = (await service.client.post(f"{path}/step", json={"ticks": 12})).json()
