@@ -6,9 +6,11 @@ pictures go. Importing this package does not import pygame; drawing does.
 
 from __future__ import annotations
 
+from os import environ
 from typing import TYPE_CHECKING
 
 from sim.view.motion import STEP_FRAMES, eased
+from sim.view.theme import MAX_SIDE_PX
 
 if TYPE_CHECKING:
     import pygame
@@ -19,10 +21,10 @@ if TYPE_CHECKING:
 
 VIEWS = ("road", "schematic")
 FORMATS = ("png", "jpeg")
-MAX_SIDE = 2_160
-"""The longest side of a picture, in pixels."""
+MIN_SIDE_PX = 64
+"""The least room for a picture."""
 
-__all__ = ["FORMATS", "MAX_SIDE", "STEP_FRAMES", "VIEWS", "eased", "encode", "render"]
+__all__ = ["FORMATS", "MAX_SIDE_PX", "MIN_SIDE_PX", "STEP_FRAMES", "VIEWS", "eased", "encode", "render"]
 
 
 def render(
@@ -38,11 +40,15 @@ def render(
 
     `before` is the world one tick earlier, from which things glide as `phase` goes from 0 to 1;
     `decision` is what led from it to the present. `size` is the room for it in pixels (the
-    picture keeps its shape within). Raises `ValueError` for a view there is none of.
+    picture keeps its shape within). Raises `ValueError` for a view there is none of and for
+    a size that is too small or too large.
     """
+    environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     from sim.view.road_view import draw_road
     from sim.view.schematic import draw_schematic
 
+    if size is not None and not all(MIN_SIDE_PX <= side <= MAX_SIDE_PX for side in size):
+        raise ValueError(f"the sides of a picture are {MIN_SIDE_PX} to {MAX_SIDE_PX} pixels, not {size}")
     if view == "road":
         return draw_road(run, before, decision, phase, size)
     if view == "schematic":

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from sim.config import Config
-from sim.view.theme import CELL_PX
+from sim.view.theme import CELL_PX, MAX_SIDE_PX
 
 AHEAD_SHARE = 0.7
 """the vehicle is kept so far down the screen, that more is seen of what is ahead than behind"""
@@ -39,7 +39,8 @@ class Camera:
 def camera_on(config: Config, row: float, size: tuple[int, int] | None) -> Camera:
     """The camera that follows a vehicle in a row, within `size` pixels; it stops at both ends of the road."""
     rows = min(config.visible_rows, config.rows)
-    fitting = CELL_PX if size is None else min(int(size[0] / (config.columns + 0.5)), size[1] // rows)
-    cell = max(4, fitting)
+    width, height = size or (MAX_SIDE_PX, MAX_SIDE_PX)
+    fitting = min(int(width / (config.columns + 0.5)), height // rows)
+    cell = max(1, min(fitting, CELL_PX) if size is None else fitting)
     top = min(max(0.0, row + 0.5 - AHEAD_SHARE * rows), float(config.rows - rows))
     return Camera(cell, cell // 4, config.columns, rows, top)

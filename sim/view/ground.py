@@ -1,4 +1,7 @@
-"""The empty road under everything: verges, asphalt, lines, start and finish; drawn once a size."""
+"""The empty road under everything: verges, asphalt, lines, start and finish.
+
+A few rows are drawn once for each size and repeated, so that a long road costs no more than a short one.
+"""
 
 from __future__ import annotations
 
@@ -8,24 +11,35 @@ import pygame
 
 from sim.randomness import Stream
 from sim.view import theme
+from sim.view.camera import Camera
 
 GRAINS_A_CELL = 36
-_GROUNDS = 8
+TILE_ROWS = 4
+_TILES = 8
 
 
-@lru_cache(maxsize=_GROUNDS)
-def ground(cell_px: int, verge_px: int, columns: int, rows: int) -> pygame.Surface:
-    """The whole road as one tall picture, to be cut from."""
-    size = (columns * cell_px + 2 * verge_px, rows * cell_px)
+def lay_ground(picture: pygame.Surface, camera: Camera, rows: int) -> None:
+    """Draw the stretch of a road of `rows` rows that the camera sees."""
+    tile = _tile(camera.cell_px, camera.verge_px, camera.columns)
+    top = round(camera.top * camera.cell_px)
+    for y in range(-(top % tile.get_height()), picture.get_height(), tile.get_height()):
+        picture.blit(tile, (0, y))
+    road = pygame.Rect(camera.verge_px, -top, camera.columns * camera.cell_px, rows * camera.cell_px)
+    _finish(picture, road, camera.cell_px)
+    start = pygame.Rect(road.left, road.bottom - camera.cell_px, road.width, max(2, camera.cell_px // 30))
+    picture.fill(theme.EDGE_LINE, start)
+
+
+@lru_cache(maxsize=_TILES)
+def _tile(cell_px: int, verge_px: int, columns: int) -> pygame.Surface:
+    """Some rows of road between start and finish, to be laid end to end."""
+    size = (columns * cell_px + 2 * verge_px, TILE_ROWS * cell_px)
     picture = pygame.Surface(size)
     picture.fill(theme.VERGE)
     road = pygame.Rect(verge_px, 0, columns * cell_px, size[1])
     picture.fill(theme.ASPHALT, road)
-    _grain(picture, road, columns * rows * GRAINS_A_CELL)
+    _grain(picture, road, columns * TILE_ROWS * GRAINS_A_CELL)
     _lines(picture, road, cell_px, columns)
-    _finish(picture, road, cell_px)
-    start = pygame.Rect(road.left, road.bottom - cell_px, road.width, max(2, cell_px // 30))
-    picture.fill(theme.EDGE_LINE, start)
     return picture
 
 
@@ -55,5 +69,6 @@ def _finish(picture: pygame.Surface, road: pygame.Rect, cell_px: int) -> None:
     square = max(2, cell_px // 6)
     for line in range(2):
         for n in range(road.width // square + 1):
-            spot = pygame.Rect(road.left + n * square, cell_px - 2 * square + line * square, square, square)
+            y = road.top + cell_px - (2 - line) * square
+            spot = pygame.Rect(road.left + n * square, y, square, square)
             picture.fill(theme.FINISH[(n + line) % 2], spot.clip(road))

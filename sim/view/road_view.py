@@ -9,7 +9,7 @@ from sim.plan import Decision
 from sim.run import Run
 from sim.view import theme
 from sim.view.camera import Camera, camera_on
-from sim.view.ground import ground
+from sim.view.ground import lay_ground
 from sim.view.hud import draw_figures, draw_verdict
 from sim.view.motion import between, eased
 from sim.view.sprites import av_sprite, barrier_sprite, pedestrian_sprite, pothole_sprite, vehicle_sprite
@@ -29,7 +29,8 @@ def draw_road(
         before = world
     av = _gliding(before.road.cell(before.av), world.road.cell(world.av), share)
     camera = camera_on(run.config, av[1], size)
-    picture = _cut(camera, run.config.rows)
+    picture = pygame.Surface(camera.size)
+    lay_ground(picture, camera, run.config.rows)
     was = {thing.id: thing.cell for thing in before.things()}
     for thing in sorted(world.things(), key=lambda thing: thing.kind not in HAZARDS):
         column, row = _gliding(was.get(thing.id, thing.cell), thing.cell, share)
@@ -41,14 +42,6 @@ def draw_road(
     _draw_box(picture, camera, av, theme.AV)
     draw_figures(picture, run, camera.cell_px)
     draw_verdict(picture, run, camera.cell_px)
-    return picture
-
-
-def _cut(camera: Camera, rows: int) -> pygame.Surface:
-    """The stretch of empty road that the camera sees."""
-    whole = ground(camera.cell_px, camera.verge_px, camera.columns, rows)
-    picture = pygame.Surface(camera.size)
-    picture.blit(whole, (0, -round(camera.top * camera.cell_px)))
     return picture
 
 

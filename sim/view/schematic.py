@@ -7,6 +7,7 @@ import pygame
 from sim.kinds import Kind
 from sim.run import Run
 from sim.view import theme
+from sim.view.theme import MAX_SIDE_PX
 
 CELL_PX = 24
 
@@ -14,7 +15,9 @@ CELL_PX = 24
 def draw_schematic(run: Run, size: tuple[int, int] | None) -> pygame.Surface:
     """See `sim.view.render`."""
     road = run.world.road
-    px = CELL_PX if size is None else max(2, min(size[0] // road.columns, size[1] // road.rows))
+    width, height = size or (MAX_SIDE_PX, MAX_SIDE_PX)
+    fitting = max(1, min(width // road.columns, height // road.rows))
+    px = min(fitting, CELL_PX) if size is None else fitting
     picture = pygame.Surface((road.columns * px, road.rows * px))
     picture.fill(theme.SCHEMATIC_GRID)
     gap = 1 if px >= 6 else 0

@@ -9,6 +9,9 @@ Colour = tuple[int, int, int]
 CELL_PX: Final = 90
 """side of a cell in the road view, in pixels, when no size is asked for"""
 
+MAX_SIDE_PX: Final = 2_160
+"""longest side of a picture"""
+
 VERGE: Final[Colour] = (34, 44, 38)
 ASPHALT: Final[Colour] = (52, 56, 63)
 ASPHALT_GRAIN: Final[tuple[Colour, ...]] = ((47, 51, 58), (57, 61, 68), (61, 65, 72))

@@ -16,7 +16,7 @@ from PIL import Image
 from sim.config import Config
 from sim.kinds import Outcome
 from sim.run import Run, Tick, advance
-from sim.view import VIEWS, eased, encode, render
+from sim.view import MAX_SIDE_PX, VIEWS, eased, encode, render
 from sim.view.camera import camera_on
 from tests.sim.roads import road, run_on
 
@@ -126,7 +126,7 @@ def drawn(
     ticks=st.integers(0, 80),
     phase=st.floats(0, 1),
     view=st.sampled_from(VIEWS),
-    size=st.none() | st.tuples(st.integers(20, 900), st.integers(20, 900)),
+    size=st.none() | st.tuples(st.integers(64, 900), st.integers(64, 900)),
 )
 def test_any_road_at_any_size_can_be_drawn(
     columns: int, rows: int, ticks: int, phase: float, view: str, size: tuple[int, int] | None
@@ -134,6 +134,20 @@ def test_any_road_at_any_size_can_be_drawn(
     config = Config(columns=columns, rows=rows, visible_rows=min(8, rows), pedestrians=1, barriers=1)
     picture = drawn(config, ticks, phase, view, size)
     assert min(picture.get_size()) > 0
+    if size is not None:
+        assert all(side <= most for side, most in zip(picture.get_size(), size, strict=True))
+
+
+def test_the_largest_road_makes_no_larger_picture() -> None:
+    config = Config(columns=64, rows=512, visible_rows=64, vehicles=9, potholes=9)
+    for view in VIEWS:
+        assert max(render(view, Run.start(config)).get_size()) <= MAX_SIDE_PX
+
+
+@pytest.mark.parametrize("size", [(0, 0), (-5, -5), (63, 500), (500, 100_000)])
+def test_sizes_that_cannot_be_are_refused(size: tuple[int, int]) -> None:
+    with pytest.raises(ValueError, match="64 to 2160 pixels"):
+        render("road", with_sign(5, 6, "o"), size=size)
 
 
 @pytest.mark.parametrize("form", ["png", "jpeg"])
