@@ -18,7 +18,7 @@ def test_the_first_minute_by_keyboard(visit: Visit) -> None:
     keys.type("add five potholes")
     keys.press("Enter")
     expect(visitor.last_exchange("add five potholes").locator(".change").first).to_be_visible()
-    keys.type("why did you do that?")
+    keys.type("/why did you do that?")  # the slash once more does no harm
     keys.press("Enter")
     expect(visitor.last_exchange("why did you do that?").locator(".answer")).to_be_visible()
     keys.type("add five potholes and order pizza")

@@ -51,7 +51,8 @@ export function createCommand(host, page) {
     else if (event.key === "Escape") {
       if (words.value === "") words.blur();
       words.value = "";
-    } else return;
+    } else if (event.key !== "/" || words.value !== "") return;
+    // A slash in an empty box is the key that leads here, pressed once more.
     event.preventDefault();
   });
 
