@@ -20,6 +20,8 @@ TimeOfDay = Literal["day", "dusk", "night", "dawn"]
 RoadType = Literal["highway", "city", "rural"]
 Traffic = Literal["none", "light", "normal", "heavy"]
 PlannerName = Literal["priority", "astar", "dijkstra", "dwa", "rl", "cooperative"]
+Preference = Literal["avoid_potholes", "smooth_ride", "fastest", "cautious"]
+"""What a vehicle can be asked to mind; `balanced` is none of them."""
 SensorName = Literal["perfect", "camera", "lidar", "radar", "fusion"]
 
 MAX_THINGS = 10_000

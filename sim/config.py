@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields, replace
 from typing import Any, Final, get_args
 
-from sim.actions import PlannerName, RoadType, SensorName, Traffic
+from sim.actions import PlannerName, Preference, RoadType, SensorName, Traffic
 from sim.randomness import MAX_SEED
 from sim.road import Road
 
@@ -43,6 +43,7 @@ RANGES: Final[dict[str, tuple[float, float]]] = {
     "pedestrians": (0, 10_000),
     "courtesy": (0.0, 1.0),
     "reset_delay_s": (0.0, 60.0),
+    "safety_buffer": (0, 3),
     "seed": (0, MAX_SEED),
 }
 """Inclusive limits of every number."""
@@ -55,9 +56,23 @@ CHOICES: Final[dict[str, tuple[str, ...]]] = {
 }
 """The words that may stand where a word is asked for."""
 
+LISTS: Final[dict[str, tuple[str, ...]]] = {"preferences": get_args(Preference)}
+"""The words that may stand in a list."""
+
 _WHOLE: Final = frozenset(
-    ("columns", "visible_rows", "rows", "potholes", "vehicles", "barriers", "pedestrians", "seed")
+    (
+        "columns",
+        "visible_rows",
+        "rows",
+        "potholes",
+        "vehicles",
+        "barriers",
+        "pedestrians",
+        "safety_buffer",
+        "seed",
+    )
 )
+_SWITCHES: Final = frozenset(("solvable",))
 _OPTIONAL: Final = frozenset(("potholes", "vehicles", "road", "traffic"))
 
 
@@ -85,7 +100,13 @@ class Config:
     road: RoadType | None = None
     traffic: Traffic | None = None
     planner: PlannerName = "priority"
+    preferences: tuple[Preference, ...] = ()
+    """how planners that weigh costs should weigh them; the balance is in `sim.plan.costs`"""
+    safety_buffer: int = 1
+    """cells around a mover that cost something to be in, for planners that weigh costs"""
     sensor: SensorName = "perfect"
+    solvable: bool = False
+    """draw roads until one can be driven"""
     seed: int = 0
 
     def __post_init__(self) -> None:
@@ -95,6 +116,9 @@ class Config:
 
     def with_parts(self, **parts: Any) -> Config:
         """This configuration with some fields changed. Raises `ConfigError`."""
+        for name in LISTS:
+            if isinstance(parts.get(name), list):
+                parts[name] = tuple(parts[name])
         unknown = sorted(set(parts) - {field.name for field in fields(self)})
         if unknown:
             raise ConfigError(tuple(Problem(name, "is not a setting of a road") for name in unknown))
@@ -135,11 +159,21 @@ class Config:
         return problems
 
     def _word_problems(self) -> list[Problem]:
-        return [
+        problems = [
             Problem(name, f"must be one of {', '.join(choices)}")
             for name, choices in CHOICES.items()
             if getattr(self, name) not in choices and not (name in _OPTIONAL and getattr(self, name) is None)
         ]
+        for name, choices in LISTS.items():
+            words = getattr(self, name)
+            if not isinstance(words, tuple) or not set(words) <= set(choices) or len(set(words)) < len(words):
+                problems.append(Problem(name, f"must be a list of any of {', '.join(choices)}, each once"))
+        problems += [
+            Problem(name, "must be true or false")
+            for name in _SWITCHES
+            if not isinstance(getattr(self, name), bool)
+        ]
+        return problems
 
     def _room_problems(self) -> list[Problem]:
         room = self.columns * (self.rows - 2)

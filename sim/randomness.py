@@ -3,7 +3,8 @@
 A draw is a pure function of (seed, purpose, indices), so that drawing more in one place can never
 shuffle another: a what-if asks about *this* world, not about a reshuffled one. The mixing function
 is the finaliser of SplitMix64 (Steele, Lea & Flood, "Fast splittable pseudorandom number
-generators", OOPSLA 2014), which is plain 64-bit arithmetic and so the same on every machine.
+generators", OOPSLA 2014), which is plain 64-bit arithmetic and so the same on every machine. The
+functions on words serve Python's integers and 64-bit machine words alike.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from hashlib import blake2b
 from typing import Final
 
 _MASK: Final = (1 << 64) - 1
+_HALF: Final = (1 << 32) - 1
 _GOLDEN: Final = 0x9E3779B97F4A7C15
 
 MAX_SEED: Final = 2**53 - 1
@@ -28,8 +30,24 @@ def mix(value: int) -> int:
     return value ^ (value >> 31)
 
 
+def word_at(key: int, index: int) -> int:
+    """Word number `index` of the stream with this key; also the key of its sub-stream there."""
+    return mix((key + _GOLDEN * (index + 1)) & _MASK)
+
+
+def fraction(word: int) -> float:
+    """A word as a number in [0, 1), of its highest 53 bits."""
+    return (word >> 11) * 2.0**-53
+
+
+def scaled(word: int, bound: int) -> int:
+    """A word as an integer in [0, bound), for bounds below 2³²: `word * bound >> 64` in halves."""
+    return ((word >> 32) * bound + ((word & _HALF) * bound >> 32)) >> 32
+
+
 @lru_cache(maxsize=256)
-def _purpose_key(purpose: str) -> int:
+def purpose_key(purpose: str) -> int:
+    """The word that a purpose's name stands for."""
     return int.from_bytes(blake2b(purpose.encode(), digest_size=8).digest(), "little")
 
 
@@ -42,24 +60,24 @@ class Stream:
     @classmethod
     def of(cls, seed: int, purpose: str, *indices: int) -> Stream:
         """The stream of one purpose ("spawn", "traffic", …), narrowed by indices."""
-        stream = cls(mix(seed + _GOLDEN) ^ _purpose_key(purpose))
+        stream = cls(mix(seed + _GOLDEN) ^ purpose_key(purpose))
         return stream.narrow(*indices)
 
     def narrow(self, *indices: int) -> Stream:
         """The sub-stream at some indices, independent of its neighbours."""
         key = self.key
         for index in indices:
-            key = mix(key + _GOLDEN * (index + 1))
+            key = word_at(key, index)
         return Stream(key)
 
     def word(self, index: int) -> int:
         """64 random bits."""
-        return mix(self.key + _GOLDEN * (index + 1))
+        return word_at(self.key, index)
 
     def uniform(self, index: int) -> float:
         """A number in [0, 1), of 53 random bits."""
-        return (self.word(index) >> 11) * 2.0**-53
+        return fraction(self.word(index))
 
     def below(self, bound: int, index: int) -> int:
         """An integer in [0, bound); the bias is below bound / 2⁶⁴."""
-        return self.word(index) * bound >> 64
+        return scaled(self.word(index), bound)

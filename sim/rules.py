@@ -91,6 +91,70 @@ def swapped(start: Board, end: Board, came_right: Board, came_left: Board) -> Bo
     return end << 1 & start & came_right | end >> 1 & start & came_left
 
 
+class Steps(NamedTuple):
+    """Cells that a vehicle (or each of a set of them) may be in after a tick, by move."""
+
+    forward: Board
+    left: Board
+    right: Board
+    forward_left: Board
+    forward_right: Board
+    stay: Board
+
+
+def free_steps(
+    start: Board,
+    ahead: Board,
+    blocked: Board,
+    came_right: Board,
+    came_left: Board,
+    left_edge: Board,
+    right_edge: Board,
+) -> Steps:
+    """Where vehicles standing in `start` may be next, meeting nothing.
+
+    `ahead` is `start` one row on (a caller with boards cut into words carries it over), `blocked`
+    the fixed hazards and the movers after the tick, `came_*` the cells they entered. The sideways
+    steps leave out those that pass through a mover (`swapped`, said of sets).
+    """
+    free = ~blocked
+    return Steps(
+        forward=ahead & free,
+        left=(start & ~left_edge & ~came_right) >> 1 & free,
+        right=(start & ~right_edge & ~came_left) << 1 & free,
+        forward_left=(ahead & ~left_edge) >> 1 & free,
+        forward_right=(ahead & ~right_edge) << 1 & free,
+        stay=start & free,
+    )
+
+
+def steps_into(
+    end: Board,
+    behind: Board,
+    came_right: Board,
+    came_left: Board,
+    left_edge: Board,
+    right_edge: Board,
+) -> Steps:
+    """The reverse: cells from which each move leads into `end`, whose cells are free after the tick.
+
+    `behind` is `end` one row back.
+    """
+    return Steps(
+        forward=behind,
+        left=(end & ~right_edge) << 1 & ~came_right,
+        right=(end & ~left_edge) >> 1 & ~came_left,
+        forward_left=(behind & ~right_edge) << 1,
+        forward_right=(behind & ~left_edge) >> 1,
+        stay=end,
+    )
+
+
+def beside(board: Board, left_edge: Board, right_edge: Board) -> Board:
+    """A set of cells with their neighbours to the left and right."""
+    return board | (board & ~left_edge) >> 1 | (board & ~right_edge) << 1
+
+
 def followed_board(board: Board, motion: Motion) -> Board:
     """A subset of the movers, moved along with them."""
     gone_right = board & motion.came_right >> 1

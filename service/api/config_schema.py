@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import fields
 from typing import Any
 
-from sim.config import _WHOLE, CHOICES, RANGES, Config
+from sim.config import _WHOLE, CHOICES, LISTS, RANGES, Config
 
 
 def _property(name: str, default: Any) -> dict[str, Any]:
@@ -13,6 +13,11 @@ def _property(name: str, default: Any) -> dict[str, Any]:
     if name in CHOICES:
         choices: list[str | None] = [*CHOICES[name], *([None] if nullable else [])]
         return {"enum": choices, "default": default}
+    if name in LISTS:
+        items = {"type": "string", "enum": list(LISTS[name])}
+        return {"type": "array", "items": items, "uniqueItems": True, "default": list(default)}
+    if isinstance(default, bool):
+        return {"type": "boolean", "default": default}
     low, high = RANGES[name]
     kind = "integer" if name in _WHOLE else "number"
     return {

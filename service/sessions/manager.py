@@ -139,7 +139,7 @@ class SessionManager:
         self._check_room()
         entries = await self._around.store.entries(session_id)
         try:
-            config = Config(**record.config)
+            config = Config().with_parts(**record.config)
             session = Session(record, Timeline(config), self._around)
             await to_thread.run_sync(session.replay, entries, record.tick)
         except (ConfigError, TypeError, ReplayError) as error:

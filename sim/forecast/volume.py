@@ -1,7 +1,5 @@
 """The volume (tick, row, column) of what is expected: fixed hazards, and movers rolled out by the rules.
 
-With perfect sight and no courtesy the roll-out *is* what will happen, since movers do not react to
-vehicles; with courtesy the first tick is exact and later ones assume that nobody gives way.
 Risk and preferences enter as further terms beside `fixed` and the slices.
 """
 
@@ -11,9 +9,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 
+from sim.forecast.rollout import RollOut
 from sim.perceive import Percept
 from sim.road import Board, Road
-from sim.rules import followed_board, followed_table, move_movers, pedestrians_walk, swapped
+from sim.rules import Steps, free_steps, swapped
 
 
 class Verdict(StrEnum):
@@ -35,28 +34,41 @@ class Verdict(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Slice:
-    """Movers as expected after some ticks: where, and which cells were entered in the last one."""
-
-    occupied: Board
-    came_right: Board
-    came_left: Board
-    movers: Mapping[int, str]
-
-
-@dataclass(frozen=True, slots=True)
 class Forecast:
     """`slices[k]` is expected k + 1 ticks from now; fixed hazards hold throughout."""
 
     road: Road
     tick: int
+    episode_tick: int
     ego: int
     ego_id: str
     potholes: Board
     barriers: Board
     disabled: Board
     hazards: Mapping[int, str]
-    slices: tuple[Slice, ...]
+    slices: RollOut
+
+    @property
+    def fixed(self) -> Board:
+        """Every pothole and barrier."""
+        return self.potholes | self.barriers
+
+    def blocked(self, ahead: int = 0) -> Board:
+        """Every cell that anything stands in, `ahead` + 1 ticks from now."""
+        return self.fixed | self.slices[ahead].occupied
+
+    def steps(self, start: Board, ahead: int = 0) -> Steps:
+        """Where vehicles in any cell of `start` may be one tick later, `ahead` ticks from now."""
+        road, slice_ = self.road, self.slices[ahead]
+        return free_steps(
+            start,
+            start >> road.columns,
+            self.potholes | self.barriers | slice_.right | slice_.left,
+            slice_.came_right,
+            slice_.came_left,
+            road.left_edge,
+            road.right_edge,
+        )
 
     def expect(self, start: int, end: int | None, ahead: int = 0) -> tuple[Verdict, tuple[str, ...]]:
         """What a step from `start` to `end` meets, `ahead` ticks from now, and the ids of who is met.
@@ -71,9 +83,9 @@ class Forecast:
         who: tuple[str, ...] = ()
         swap = swapped(1 << start, bit, slice_.came_right, slice_.came_left)
         if swap:
-            verdict, who = Verdict.MOVER_SWAPS, (slice_.movers[start],)
+            verdict, who = Verdict.MOVER_SWAPS, (self.slices.movers(ahead)[start],)
         if bit & slice_.occupied:
-            who = (slice_.movers[end], *who)
+            who = (self.slices.movers(ahead)[end], *who)
             if bit & self.disabled:
                 verdict = Verdict.DISABLED_MOVER
             elif bit & (slice_.came_right | slice_.came_left):
@@ -93,30 +105,15 @@ class Forecast:
 
 def foretell(percept: Percept, horizon: int) -> Forecast:
     """What to expect of the next `horizon` ticks (at least one)."""
-    road = percept.road
-    fixed = percept.potholes | percept.barriers
-    disabled = (percept.right | percept.left) & percept.potholes
-    right, left, pedestrians = percept.right, percept.left, percept.pedestrians
-    table, yielding = percept.movers, percept.yielding
-    slices = []
-    for ahead in range(horizon):
-        walking = pedestrians_walk(percept.episode_tick + ahead)
-        resting = disabled if walking else disabled | pedestrians
-        motion = move_movers(
-            right, left, resting, fixed, yielding, percept.vehicles, road.left_edge, road.right_edge
-        )
-        right, left, yielding = motion.right, motion.left, 0
-        pedestrians = followed_board(pedestrians, motion)
-        table = followed_table(table, motion)
-        slices.append(Slice(right | left, motion.came_right, motion.came_left, table))
     return Forecast(
-        road=road,
+        road=percept.road,
         tick=percept.tick,
+        episode_tick=percept.episode_tick,
         ego=percept.ego,
         ego_id=percept.ego_id,
         potholes=percept.potholes,
         barriers=percept.barriers,
-        disabled=disabled,
+        disabled=(percept.right | percept.left) & percept.potholes,
         hazards=percept.hazards,
-        slices=tuple(slices),
+        slices=RollOut(percept, horizon),
     )

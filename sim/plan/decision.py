@@ -18,9 +18,15 @@ class Option:
     reason: Verdict
     """what the step would meet"""
     cost: float | None
-    """the lower the better, in the planner's own measure; None means not to be had"""
+    """the lower the better, in the planner's own measure; None means not to be had, or for a free cell
+    that no way leads on from there"""
     causes: tuple[str, ...]
     """ids of the things that would be met"""
+
+    @property
+    def dead_end(self) -> bool:
+        """Whether the step meets nothing, but its planner knows of no way on from there."""
+        return self.cost is None and not self.reason.blocks
 
     @property
     def verdict(self) -> str:

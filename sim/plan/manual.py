@@ -14,5 +14,5 @@ from sim.plan.decision import Decision
 
 def obey(planned: Decision, asked: Move) -> Decision:
     """The decision when a person asks for a move, given the planner's view of the same tick."""
-    granted = asked if planned.option(asked).cost is not None else Move.STAY
+    granted = Move.STAY if planned.option(asked).reason.blocks else asked
     return replace(planned, planner="manual", move=granted, asked=asked)

@@ -9,7 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sim.config import CHOICES, RANGES, Config, ConfigError
+from sim.config import _SWITCHES as SWITCHES
+from sim.config import CHOICES, LISTS, RANGES, Config, ConfigError
 
 WHOLE = ["columns", "visible_rows", "rows", "potholes", "vehicles", "barriers", "pedestrians", "seed"]
 COUNTS = ["potholes", "vehicles", "barriers", "pedestrians"]
@@ -38,7 +39,7 @@ def test_the_defaults_are_the_source_s_table() -> None:
 
 
 def test_every_field_has_a_range_or_a_choice_and_nothing_else_has() -> None:
-    assert sorted([*RANGES, *CHOICES]) == sorted(field.name for field in fields(Config))
+    assert sorted([*RANGES, *CHOICES, *LISTS, *SWITCHES]) == sorted(field.name for field in fields(Config))
 
 
 @pytest.mark.parametrize("name", list(RANGES))
