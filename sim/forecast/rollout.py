@@ -1,0 +1,84 @@
+"""Movers rolled out by the rules, as far ahead as is read and no further than was asked for.
+
+With perfect sight and no courtesy the roll-out *is* what will happen, since movers do not react to
+vehicles; with courtesy the first tick is exact and later ones assume that nobody gives way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import overload
+
+from sim.perceive import Percept
+from sim.road import Board
+from sim.rules import Motion, followed_board, followed_table, move_movers, pedestrians_walk
+
+
+class Slice(Motion):
+    """Movers as expected after some ticks: where, and which cells were entered in the last one."""
+
+    __slots__ = ()
+
+    @property
+    def occupied(self) -> Board:
+        """Every cell a mover stands in."""
+        return self.right | self.left
+
+
+class RollOut(Sequence[Slice]):
+    """`roll_out[k]` is expected k + 1 ticks from now. Ticks are computed when they are first read."""
+
+    def __init__(self, percept: Percept, horizon: int) -> None:
+        """The next `horizon` ticks (at least one) from what is seen."""
+        if horizon < 1:
+            raise ValueError("a horizon is at least one tick")
+        self._percept = percept
+        self._horizon = horizon
+        self._fixed = percept.potholes | percept.barriers
+        self._disabled = (percept.right | percept.left) & percept.potholes
+        self._slices: list[Slice] = []
+        self._tables: list[Mapping[int, str]] = []
+        self._right, self._left, self._pedestrians = percept.right, percept.left, percept.pedestrians
+
+    def __len__(self) -> int:
+        return self._horizon
+
+    @overload
+    def __getitem__(self, ahead: int) -> Slice: ...
+    @overload
+    def __getitem__(self, ahead: slice) -> list[Slice]: ...
+    def __getitem__(self, ahead: int | slice) -> Slice | list[Slice]:
+        if isinstance(ahead, slice):
+            return [self[each] for each in range(*ahead.indices(self._horizon))]
+        slices = self._slices
+        if not 0 <= ahead < len(slices):
+            if not 0 <= ahead < self._horizon:
+                raise IndexError(f"{ahead} ticks ahead is beyond the horizon of {self._horizon}")
+            while len(slices) <= ahead:
+                slices.append(self._next())
+        return slices[ahead]
+
+    def movers(self, ahead: int) -> Mapping[int, str]:
+        """Who is expected in which cell, `ahead` + 1 ticks from now."""
+        while len(self._tables) <= ahead:
+            before = self._tables[-1] if self._tables else self._percept.movers
+            self._tables.append(followed_table(before, self[len(self._tables)]))
+        return self._tables[ahead]
+
+    def _next(self) -> Slice:
+        percept, ahead = self._percept, len(self._slices)
+        walking = pedestrians_walk(percept.episode_tick + ahead)
+        motion = move_movers(
+            self._right,
+            self._left,
+            self._disabled if walking else self._disabled | self._pedestrians,
+            self._fixed,
+            percept.yielding if ahead == 0 else 0,
+            percept.vehicles,
+            percept.road.left_edge,
+            percept.road.right_edge,
+        )
+        self._right, self._left = motion.right, motion.left
+        if self._pedestrians:
+            self._pedestrians = followed_board(self._pedestrians, motion)
+        return Slice(*motion)

@@ -1,0 +1,77 @@
+"""What a way is charged for, and how preferences shift it. Whole numbers, so that every engine adds the same.
+
+A step that arrives in a cell at a tick costs
+
+    tick + (sideways | diagonal | stay, by the move)
+         + fixed · [a pothole or barrier is in one of the eight cells around]
+         + mover · Σ_{d = 1 … buffer} [a mover is then expected within d cells, diagonals counted as one]
+
+The balance is mostly time: what is charged for nearness decides between ways that take equally long, and
+seldom buys a tick. Simplification: smoothness is a charge on each move and not on changes of direction,
+so that a state is (column, row, tick) and nothing more.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+from sim.actions import Preference
+from sim.config import Config
+from sim.kinds import Move
+
+
+@dataclass(frozen=True, slots=True)
+class Weights:
+    """The charges of one step, each a whole number."""
+
+    tick: int
+    sideways: int
+    diagonal: int
+    stay: int
+    fixed: int
+    mover: int
+    buffer: int
+    """cells around a mover that are charged for"""
+
+    def of(self, move: Move) -> int:
+        """What a move costs by itself, wherever it leads."""
+        return (
+            self.tick
+            + (
+                0,
+                self.sideways,
+                self.sideways,
+                self.diagonal,
+                self.diagonal,
+                self.stay,
+            )[_MOVES.index(move)]
+        )
+
+
+_MOVES: Final = tuple(Move)
+
+BALANCED: Final = Weights(tick=60, sideways=4, diagonal=3, stay=2, fixed=1, mover=2, buffer=0)
+"""Without preferences; `buffer` is added to the configuration's `safety_buffer`."""
+
+SHIFTS: Final[dict[Preference, Weights]] = {
+    "avoid_potholes": Weights(tick=0, sideways=0, diagonal=0, stay=0, fixed=40, mover=0, buffer=0),
+    "smooth_ride": Weights(tick=0, sideways=40, diagonal=30, stay=20, fixed=0, mover=0, buffer=0),
+    "fastest": Weights(tick=10_000, sideways=0, diagonal=0, stay=0, fixed=0, mover=0, buffer=0),
+    "cautious": Weights(tick=0, sideways=0, diagonal=0, stay=0, fixed=8, mover=30, buffer=1),
+}
+"""What each preference adds to every charge."""
+
+
+def weights(config: Config) -> Weights:
+    """The charges that a configuration asks for."""
+    parts = (BALANCED, *(SHIFTS[preference] for preference in config.preferences))
+    return Weights(
+        tick=sum(part.tick for part in parts),
+        sideways=sum(part.sideways for part in parts),
+        diagonal=sum(part.diagonal for part in parts),
+        stay=sum(part.stay for part in parts),
+        fixed=sum(part.fixed for part in parts),
+        mover=sum(part.mover for part in parts),
+        buffer=config.safety_buffer + sum(part.buffer for part in parts),
+    )
