@@ -1,0 +1,5 @@
+"""Many worlds at once, compiled. Importing this loads numba; a live session needs none of it."""
+
+from sim.batch.batch import After, Batch, BatchPlanner, Totals
+
+__all__ = ["After", "Batch", "BatchPlanner", "Totals"]

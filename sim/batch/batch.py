@@ -1,0 +1,337 @@
+"""Thousands of worlds of one road size, side by side, by the rules that a single live world goes by.
+
+Lane i runs configuration i from its first episode (or from a given moment). Nothing here is named:
+ids, words and traces belong to single worlds, and `world(lane)` gives one to look at. What a batch
+leaves out is a person: queued moves, manual mode and edits.
+
+Structure: a block of worlds is kept in the processor's nearest cache for many ticks
+(`sim.batch.layout`), one compiled call does all ticks of all worlds (`sim.batch.tick`). Guarantee: the
+same states as `sim.run.advance`, bit for bit, every tick. Idea: worlds as arrays of machine words, as
+in Waymax (Gulino et al., 2023) and Craftax (Matthews et al., 2024), with the set operations of chess
+engines in place of floating point.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import partial
+from itertools import pairwise
+from typing import Any, Final, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.batch.layout import (
+    ASKED,
+    CELL,
+    COLUMN_BIT,
+    COURTESY_KEY,
+    ENDS,
+    EPISODE_TICK,
+    FIXED,
+    HOLES,
+    LANE_PLANES,
+    LANES,
+    LEFT,
+    MOVES,
+    OUTCOME,
+    PLANES,
+    RIGHT,
+    SHIFT,
+    SINCE_END,
+    TICKS_TO_GOAL,
+    WALKERS,
+    WORD,
+    Layout,
+    Words,
+)
+from sim.batch.roads import EPISODE, begin_all
+from sim.batch.tick import END_FIELD, MAX_TICKS_A_CALL, MOVE_FIELD, ticks_kernel
+from sim.config import Config
+from sim.generate import named
+from sim.kinds import Kind, Outcome
+from sim.randomness import Stream
+from sim.road import Board, bits
+from sim.run import Run
+from sim.world import World
+
+After = Literal["next", "restart", "stop"]
+"""What follows an end: the next road as live, once the result has stood; the lane's first road, at once;
+or nothing."""
+
+BatchPlanner = Literal["priority", "exact", "weighted"]
+"""The rule; the least ticks; the least cost (what `astar` and `dijkstra` decide)."""
+
+_OUTCOMES: Final = tuple(Outcome)
+_FIELD: Final = np.uint64(2**16 - 1)
+_COUNTERS: Final = 8
+
+
+@dataclass(frozen=True, slots=True)
+class Totals:
+    """What has been counted, one number for each lane (shape: lanes, int64)."""
+
+    forward: NDArray[np.int64]
+    lateral: NDArray[np.int64]
+    diagonal: NDArray[np.int64]
+    stay: NDArray[np.int64]
+    successes: NDArray[np.int64]
+    crashes: NDArray[np.int64]
+    stuck: NDArray[np.int64]
+    ticks_to_goal: NDArray[np.int64]
+    """ticks of the episodes that arrived, together"""
+
+
+class Batch:
+    """Lanes that advance together. Not safe to use from several threads; `run` uses several by itself."""
+
+    def __init__(self, configs: Sequence[Config], *, after: After = "next") -> None:
+        """Every lane at its first episode's beginning. Raises `ValueError` unless all roads have one size."""
+        sizes = {(config.columns, config.rows) for config in configs}
+        if len(sizes) != 1:
+            raise ValueError(f"a batch has roads of one size, not of {len(sizes)}")
+        self.configs = list(configs)
+        self.layout = Layout.of(*sizes.pop())
+        self.after: After = after
+        count = len(self.configs)
+        blocks = -(-count // LANES)
+        self._state: Words = np.zeros((blocks, self.layout.words * PLANES * LANES), np.uint64)
+        self._lanes: Words = np.zeros((blocks, LANE_PLANES * LANES), np.uint64)
+        padded = [*self.configs, *[self.configs[-1]] * (blocks * LANES - count)]
+        self._wholes = np.array(
+            [
+                (
+                    -1 if config.vehicles is None else config.vehicles,
+                    config.pedestrians,
+                    config.barriers,
+                    -1 if config.potholes is None else config.potholes,
+                    config.seed,
+                    1,
+                    config.reset_delay_ticks,
+                )
+                for config in padded
+            ],
+            np.int64,
+        )
+        self._shares = np.array(
+            [(config.spawn_probability, config.pothole_probability, config.courtesy) for config in padded]
+        )
+        self._ticks = np.zeros(blocks * LANES, np.int64)
+        self._counts = np.zeros((_COUNTERS, blocks * LANES), np.int64)
+        begin_all(
+            self._state,
+            self._lanes,
+            blocks * LANES,
+            self.layout.columns,
+            self.layout.rows,
+            self._wholes,
+            self._shares,
+        )
+        self._remember_first()
+
+    @classmethod
+    def of(cls, runs: Sequence[Run], *, after: After = "next") -> Batch:
+        """Every lane at a given moment of a run; queued moves and the manual mode are left behind."""
+        batch = cls([run.config for run in runs], after=after)
+        for lane, run in enumerate(runs):
+            batch._place(lane, run)
+        batch._remember_first()
+        return batch
+
+    def __len__(self) -> int:
+        return len(self.configs)
+
+    def run(self, ticks: int, planner: BatchPlanner = "priority", *, threads: int = 1) -> None:
+        """So many ticks of every lane, decided by a planner, on so many threads."""
+        if planner == "priority":
+            self._advance(ticks, threads, asked=False)
+            return
+        for _ in range(ticks):
+            self.step(self.moves(planner, threads=threads), threads=threads)
+
+    def run_to_end(self, planner: BatchPlanner = "priority", *, threads: int = 1) -> None:
+        """All lanes to the end of their episodes; for batches made with `after="stop"`."""
+        if self.after != "stop":
+            raise ValueError('only a batch made with after="stop" has an end')
+        while (self.outcomes == 0).any():
+            self.run(self.layout.rows if planner == "priority" else 1, planner, threads=threads)
+
+    def step(self, moves: NDArray[np.uint8], *, threads: int = 1) -> None:
+        """One tick, every vehicle making its move (shape: lanes; indices in the order of `Move`).
+
+        Nothing is held back: a move into a collision is a crash. A move off the road is a wait. Lanes whose
+        result stands do not move.
+        """
+        if moves.shape != (len(self),):
+            raise ValueError(f"{len(self)} moves are wanted, one for each lane")
+        if moves.max(initial=0) > 5:
+            raise ValueError("a move is a number from 0 to 5")
+        asked = np.full(self._ticks.shape, 5, np.uint64)
+        asked[: len(self)] = moves
+        self._plane(ASKED)[...] = asked.reshape(-1, LANES)
+        self._advance(1, threads, asked=True)
+
+    def moves(self, planner: BatchPlanner, *, threads: int = 1) -> NDArray[np.uint8]:
+        """What a planner would do now in every lane (shape: lanes); waits where a result stands."""
+        raise NotImplementedError
+
+    # Reading
+
+    @property
+    def outcomes(self) -> NDArray[np.uint8]:
+        """How every lane stands (shape: lanes; indices in the order of `Outcome`, 0 is running)."""
+        return self._lane_values(OUTCOME).astype(np.uint8)
+
+    @property
+    def vehicles(self) -> NDArray[np.int64]:
+        """Cell indices of the autonomous vehicles (shape: lanes)."""
+        return self._lane_values(CELL).astype(np.int64)
+
+    @property
+    def episodes(self) -> NDArray[np.int64]:
+        """Which episode every lane is in, from 1 (shape: lanes)."""
+        return self._wholes[: len(self), EPISODE].copy()
+
+    @property
+    def episode_ticks(self) -> NDArray[np.int64]:
+        """Ticks since every lane's episode began (shape: lanes)."""
+        return self._lane_values(EPISODE_TICK).astype(np.int64)
+
+    def totals(self) -> Totals:
+        """What has been counted since the batch was made."""
+        return Totals(*(row[: len(self)].copy() for row in self._counts))
+
+    def world(self, lane: int) -> World:
+        """One lane's world, its things numbered in reading order."""
+        right, left, fixed, potholes, walkers = (self._board(lane, plane) for plane in range(PLANES))
+        outcome = _OUTCOMES[int(self.outcomes[lane])]
+        tick = int(self._ticks[lane])
+        since = int(self._lane_values(SINCE_END)[lane])
+        numbered: dict[Kind, int] = {}
+
+        def ids(kind: Kind, board: Board) -> dict[int, str]:
+            return named(kind, bits(board), numbered)
+
+        barriers = fixed & ~potholes
+        vehicles = (right | left) & ~walkers
+        return World(
+            road=self.layout.road,
+            tick=tick,
+            episode=int(self.episodes[lane]),
+            episode_start=tick - int(self.episode_ticks[lane]),
+            outcome=outcome,
+            ended=None if outcome is Outcome.RUNNING else tick - since,
+            avs=(int(self.vehicles[lane]),),
+            potholes=potholes,
+            barriers=barriers,
+            right=right,
+            left=left,
+            pedestrians=walkers,
+            movers=ids(Kind.VEHICLE, vehicles) | ids(Kind.PEDESTRIAN, walkers),
+            hazards=ids(Kind.POTHOLE, potholes) | ids(Kind.BARRIER, barriers),
+            numbered=numbered,
+        )
+
+    def digest(self, lane: int) -> str:
+        """`World.digest` of one lane."""
+        return self.world(lane).digest()
+
+    # Within
+
+    def _advance(self, ticks: int, threads: int, *, asked: bool) -> None:
+        kernel = ticks_kernel(
+            walking=bool(self._plane_of_boards(WALKERS).any() or (self._wholes[:, 1] > 0).any()),
+            courteous=bool((self._shares[:, 2] > 0).any()),
+            held=self.after != "restart",
+            asked=asked,
+            renewed=self.after == "next",
+        )
+        while ticks > 0:
+            now = min(ticks, MAX_TICKS_A_CALL)
+            self._on_threads(threads, partial(self._call, kernel, now))
+            self._ticks += now
+            self._empty_counters()
+            ticks -= now
+
+    def _call(self, kernel: Any, ticks: int, part: slice) -> None:
+        lanes = slice(part.start * LANES, part.stop * LANES)
+        kernel(
+            self._state[part],
+            self._first_state[part],
+            self._lanes[part],
+            self._first_lanes[part],
+            self._wholes[lanes],
+            self._shares[lanes],
+            self.layout.columns,
+            self.layout.rows,
+            np.uint64(self.layout.left_edge),
+            np.uint64(self.layout.right_edge),
+            ticks,
+        )
+
+    def _on_threads(self, threads: int, work: Callable[[slice], None]) -> None:
+        """Split the blocks evenly over threads; compiled code holds no interpreter lock."""
+        blocks = self._state.shape[0]
+        parts = min(max(1, threads), blocks)
+        edges = [blocks * part // parts for part in range(parts + 1)]
+        slices = [slice(start, stop) for start, stop in pairwise(edges)]
+        if parts == 1:
+            work(slices[0])
+            return
+        with ThreadPoolExecutor(parts) as pool:
+            list(pool.map(work, slices))
+
+    def _empty_counters(self) -> None:
+        moves, ends = self._plane(MOVES).reshape(-1), self._plane(ENDS).reshape(-1)
+        for index in range(4):
+            self._counts[index] += (moves >> np.uint64(MOVE_FIELD * index) & _FIELD).astype(np.int64)
+        for index in range(3):
+            self._counts[4 + index] += (ends >> np.uint64(END_FIELD * index) & _FIELD).astype(np.int64)
+        self._counts[7] += self._plane(TICKS_TO_GOAL).reshape(-1).astype(np.int64)
+        for plane in (MOVES, ENDS, TICKS_TO_GOAL):
+            self._plane(plane)[...] = 0
+
+    def _remember_first(self) -> None:
+        restart = self.after == "restart"
+        self._first_state = self._state.copy() if restart else self._state
+        self._first_lanes = self._lanes.copy() if restart else self._lanes
+
+    def _place(self, lane: int, run: Run) -> None:
+        """Put a moment of a run into a lane."""
+        world = run.world
+        block, inner = divmod(lane, LANES)
+        boards = self._state[block].reshape(self.layout.words, PLANES, LANES)
+        planes = (world.right, world.left, world.fixed, world.potholes, world.pedestrians)
+        for plane, board in zip((RIGHT, LEFT, FIXED, HOLES, WALKERS), planes, strict=True):
+            boards[:, plane, inner] = np.array(self.layout.cut(board), np.uint64)
+        row, column = divmod(world.av, self.layout.columns)
+        word, row_in_word = divmod(row, self.layout.rows_per_word)
+        values = {
+            WORD: word,
+            SHIFT: row_in_word * self.layout.columns,
+            COLUMN_BIT: 1 << column,
+            CELL: world.av,
+            EPISODE_TICK: world.episode_tick,
+            OUTCOME: _OUTCOMES.index(world.outcome),
+            SINCE_END: 0 if world.ended is None else world.tick - world.ended,
+            COURTESY_KEY: Stream.of(run.config.seed, "courtesy", world.episode).key,
+        }
+        for plane, value in values.items():
+            self._lanes[block].reshape(LANE_PLANES, LANES)[plane, inner] = np.uint64(value)
+        self._wholes[lane, EPISODE] = world.episode
+        self._ticks[lane] = world.tick
+
+    def _plane(self, plane: int) -> Words:
+        return self._lanes.reshape(-1, LANE_PLANES, LANES)[:, plane]
+
+    def _plane_of_boards(self, plane: int) -> Words:
+        return self._state.reshape(-1, self.layout.words, PLANES, LANES)[:, :, plane]
+
+    def _lane_values(self, plane: int) -> Words:
+        return self._plane(plane).reshape(-1)[: len(self)]
+
+    def _board(self, lane: int, plane: int) -> int:
+        block, inner = divmod(lane, LANES)
+        return self.layout.joined(self._plane_of_boards(plane)[block, :, inner])

@@ -1,0 +1,100 @@
+"""A road's boards cut at row boundaries into 64-bit words, and worlds side by side in blocks.
+
+Rows never interact in the movers' rule, so a word of whole rows can be moved by itself. A block
+holds `LANES` worlds; within it the same word of all its worlds lies side by side, so that one
+instruction serves several worlds. All planes of a word lie at fixed distances from one another,
+which lets a compiler see that they do not overlap.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.road import Board, Road
+
+Words = NDArray[np.uint64]
+
+LANES: Final = 64
+"""Worlds in a block."""
+
+RIGHT, LEFT, FIXED, HOLES, WALKERS = range(5)
+PLANES: Final = 5
+"""Boards of a word: movers by heading, potholes and barriers, potholes alone, pedestrians."""
+
+(
+    WORD,
+    SHIFT,
+    COLUMN_BIT,
+    CELL,
+    EPISODE_TICK,
+    OUTCOME,
+    SINCE_END,
+    MOVES,
+    ENDS,
+    TICKS_TO_GOAL,
+    ASKED,
+    COURTESY_KEY,
+    YIELDING,
+    OWN_ROW,
+    NEXT_ROW,
+    CAME_RIGHT,
+    CAME_LEFT,
+) = range(17)
+LANE_PLANES: Final = 17
+"""What a world has once: where its vehicle is (word, bit of its row's first cell, its column as a bit,
+cell index), the clock and the end of its episode, packed counters, and what a tick hands from one
+loop to the next."""
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """How a road of `columns` × `rows` is cut."""
+
+    columns: int
+    rows: int
+
+    @staticmethod
+    @lru_cache(maxsize=256)
+    def of(columns: int, rows: int) -> Layout:
+        """The layout of that size; columns ≤ 64."""
+        return Layout(columns, rows)
+
+    @property
+    def road(self) -> Road:
+        """The road in its uncut form."""
+        return Road.of(self.columns, self.rows)
+
+    @property
+    def rows_per_word(self) -> int:
+        """Rows in each word (the last may hold fewer)."""
+        return 64 // self.columns
+
+    @property
+    def words(self) -> int:
+        """Words that hold a board of the whole road."""
+        return -(-self.rows // self.rows_per_word)
+
+    @property
+    def left_edge(self) -> int:
+        """The first column within a word."""
+        return sum(1 << row * self.columns for row in range(self.rows_per_word))
+
+    @property
+    def right_edge(self) -> int:
+        """The last column within a word."""
+        return self.left_edge << self.columns - 1
+
+    def cut(self, board: Board) -> list[int]:
+        """The words of a board, destination first."""
+        size = self.rows_per_word * self.columns
+        return [board >> word * size & (1 << size) - 1 for word in range(self.words)]
+
+    def joined(self, words: Words) -> Board:
+        """The board of these words (shape: words)."""
+        size = self.rows_per_word * self.columns
+        return sum(int(word) << index * size for index, word in enumerate(words))

@@ -1,0 +1,163 @@
+"""Roads drawn in compiled code, bit for bit those of `sim.generate`: the same streams, the same draws.
+
+Furnishing a road is no rule of motion and is written twice, as boards there and as words here; what is
+drawn is written once, in `sim.randomness`. The tests compare digests of both over many configurations.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from sim.batch.compiled import compiled, fraction, mix, scaled, word_at
+from sim.batch.layout import (
+    CELL,
+    COLUMN_BIT,
+    COURTESY_KEY,
+    EPISODE_TICK,
+    FIXED,
+    HOLES,
+    LANES,
+    LEFT,
+    OUTCOME,
+    PLANES,
+    RIGHT,
+    SHIFT,
+    SINCE_END,
+    WALKERS,
+    WORD,
+)
+from sim.kinds import Kind
+from sim.randomness import purpose_key
+
+SPAWN_PROBABILITY, POTHOLE_PROBABILITY, COURTESY = range(3)
+"""Columns of a batch's table of probabilities (float64)."""
+VEHICLES, PEDESTRIANS, BARRIERS, POTHOLES, SEED, EPISODE, HOLD_TICKS = range(7)
+"""Columns of its table of whole numbers (int64); a number of −1 means: drawn row by row."""
+
+_GOLDEN: Final = np.uint64(0x9E3779B97F4A7C15)
+_VEHICLE_KEY: Final = np.uint64(purpose_key(f"spawn {Kind.VEHICLE}"))
+_PEDESTRIAN_KEY: Final = np.uint64(purpose_key(f"spawn {Kind.PEDESTRIAN}"))
+_BARRIER_KEY: Final = np.uint64(purpose_key(f"spawn {Kind.BARRIER}"))
+_POTHOLE_KEY: Final = np.uint64(purpose_key(f"spawn {Kind.POTHOLE}"))
+_HEADING_KEY: Final = np.uint64(purpose_key("heading"))
+_COURTESY_KEY: Final = np.uint64(purpose_key("courtesy"))
+_ZERO: Final = np.uint64(0)
+_ONE: Final = np.uint64(1)
+
+
+@compiled
+def _one_a_row(chosen, taken, columns, probability, key):
+    """One thing in each row with that probability, in a free cell of the row."""
+    for row in range(1, len(taken) - 1):
+        draws = word_at(key, row)
+        if fraction(word_at(draws, 0)) < probability:
+            free = 0
+            for column in range(columns):
+                free += 1 - int(taken[row] >> np.uint64(column) & _ONE)
+            if free:
+                nth = np.int64(scaled(word_at(draws, 1), np.uint64(free)))
+                for column in range(columns):
+                    if not taken[row] >> np.uint64(column) & _ONE:
+                        if nth == 0:
+                            chosen[row] |= _ONE << np.uint64(column)
+                            break
+                        nth -= 1
+
+
+@compiled
+def _exactly(chosen, taken, columns, count, key):
+    """The free cells of lowest random rank, `count` of them."""
+    rows = len(taken)
+    ranks = np.empty(rows * columns, np.uint64)
+    free = 0
+    for row in range(1, rows - 1):
+        for column in range(columns):
+            if not taken[row] >> np.uint64(column) & _ONE:
+                ranks[free] = word_at(key, row * columns + column)
+                free += 1
+    if count <= 0 or free == 0:
+        return
+    count = min(count, free)
+    last = np.sort(ranks[:free])[count - 1]
+    for row in range(1, rows - 1):
+        for column in range(columns):
+            free = not taken[row] >> np.uint64(column) & _ONE
+            if count and free and word_at(key, row * columns + column) <= last:
+                chosen[row] |= _ONE << np.uint64(column)
+                count -= 1
+
+
+@compiled
+def _furnish(taken, columns, count, probability, key):
+    chosen = np.zeros(len(taken), np.uint64)
+    if count < 0:
+        _one_a_row(chosen, taken, columns, probability, key)
+    else:
+        _exactly(chosen, taken, columns, count, key)
+    for row in range(len(taken)):
+        taken[row] |= chosen[row]
+    return chosen
+
+
+@compiled
+def _stream(base, purpose, episode):
+    return word_at(base ^ purpose, episode)
+
+
+@compiled
+def begin(block, lane_block, lane, columns, rows, wholes, shares):
+    """Write the road of `wholes[EPISODE]` into one lane of a block and put the vehicle at its start."""
+    episode = wholes[EPISODE]
+    base = mix(np.uint64(wholes[SEED]) + _GOLDEN)
+    taken = np.zeros(rows, np.uint64)
+    vehicles = _furnish(
+        taken, columns, wholes[VEHICLES], shares[SPAWN_PROBABILITY], _stream(base, _VEHICLE_KEY, episode)
+    )
+    walkers = _furnish(taken, columns, wholes[PEDESTRIANS], 0.0, _stream(base, _PEDESTRIAN_KEY, episode))
+    barriers = _furnish(taken, columns, wholes[BARRIERS], 0.0, _stream(base, _BARRIER_KEY, episode))
+    potholes = _furnish(
+        taken, columns, wholes[POTHOLES], shares[POTHOLE_PROBABILITY], _stream(base, _POTHOLE_KEY, episode)
+    )
+    heading = _stream(base, _HEADING_KEY, episode)
+    rows_per_word = 64 // columns
+    for word in range(-(-rows // rows_per_word)):
+        right = left = fixed = holes = walking = _ZERO
+        for inner in range(min(rows_per_word, rows - word * rows_per_word)):
+            row = word * rows_per_word + inner
+            shift = np.uint64(inner * columns)
+            movers = vehicles[row] | walkers[row]
+            rightward = _ZERO
+            for column in range(columns):
+                bit = _ONE << np.uint64(column)
+                if movers & bit and scaled(word_at(heading, row * columns + column), np.uint64(2)):
+                    rightward |= bit
+            right |= rightward << shift
+            left |= (movers & ~rightward) << shift
+            fixed |= (barriers[row] | potholes[row]) << shift
+            holes |= potholes[row] << shift
+            walking |= walkers[row] << shift
+        at = word * PLANES * LANES + lane
+        block[at + RIGHT * LANES] = right
+        block[at + LEFT * LANES] = left
+        block[at + FIXED * LANES] = fixed
+        block[at + HOLES * LANES] = holes
+        block[at + WALKERS * LANES] = walking
+    last = rows - 1
+    lane_block[WORD * LANES + lane] = np.uint64(last // rows_per_word)
+    lane_block[SHIFT * LANES + lane] = np.uint64(last % rows_per_word * columns)
+    lane_block[COLUMN_BIT * LANES + lane] = _ONE << np.uint64(columns // 2)
+    lane_block[CELL * LANES + lane] = np.uint64(last * columns + columns // 2)
+    lane_block[EPISODE_TICK * LANES + lane] = _ZERO
+    lane_block[OUTCOME * LANES + lane] = _ZERO
+    lane_block[SINCE_END * LANES + lane] = _ZERO
+    lane_block[COURTESY_KEY * LANES + lane] = _stream(base, _COURTESY_KEY, episode)
+
+
+@compiled
+def begin_all(state, lanes, count, columns, rows, wholes, shares):
+    """Begin the episode of every lane. Shapes: `sim.batch.batch`."""
+    for lane in range(count):
+        block = lane // LANES
+        begin(state[block], lanes[block], lane % LANES, columns, rows, wholes[lane], shares[lane])

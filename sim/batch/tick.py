@@ -1,0 +1,247 @@
+"""Many ticks of many worlds in one call: movers, the rule planner (or moves handed in), commit, judge.
+
+One text is specialised in several ways, so that a batch without pedestrians, courtesy or held
+results does not pay for them. All loops over lanes are written so that a compiler turns them into
+instructions on several worlds at once; only the ends of episodes are handled one by one.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any, Final
+
+import numpy as np
+
+from sim.batch.compiled import (
+    compiled,
+    followed_board,
+    fraction,
+    free_steps,
+    move_movers,
+    pedestrians_walk,
+    word_at,
+)
+from sim.batch.layout import (
+    ASKED,
+    CAME_LEFT,
+    CAME_RIGHT,
+    CELL,
+    COLUMN_BIT,
+    COURTESY_KEY,
+    ENDS,
+    EPISODE_TICK,
+    FIXED,
+    HOLES,
+    LANES,
+    LEFT,
+    MOVES,
+    NEXT_ROW,
+    OUTCOME,
+    OWN_ROW,
+    PLANES,
+    RIGHT,
+    SHIFT,
+    SINCE_END,
+    TICKS_TO_GOAL,
+    WALKERS,
+    WORD,
+    YIELDING,
+)
+from sim.batch.roads import COURTESY, EPISODE, HOLD_TICKS, begin
+from sim.rules import Motion
+
+_ZERO: Final = np.uint64(0)
+_ONE: Final = np.uint64(1)
+_ALL: Final = np.uint64(2**64 - 1)
+
+RUNNING, SUCCESS, CRASH, STUCK = (np.uint64(code) for code in range(4))
+"""Outcomes, in the order of `sim.kinds.Outcome`."""
+
+MOVE_FIELD: Final = 16
+"""Bits of each of the four counters in `MOVES`: forward, sideways, diagonal, stay."""
+END_FIELD: Final = 16
+"""Bits of each of the three counters in `ENDS`: success, crash, stuck."""
+MAX_TICKS_A_CALL: Final = 2**MOVE_FIELD - 1
+"""So that no counter overflows before it is emptied."""
+
+
+@cache
+def ticks_kernel(*, walking: bool, courteous: bool, held: bool, asked: bool, renewed: bool) -> Any:
+    """The compiled loop for batches with or without pedestrians, courtesy, held results, moves handed in.
+
+    `held`: an ended lane stands for its hold ticks, then (if `renewed`) its next road begins; otherwise
+    an ended lane starts its first road again in the same tick.
+    """
+
+    def run(
+        state, first_state, lanes, first_lanes, wholes, shares, columns, rows, left_edge, right_edge, ticks
+    ):
+        rows_per_word = 64 // columns
+        words = -(-rows // rows_per_word)
+        row_size = np.uint64(columns)
+        top = np.uint64((rows_per_word - 1) * columns)
+        last_bit = _ONE << np.uint64(columns - 1)
+        limit = np.uint64(10 * rows)
+        sideways = _ONE << np.uint64(MOVE_FIELD)
+        diagonal = _ONE << np.uint64(2 * MOVE_FIELD)
+        waited = _ONE << np.uint64(3 * MOVE_FIELD)
+        for block in range(state.shape[0]):
+            boards, v = state[block], lanes[block]
+            for _ in range(ticks):
+                for i in range(LANES):
+                    v[OWN_ROW * LANES + i] = _ZERO
+                    v[NEXT_ROW * LANES + i] = _ZERO
+                    v[CAME_RIGHT * LANES + i] = _ZERO
+                    v[CAME_LEFT * LANES + i] = _ZERO
+                if courteous:
+                    for i in range(LANES):
+                        bit, cell = v[COLUMN_BIT * LANES + i], np.int64(v[CELL * LANES + i])
+                        draws = word_at(v[COURTESY_KEY * LANES + i], np.int64(v[EPISODE_TICK * LANES + i]))
+                        share = shares[block * LANES + i, COURTESY]
+                        yields = _ZERO
+                        if fraction(word_at(draws, cell - 1)) < share:
+                            yields |= (bit & ~_ONE) >> _ONE
+                        if fraction(word_at(draws, cell + 1)) < share:
+                            yields |= (bit & ~last_bit) << _ONE
+                        v[YIELDING * LANES + i] = yields
+                for w in range(words):
+                    x = boards[w * PLANES * LANES : (w + 1) * PLANES * LANES]
+                    this_word = np.uint64(w)
+                    for i in range(LANES):
+                        right, left = x[RIGHT * LANES + i], x[LEFT * LANES + i]
+                        fixed = x[FIXED * LANES + i]
+                        shift = v[SHIFT * LANES + i]
+                        word = v[WORD * LANES + i]
+                        here = word == this_word
+                        ahead = word - (_ONE if shift == _ZERO else _ZERO) == this_word
+                        resting = (right | left) & x[HOLES * LANES + i]
+                        yielding = vehicle = _ZERO
+                        if walking:
+                            walkers = x[WALKERS * LANES + i]
+                            step = pedestrians_walk(np.int64(v[EPISODE_TICK * LANES + i]))
+                            resting |= _ZERO if step else walkers
+                        if courteous:
+                            yielding = v[YIELDING * LANES + i] << shift if here else _ZERO
+                            vehicle = v[COLUMN_BIT * LANES + i] << shift if here else _ZERO
+                        motion = move_movers(
+                            right, left, resting, fixed, yielding, vehicle, left_edge, right_edge
+                        )
+                        if held:
+                            live = v[OUTCOME * LANES + i] == RUNNING
+                            moved = _ALL if live else _ZERO
+                            motion = Motion(
+                                motion.right & moved | right & ~moved,
+                                motion.left & moved | left & ~moved,
+                                motion.came_right & moved,
+                                motion.came_left & moved,
+                            )
+                        if walking:
+                            x[WALKERS * LANES + i] = followed_board(walkers, motion)
+                        x[RIGHT * LANES + i] = motion.right
+                        x[LEFT * LANES + i] = motion.left
+                        blocked = motion.right | motion.left | fixed
+                        v[OWN_ROW * LANES + i] = blocked if here else v[OWN_ROW * LANES + i]
+                        v[NEXT_ROW * LANES + i] = blocked if ahead else v[NEXT_ROW * LANES + i]
+                        v[CAME_RIGHT * LANES + i] = motion.came_right if here else v[CAME_RIGHT * LANES + i]
+                        v[CAME_LEFT * LANES + i] = motion.came_left if here else v[CAME_LEFT * LANES + i]
+                for i in range(LANES):
+                    shift, word = v[SHIFT * LANES + i], v[WORD * LANES + i]
+                    bit, cell = v[COLUMN_BIT * LANES + i], v[CELL * LANES + i]
+                    carried = shift == _ZERO
+                    shift_ahead = top if carried else shift - row_size
+                    word_ahead = word - (_ONE if carried else _ZERO)
+                    own = free_steps(
+                        bit,
+                        _ZERO,
+                        v[OWN_ROW * LANES + i] >> shift,
+                        v[CAME_RIGHT * LANES + i] >> shift,
+                        v[CAME_LEFT * LANES + i] >> shift,
+                        _ONE,
+                        last_bit,
+                    )
+                    on = free_steps(
+                        _ZERO, bit, v[NEXT_ROW * LANES + i] >> shift_ahead, _ZERO, _ZERO, _ONE, last_bit
+                    )
+                    if asked:
+                        move = v[ASKED * LANES + i]
+                        leads_left = (bit & ~_ONE) >> _ONE
+                        leads_right = (bit & ~last_bit) << _ONE
+                        to_left = (move == np.uint64(1)) | (move == np.uint64(3))
+                        to_right = (move == np.uint64(2)) | (move == np.uint64(4))
+                        leads = leads_left if to_left else (leads_right if to_right else bit)
+                        on_road = leads != _ZERO  # a move off the road is a wait
+                        goes_straight = move == np.uint64(0)
+                        goes_beside = on_road & ((move == np.uint64(1)) | (move == np.uint64(2)))
+                        goes_aslant = on_road & ((move == np.uint64(3)) | (move == np.uint64(4)))
+                        goes_on = goes_straight | goes_aslant
+                        bit_after = leads if on_road else bit
+                        free_on = on.forward | on.forward_left | on.forward_right
+                        free_beside = own.left | own.right
+                        free = free_on if goes_on else (free_beside if goes_beside else own.stay)
+                        crashed = (free & bit_after) == _ZERO
+                    else:
+                        beside = own.left if own.left != _ZERO else own.right
+                        aslant = on.forward_left if on.forward_left != _ZERO else on.forward_right
+                        goes_straight = on.forward != _ZERO
+                        goes_beside = (on.forward == _ZERO) & (beside != _ZERO)
+                        goes_aslant = (on.forward == _ZERO) & (beside == _ZERO) & (aslant != _ZERO)
+                        goes_on = goes_straight | goes_aslant
+                        bit_after = on.forward if goes_straight else beside
+                        bit_after = aslant if goes_aslant else bit_after
+                        stays = (not goes_straight) & (not goes_beside) & (not goes_aslant)
+                        bit_after = bit if stays else bit_after
+                        crashed = stays & (own.stay == _ZERO)
+                    count = _ONE if goes_straight else waited
+                    count = sideways if goes_beside else count
+                    count = diagonal if goes_aslant else count
+                    cell_after = cell - (row_size if goes_on else _ZERO)
+                    cell_after = cell_after + (_ONE if bit_after > bit else _ZERO)
+                    cell_after = cell_after - (_ONE if bit_after < bit else _ZERO)
+                    tick = v[EPISODE_TICK * LANES + i] + _ONE
+                    outcome = STUCK if tick > limit else RUNNING
+                    outcome = SUCCESS if cell_after < row_size else outcome
+                    outcome = CRASH if crashed else outcome
+                    if held:
+                        live = v[OUTCOME * LANES + i] == RUNNING
+                        goes_on = goes_on & live
+                        bit_after = bit_after if live else bit
+                        cell_after = cell_after if live else cell
+                        count = count if live else _ZERO
+                        outcome = outcome if live else v[OUTCOME * LANES + i]
+                        since = v[SINCE_END * LANES + i]
+                        v[SINCE_END * LANES + i] = since if live else since + _ONE
+                    v[COLUMN_BIT * LANES + i] = bit_after
+                    v[SHIFT * LANES + i] = shift_ahead if goes_on else shift
+                    v[WORD * LANES + i] = word_ahead if goes_on else word
+                    v[CELL * LANES + i] = cell_after
+                    v[EPISODE_TICK * LANES + i] = tick
+                    v[MOVES * LANES + i] += count
+                    v[OUTCOME * LANES + i] = outcome
+                for i in range(LANES):
+                    outcome = v[OUTCOME * LANES + i]
+                    if outcome != RUNNING:
+                        if not held or v[SINCE_END * LANES + i] == _ZERO:
+                            v[ENDS * LANES + i] += _ONE << (outcome - _ONE) * np.uint64(END_FIELD)
+                            if outcome == SUCCESS:
+                                v[TICKS_TO_GOAL * LANES + i] += v[EPISODE_TICK * LANES + i]
+                        if held:
+                            lane = block * LANES + i
+                            if renewed and v[SINCE_END * LANES + i] == np.uint64(wholes[lane, HOLD_TICKS]):
+                                wholes[lane, EPISODE] += 1
+                                begin(boards, v, i, columns, rows, wholes[lane], shares[lane])
+                        else:
+                            first, u = first_state[block], first_lanes[block]
+                            v[WORD * LANES + i] = u[WORD * LANES + i]
+                            v[SHIFT * LANES + i] = u[SHIFT * LANES + i]
+                            v[COLUMN_BIT * LANES + i] = u[COLUMN_BIT * LANES + i]
+                            v[CELL * LANES + i] = u[CELL * LANES + i]
+                            v[EPISODE_TICK * LANES + i] = u[EPISODE_TICK * LANES + i]
+                            v[OUTCOME * LANES + i] = RUNNING
+                            for w in range(words):
+                                at = w * PLANES * LANES + i
+                                boards[at + RIGHT * LANES] = first[at + RIGHT * LANES]
+                                boards[at + LEFT * LANES] = first[at + LEFT * LANES]
+                                if walking:
+                                    boards[at + WALKERS * LANES] = first[at + WALKERS * LANES]
+
+    return compiled(run)
