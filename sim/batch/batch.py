@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from functools import partial
 from itertools import pairwise
 from typing import Any, Final, Literal
@@ -47,11 +47,14 @@ from sim.batch.layout import (
     Layout,
     Words,
 )
+from sim.batch.reach import exact_moves
 from sim.batch.roads import EPISODE, begin_all
+from sim.batch.sweep import weighted_moves
 from sim.batch.tick import END_FIELD, MAX_TICKS_A_CALL, MOVE_FIELD, ticks_kernel
 from sim.config import Config
 from sim.generate import named
 from sim.kinds import Kind, Outcome
+from sim.plan.costs import weights
 from sim.randomness import Stream
 from sim.road import Board, bits
 from sim.run import Run
@@ -118,6 +121,7 @@ class Batch:
         self._shares = np.array(
             [(config.spawn_probability, config.pothole_probability, config.courtesy) for config in padded]
         )
+        self._charges = np.array([astuple(weights(config)) for config in padded], np.int64)
         self._ticks = np.zeros(blocks * LANES, np.int64)
         self._counts = np.zeros((_COUNTERS, blocks * LANES), np.int64)
         begin_all(
@@ -175,7 +179,16 @@ class Batch:
 
     def moves(self, planner: BatchPlanner, *, threads: int = 1) -> NDArray[np.uint8]:
         """What a planner would do now in every lane (shape: lanes); waits where a result stands."""
-        raise NotImplementedError
+        if planner == "priority":
+            raise ValueError("the rule decides within the tick; use run")
+        return self._plan(planner, threads)[0]
+
+    def least(self, planner: BatchPlanner, *, threads: int = 1) -> NDArray[np.int64]:
+        """Least ticks (`exact`) or least cost (`weighted`) to the goal (shape: lanes).
+
+        −1 where no way leads there, 0 where a result stands.
+        """
+        return self._plan(planner, threads)[1]
 
     # Reading
 
@@ -255,6 +268,32 @@ class Batch:
             self._empty_counters()
             ticks -= now
 
+    def _plan(self, planner: BatchPlanner, threads: int) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:
+        size = self._ticks.shape
+        moves, least = np.zeros(size, np.uint8), np.zeros(size, np.int64)
+
+        def work(part: slice) -> None:
+            lanes = slice(part.start * LANES, min(part.stop * LANES, len(self)))
+            tables = (self._shares[lanes], self._charges[lanes])
+            call = weighted_moves if planner == "weighted" else exact_moves
+            call(
+                self._state[part],
+                self._lanes[part],
+                *(tables if planner == "weighted" else tables[:1]),
+                *self._geometry(),
+                lanes.stop - lanes.start,
+                moves[lanes],
+                least[lanes],
+            )
+
+        self._on_threads(threads, work)
+        return moves[: len(self)], least[: len(self)]
+
+    def _geometry(self) -> tuple[int, int, np.uint64, np.uint64]:
+        """Columns, rows and the edges of a word, as compiled functions take them."""
+        layout = self.layout
+        return layout.columns, layout.rows, np.uint64(layout.left_edge), np.uint64(layout.right_edge)
+
     def _call(self, kernel: Any, ticks: int, part: slice) -> None:
         lanes = slice(part.start * LANES, part.stop * LANES)
         kernel(
@@ -264,10 +303,7 @@ class Batch:
             self._first_lanes[part],
             self._wholes[lanes],
             self._shares[lanes],
-            self.layout.columns,
-            self.layout.rows,
-            np.uint64(self.layout.left_edge),
-            np.uint64(self.layout.right_edge),
+            *self._geometry(),
             ticks,
         )
 

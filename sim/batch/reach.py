@@ -1,0 +1,303 @@
+"""Where the vehicle can be at every tick, in compiled words: least ticks, and the move that begins them.
+
+Structure: movers are rolled out by the rules word by word; the set of cells the vehicle can be in is
+stepped along with them (`free_steps` on sets) until it meets row 0; a backward pass over the layers
+(`steps_into`) keeps what lies on a shortest way, and the first move of the six that stays on one is taken.
+Words behind the vehicle are left out, since it never goes back. Guarantee: exact where movers do not
+react to it; with courtesy the first tick is exact, later ones assume that nobody gives way. Where no
+way leads to the goal, the move after which one can keep clear of collisions longest.
+
+The same as `sim.optimum`, which serves one live world with Python's integers.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from sim.batch.compiled import (
+    compiled,
+    followed_board,
+    fraction,
+    free_steps,
+    move_movers,
+    pedestrians_walk,
+    steps_into,
+    word_at,
+)
+from sim.batch.layout import (
+    CELL,
+    COLUMN_BIT,
+    COURTESY_KEY,
+    EPISODE_TICK,
+    FIXED,
+    HOLES,
+    LANES,
+    LEFT,
+    OUTCOME,
+    PLANES,
+    RIGHT,
+    SHIFT,
+    WALKERS,
+    WORD,
+)
+from sim.batch.roads import COURTESY
+
+_ZERO: Final = np.uint64(0)
+_ONE: Final = np.uint64(1)
+STAY: Final = 5
+
+NOW_RIGHT, NOW_LEFT, NOW_WALKERS, ALL_FIXED, RESTING_IN_HOLES, YIELDS, VEHICLE = range(7)
+"""Rows of the scratch board of a roll-out (shape: 7, words)."""
+BLOCKED, CAME_RIGHT, CAME_LEFT, MOVERS, REACHED, NEEDED = range(6)
+"""Planes of a roll-out (shape: ticks, 6, words); of tick k: after k + 1 ticks, the last two after k."""
+
+
+@compiled
+def steps_left(lane_block, lane, rows):
+    """How many steps may still be taken: arriving is judged before being stuck."""
+    return 10 * rows + 1 - np.int64(lane_block[EPISODE_TICK * LANES + lane])
+
+
+@compiled
+def prepare(now, block, lane_block, lane, columns, share):
+    """Take a lane's boards up to the vehicle's word, and who yields to it in the coming tick."""
+    last = np.int64(lane_block[WORD * LANES + lane])
+    for w in range(last + 1):
+        at = w * PLANES * LANES + lane
+        now[NOW_RIGHT, w] = block[at + RIGHT * LANES]
+        now[NOW_LEFT, w] = block[at + LEFT * LANES]
+        now[NOW_WALKERS, w] = block[at + WALKERS * LANES]
+        now[ALL_FIXED, w] = block[at + FIXED * LANES]
+        now[RESTING_IN_HOLES, w] = (now[NOW_RIGHT, w] | now[NOW_LEFT, w]) & block[at + HOLES * LANES]
+        now[YIELDS, w] = _ZERO
+        now[VEHICLE, w] = _ZERO
+    bit, shift = lane_block[COLUMN_BIT * LANES + lane], lane_block[SHIFT * LANES + lane]
+    now[VEHICLE, last] = bit << shift
+    if share > 0.0:
+        cell = np.int64(lane_block[CELL * LANES + lane])
+        tick = np.int64(lane_block[EPISODE_TICK * LANES + lane])
+        draws = word_at(lane_block[COURTESY_KEY * LANES + lane], tick)
+        if fraction(word_at(draws, cell - 1)) < share:
+            now[YIELDS, last] |= ((bit & ~_ONE) >> _ONE) << shift
+        if fraction(word_at(draws, cell + 1)) < share:
+            now[YIELDS, last] |= ((bit & ~(_ONE << np.uint64(columns - 1))) << _ONE) << shift
+    return last
+
+
+@compiled
+def roll(now, layers, ahead, last, episode_tick, left_edge, right_edge):
+    """One tick of the movers of words 0 to `last`, into layer `ahead`."""
+    walking = pedestrians_walk(episode_tick + ahead)
+    for w in range(last + 1):
+        resting = now[RESTING_IN_HOLES, w]
+        if not walking:
+            resting |= now[NOW_WALKERS, w]
+        yields = now[YIELDS, w] if ahead == 0 else _ZERO
+        motion = move_movers(
+            now[NOW_RIGHT, w],
+            now[NOW_LEFT, w],
+            resting,
+            now[ALL_FIXED, w],
+            yields,
+            now[VEHICLE, w],
+            left_edge,
+            right_edge,
+        )
+        if now[NOW_WALKERS, w]:
+            now[NOW_WALKERS, w] = followed_board(now[NOW_WALKERS, w], motion)
+        now[NOW_RIGHT, w] = motion.right
+        now[NOW_LEFT, w] = motion.left
+        layers[ahead, BLOCKED, w] = motion.right | motion.left | now[ALL_FIXED, w]
+        layers[ahead, MOVERS, w] = motion.right | motion.left
+        layers[ahead, CAME_RIGHT, w] = motion.came_right
+        layers[ahead, CAME_LEFT, w] = motion.came_left
+
+
+@compiled
+def one_row_on(board, w, last, columns):
+    """Word `w` of a board moved one row towards the destination."""
+    top = np.uint64((64 // columns - 1) * columns)
+    ahead = board[w] >> np.uint64(columns - 1) >> _ONE
+    if w < last:
+        first_row = (_ONE << np.uint64(columns - 1) << _ONE) - _ONE
+        ahead |= (board[w + 1] & first_row) << top
+    return ahead
+
+
+@compiled
+def one_row_back(board, w, columns):
+    """Word `w` of a board moved one row away from the destination."""
+    behind = board[w] << np.uint64(columns - 1) << _ONE
+    if w > 0:
+        behind |= board[w - 1] >> np.uint64((64 // columns - 1) * columns)
+    return behind
+
+
+@compiled
+def expand(layers, ahead, first, last, columns, left_edge, right_edge):
+    """Step the reached set over one tick, from word `first` on; whether it is not empty."""
+    alive = False
+    reached = layers[ahead, REACHED]
+    if first > 0:
+        layers[ahead + 1, REACHED, first - 1] = _ZERO  # read when the next word comes into reach
+    for w in range(first, last + 1):
+        steps = free_steps(
+            reached[w],
+            one_row_on(reached, w, last, columns),
+            layers[ahead, BLOCKED, w],
+            layers[ahead, CAME_RIGHT, w],
+            layers[ahead, CAME_LEFT, w],
+            left_edge,
+            right_edge,
+        )
+        after = (
+            steps.forward | steps.left | steps.right | steps.forward_left | steps.forward_right | steps.stay
+        )
+        layers[ahead + 1, REACHED, w] = after
+        alive |= after != _ZERO
+    return alive
+
+
+@compiled
+def first_word(row, ahead, columns):
+    """The first word that a vehicle in that row can be in, so many ticks later (it gains a row a tick)."""
+    return max(0, row - ahead) // (64 // columns)
+
+
+@compiled
+def search(now, layers, row, last, episode_tick, limit, columns, left_edge, right_edge):
+    """Roll and expand until the goal is met. Returns (ticks, −1 if it is not; layers rolled)."""
+    for w in range(last + 1):
+        layers[0, REACHED, w] = now[VEHICLE, w]
+    goal = (_ONE << np.uint64(columns - 1) << _ONE) - _ONE
+    for ahead in range(limit):
+        roll(now, layers, ahead, last, episode_tick, left_edge, right_edge)
+        first = first_word(row, ahead + 1, columns)
+        alive = expand(layers, ahead, first, last, columns, left_edge, right_edge)
+        if first == 0 and layers[ahead + 1, REACHED, 0] & goal:
+            return ahead + 1, ahead + 1
+        if not alive:
+            return -1, ahead + 1
+    return -1, limit
+
+
+@compiled
+def keep_shortest(layers, ticks, row, last, columns, left_edge, right_edge):
+    """The backward pass: of every layer, the reached cells that lie on a way of so many ticks."""
+    goal = (_ONE << np.uint64(columns - 1) << _ONE) - _ONE
+    for w in range(last + 1):
+        layers[ticks, NEEDED, w] = _ZERO
+    layers[ticks, NEEDED, 0] = layers[ticks, REACHED, 0] & goal
+    for ahead in range(ticks - 1, 0, -1):
+        needed = layers[ahead + 1, NEEDED]
+        first = first_word(row, ahead, columns)
+        for w in range(first):
+            layers[ahead, NEEDED, w] = _ZERO
+        for w in range(first, last + 1):
+            starts = steps_into(
+                needed[w],
+                one_row_back(needed, w, columns),
+                layers[ahead, CAME_RIGHT, w],
+                layers[ahead, CAME_LEFT, w],
+                left_edge,
+                right_edge,
+            )
+            before = (
+                starts.forward
+                | starts.left
+                | starts.right
+                | starts.forward_left
+                | starts.forward_right
+                | starts.stay
+            )
+            layers[ahead, NEEDED, w] = before & layers[ahead, REACHED, w]
+
+
+@compiled
+def step_from(layers, ahead, cell, columns):
+    """The move that stays on a shortest way from a cell, and where it leads; ties in the order of moves."""
+    rows_per_word = 64 // columns
+    row, column = cell // columns, cell % columns
+    w = row // rows_per_word
+    shift = np.uint64(row % rows_per_word * columns + column)
+    came_right = layers[ahead, CAME_RIGHT, w] >> shift & _ONE
+    came_left = layers[ahead, CAME_LEFT, w] >> shift & _ONE
+    for move in range(6):
+        sideways = -1 if move == 1 or move == 3 else 1 if move == 2 or move == 4 else 0
+        on = 1 if move == 0 or move == 3 or move == 4 else 0
+        to_row, to_column = row - on, column + sideways
+        if to_row < 0 or to_column < 0 or to_column >= columns:
+            continue
+        if (move == 1 and came_right) or (move == 2 and came_left):
+            continue
+        to_word = to_row // rows_per_word
+        to_shift = np.uint64(to_row % rows_per_word * columns + to_column)
+        if layers[ahead + 1, NEEDED, to_word] >> to_shift & _ONE:
+            return move, to_row * columns + to_column
+    return -1, -1
+
+
+@compiled
+def longest_survival(now, layers, rolled, last, columns, left_edge, right_edge):
+    """The move after which one can keep clear longest within the layers rolled; waiting if none is free."""
+    vehicle = now[VEHICLE]
+    best, best_ticks = STAY, 0
+    for move in range(6):
+        alive = False
+        for w in range(last + 1):
+            steps = free_steps(
+                vehicle[w],
+                one_row_on(vehicle, w, last, columns),
+                layers[0, BLOCKED, w],
+                layers[0, CAME_RIGHT, w],
+                layers[0, CAME_LEFT, w],
+                left_edge,
+                right_edge,
+            )
+            target = (
+                steps.forward,
+                steps.left,
+                steps.right,
+                steps.forward_left,
+                steps.forward_right,
+                steps.stay,
+            )[move]
+            layers[1, REACHED, w] = target
+            alive |= target != _ZERO
+        ticks = 1 if alive else 0
+        while alive and ticks < rolled:
+            alive = expand(layers, ticks, 0, last, columns, left_edge, right_edge)
+            if alive:
+                ticks += 1
+        if ticks > best_ticks:
+            best, best_ticks = move, ticks
+    return best
+
+
+@compiled
+def exact_moves(state, lanes, shares, columns, rows, left_edge, right_edge, count, moves, ticks):
+    """For every lane the move of the exact planner and the least ticks to the goal (−1: no way)."""
+    words = -(-rows // (64 // columns))
+    now = np.empty((7, words), np.uint64)
+    layers = np.empty((10 * rows + 3, 6, words), np.uint64)
+    for lane in range(count):
+        block, inner = state[lane // LANES], lane % LANES
+        lane_block = lanes[lane // LANES]
+        moves[lane], ticks[lane] = STAY, 0
+        if lane_block[OUTCOME * LANES + inner]:
+            continue
+        last = prepare(now, block, lane_block, inner, columns, shares[lane, COURTESY])
+        episode_tick = np.int64(lane_block[EPISODE_TICK * LANES + inner])
+        limit = steps_left(lane_block, inner, rows)
+        cell = np.int64(lane_block[CELL * LANES + inner])
+        row = cell // columns
+        ticks[lane], rolled = search(
+            now, layers, row, last, episode_tick, limit, columns, left_edge, right_edge
+        )
+        if ticks[lane] >= 0:
+            keep_shortest(layers, ticks[lane], row, last, columns, left_edge, right_edge)
+            moves[lane] = step_from(layers, 0, cell, columns)[0]
+        else:
+            moves[lane] = longest_survival(now, layers, rolled, last, columns, left_edge, right_edge)
