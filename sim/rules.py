@@ -1,6 +1,6 @@
 """The rules of motion: the only copy.
 
-Written in `& | ~ << >>` alone, so that the same lines serve Python's integers (one world, any
+Written in `& | ^ ~ << >>` alone, so that the same lines serve Python's integers (one world, any
 size) and machine words cut at row boundaries (many worlds, compiled). All movers decide at once:
 no order of ids matters, and a mirrored road behaves as the mirror image.
 """
@@ -25,6 +25,11 @@ class Motion(NamedTuple):
     """cells entered by a step to the right (from column − 1)"""
     came_left: Board
     """cells entered by a step to the left (from column + 1)"""
+
+    @property
+    def occupied(self) -> Board:
+        """Every cell a mover stands in."""
+        return self.right | self.left
 
 
 def pedestrians_walk(episode_tick: int) -> bool:
@@ -51,34 +56,35 @@ def move_movers(
     between two steps) keep cell and heading. A mover in `yielding` counts the cells of
     `vehicles` (the autonomous ones) as blocked as well.
     """
-    open_cells = ~(right | left | fixed)
+    # `x ^ x & y` is x without y: Python's integers take it faster than a complement.
+    occupied = right | left | fixed
     yields_right = yielding << 1 & vehicles
     yields_left = yielding >> 1 & vehicles
-    going_right = right & ~resting
-    going_left = left & ~resting
+    going_right = right ^ right & resting
+    going_left = left ^ left & resting
 
-    want_right = (going_right & ~right_edge) << 1
-    want_left = (going_left & ~left_edge) >> 1
-    free = open_cells & ~(want_right & want_left)
-    won_right = want_right & free & ~yields_right
-    won_left = want_left & free & ~yields_left
-    turned_left = going_right & ~(won_right >> 1)
-    turned_right = going_left & ~(won_left << 1)
+    want_right = (going_right ^ going_right & right_edge) << 1
+    want_left = (going_left ^ going_left & left_edge) >> 1
+    taken = occupied | want_right & want_left
+    won_right = want_right ^ want_right & (taken | yields_right)
+    won_left = want_left ^ want_left & (taken | yields_left)
+    turned_left = going_right ^ won_right >> 1
+    turned_right = going_left ^ won_left << 1
 
-    open_cells &= ~(won_right | won_left)
-    want_left = (turned_left & ~left_edge) >> 1
-    want_right = (turned_right & ~right_edge) << 1
-    free = open_cells & ~(want_right & want_left)
-    late_left = want_left & free & ~yields_left
-    late_right = want_right & free & ~yields_right
+    occupied |= won_right | won_left
+    want_left = (turned_left ^ turned_left & left_edge) >> 1
+    want_right = (turned_right ^ turned_right & right_edge) << 1
+    taken = occupied | want_right & want_left
+    late_left = want_left ^ want_left & (taken | yields_left)
+    late_right = want_right ^ want_right & (taken | yields_right)
 
     came_right = won_right | late_right
     came_left = won_left | late_left
     return Motion(
-        right=came_right | turned_right & ~(late_right >> 1) | right & resting,
-        left=came_left | turned_left & ~(late_left << 1) | left & resting,
-        came_right=came_right,
-        came_left=came_left,
+        came_right | turned_right ^ late_right >> 1 | right & resting,
+        came_left | turned_left ^ late_left << 1 | left & resting,
+        came_right,
+        came_left,
     )
 
 
@@ -117,36 +123,63 @@ def free_steps(
     the fixed hazards and the movers after the tick, `came_*` the cells they entered. The sideways
     steps leave out those that pass through a mover (`swapped`, said of sets).
     """
-    free = ~blocked
+    left = (start ^ start & (left_edge | came_right)) >> 1
+    right = (start ^ start & (right_edge | came_left)) << 1
+    ahead_left = (ahead ^ ahead & left_edge) >> 1
+    ahead_right = (ahead ^ ahead & right_edge) << 1
     return Steps(
-        forward=ahead & free,
-        left=(start & ~left_edge & ~came_right) >> 1 & free,
-        right=(start & ~right_edge & ~came_left) << 1 & free,
-        forward_left=(ahead & ~left_edge) >> 1 & free,
-        forward_right=(ahead & ~right_edge) << 1 & free,
-        stay=start & free,
+        ahead ^ ahead & blocked,
+        left ^ left & blocked,
+        right ^ right & blocked,
+        ahead_left ^ ahead_left & blocked,
+        ahead_right ^ ahead_right & blocked,
+        start ^ start & blocked,
     )
 
 
-def steps_into(
+def spread(
+    start: Board,
+    ahead: Board,
+    blocked: Board,
+    came_right: Board,
+    came_left: Board,
+    left_edge: Board,
+    right_edge: Board,
+) -> Board:
+    """All of `free_steps` together: every cell that may be reached from `start` by one move."""
+    reached = (
+        start
+        | ahead
+        | (start ^ start & (left_edge | came_right)) >> 1
+        | (start ^ start & (right_edge | came_left)) << 1
+        | (ahead ^ ahead & left_edge) >> 1
+        | (ahead ^ ahead & right_edge) << 1
+    )
+    return reached ^ reached & blocked
+
+
+def spread_back(
     end: Board,
     behind: Board,
     came_right: Board,
     came_left: Board,
     left_edge: Board,
     right_edge: Board,
-) -> Steps:
-    """The reverse: cells from which each move leads into `end`, whose cells are free after the tick.
+) -> Board:
+    """The reverse of `spread`: every cell from which one move leads into `end`, whose cells are free.
 
     `behind` is `end` one row back.
     """
-    return Steps(
-        forward=behind,
-        left=(end & ~right_edge) << 1 & ~came_right,
-        right=(end & ~left_edge) >> 1 & ~came_left,
-        forward_left=(behind & ~right_edge) << 1,
-        forward_right=(behind & ~left_edge) >> 1,
-        stay=end,
+    ending_left = end ^ end & right_edge
+    ending_right = end ^ end & left_edge
+    by_left, by_right = ending_left << 1, ending_right >> 1
+    return (
+        end
+        | behind
+        | by_left ^ by_left & came_right
+        | by_right ^ by_right & came_left
+        | (behind ^ behind & right_edge) << 1
+        | (behind ^ behind & left_edge) >> 1
     )
 
 

@@ -1,8 +1,8 @@
 """Where the vehicle can be at every tick, in compiled words: least ticks, and the move that begins them.
 
 Structure: movers are rolled out by the rules word by word; the set of cells the vehicle can be in is
-stepped along with them (`free_steps` on sets) until it meets row 0; a backward pass over the layers
-(`steps_into`) keeps what lies on a shortest way, and the first move of the six that stays on one is taken.
+stepped along with them (`spread`) until it meets row 0; a backward pass over the layers
+(`spread_back`) keeps what lies on a shortest way, and the first move of the six that stays on one is taken.
 Words behind the vehicle are left out, since it never goes back. Guarantee: exact where movers do not
 react to it; with courtesy the first tick is exact, later ones assume that nobody gives way. Where no
 way leads to the goal, the move after which one can keep clear of collisions longest.
@@ -23,7 +23,8 @@ from sim.batch.compiled import (
     free_steps,
     move_movers,
     pedestrians_walk,
-    steps_into,
+    spread,
+    spread_back,
     word_at,
 )
 from sim.batch.layout import (
@@ -61,9 +62,14 @@ def steps_left(lane_block, lane, rows):
 
 
 @compiled
-def prepare(now, block, lane_block, lane, columns, share):
-    """Take a lane's boards up to the vehicle's word, and who yields to it in the coming tick."""
-    last = np.int64(lane_block[WORD * LANES + lane])
+def prepare(now, block, lane_block, lane, columns, rows, share, behind):
+    """Take a lane's boards up to the word `behind` rows after the vehicle, and who yields to it now.
+
+    Returns the last word taken.
+    """
+    word = np.int64(lane_block[WORD * LANES + lane])
+    row = np.int64(lane_block[CELL * LANES + lane]) // columns
+    last = min(row + behind, rows - 1) // (64 // columns)
     for w in range(last + 1):
         at = w * PLANES * LANES + lane
         now[NOW_RIGHT, w] = block[at + RIGHT * LANES]
@@ -74,15 +80,15 @@ def prepare(now, block, lane_block, lane, columns, share):
         now[YIELDS, w] = _ZERO
         now[VEHICLE, w] = _ZERO
     bit, shift = lane_block[COLUMN_BIT * LANES + lane], lane_block[SHIFT * LANES + lane]
-    now[VEHICLE, last] = bit << shift
+    now[VEHICLE, word] = bit << shift
     if share > 0.0:
         cell = np.int64(lane_block[CELL * LANES + lane])
         tick = np.int64(lane_block[EPISODE_TICK * LANES + lane])
         draws = word_at(lane_block[COURTESY_KEY * LANES + lane], tick)
         if fraction(word_at(draws, cell - 1)) < share:
-            now[YIELDS, last] |= ((bit & ~_ONE) >> _ONE) << shift
+            now[YIELDS, word] |= ((bit & ~_ONE) >> _ONE) << shift
         if fraction(word_at(draws, cell + 1)) < share:
-            now[YIELDS, last] |= ((bit & ~(_ONE << np.uint64(columns - 1))) << _ONE) << shift
+            now[YIELDS, word] |= ((bit & ~(_ONE << np.uint64(columns - 1))) << _ONE) << shift
     return last
 
 
@@ -143,7 +149,7 @@ def expand(layers, ahead, first, last, columns, left_edge, right_edge):
     if first > 0:
         layers[ahead + 1, REACHED, first - 1] = _ZERO  # read when the next word comes into reach
     for w in range(first, last + 1):
-        steps = free_steps(
+        after = spread(
             reached[w],
             one_row_on(reached, w, last, columns),
             layers[ahead, BLOCKED, w],
@@ -151,9 +157,6 @@ def expand(layers, ahead, first, last, columns, left_edge, right_edge):
             layers[ahead, CAME_LEFT, w],
             left_edge,
             right_edge,
-        )
-        after = (
-            steps.forward | steps.left | steps.right | steps.forward_left | steps.forward_right | steps.stay
         )
         layers[ahead + 1, REACHED, w] = after
         alive |= after != _ZERO
@@ -196,21 +199,13 @@ def keep_shortest(layers, ticks, row, last, columns, left_edge, right_edge):
         for w in range(first):
             layers[ahead, NEEDED, w] = _ZERO
         for w in range(first, last + 1):
-            starts = steps_into(
+            before = spread_back(
                 needed[w],
                 one_row_back(needed, w, columns),
                 layers[ahead, CAME_RIGHT, w],
                 layers[ahead, CAME_LEFT, w],
                 left_edge,
                 right_edge,
-            )
-            before = (
-                starts.forward
-                | starts.left
-                | starts.right
-                | starts.forward_left
-                | starts.forward_right
-                | starts.stay
             )
             layers[ahead, NEEDED, w] = before & layers[ahead, REACHED, w]
 
@@ -288,7 +283,7 @@ def exact_moves(state, lanes, shares, columns, rows, left_edge, right_edge, coun
         moves[lane], ticks[lane] = STAY, 0
         if lane_block[OUTCOME * LANES + inner]:
             continue
-        last = prepare(now, block, lane_block, inner, columns, shares[lane, COURTESY])
+        last = prepare(now, block, lane_block, inner, columns, rows, shares[lane, COURTESY], 0)
         episode_tick = np.int64(lane_block[EPISODE_TICK * LANES + inner])
         limit = steps_left(lane_block, inner, rows)
         cell = np.int64(lane_block[CELL * LANES + inner])

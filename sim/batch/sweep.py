@@ -156,7 +156,16 @@ def weighted_moves(state, lanes, shares, charges, columns, rows, left_edge, righ
         moves[lane], costs[lane] = STAY, 0
         if lane_block[OUTCOME * LANES + inner]:
             continue
-        last = prepare(now, block, lane_block, inner, columns, shares[lane, COURTESY])
+        last = prepare(
+            now,
+            block,
+            lane_block,
+            inner,
+            columns,
+            rows,
+            shares[lane, COURTESY],
+            max(1, charges[lane, BUFFER]),
+        )
         episode_tick = np.int64(lane_block[EPISODE_TICK * LANES + inner])
         limit = steps_left(lane_block, inner, rows)
         cell = np.int64(lane_block[CELL * LANES + inner])

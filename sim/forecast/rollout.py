@@ -10,22 +10,10 @@ from collections.abc import Mapping, Sequence
 from typing import overload
 
 from sim.perceive import Percept
-from sim.road import Board
 from sim.rules import Motion, followed_board, followed_table, move_movers, pedestrians_walk
 
 
-class Slice(Motion):
-    """Movers as expected after some ticks: where, and which cells were entered in the last one."""
-
-    __slots__ = ()
-
-    @property
-    def occupied(self) -> Board:
-        """Every cell a mover stands in."""
-        return self.right | self.left
-
-
-class RollOut(Sequence[Slice]):
+class RollOut(Sequence[Motion]):
     """`roll_out[k]` is expected k + 1 ticks from now. Ticks are computed when they are first read."""
 
     def __init__(self, percept: Percept, horizon: int) -> None:
@@ -36,7 +24,7 @@ class RollOut(Sequence[Slice]):
         self._horizon = horizon
         self._fixed = percept.potholes | percept.barriers
         self._disabled = (percept.right | percept.left) & percept.potholes
-        self._slices: list[Slice] = []
+        self._slices: list[Motion] = []
         self._tables: list[Mapping[int, str]] = []
         self._right, self._left, self._pedestrians = percept.right, percept.left, percept.pedestrians
 
@@ -44,10 +32,10 @@ class RollOut(Sequence[Slice]):
         return self._horizon
 
     @overload
-    def __getitem__(self, ahead: int) -> Slice: ...
+    def __getitem__(self, ahead: int) -> Motion: ...
     @overload
-    def __getitem__(self, ahead: slice) -> list[Slice]: ...
-    def __getitem__(self, ahead: int | slice) -> Slice | list[Slice]:
+    def __getitem__(self, ahead: slice) -> list[Motion]: ...
+    def __getitem__(self, ahead: int | slice) -> Motion | list[Motion]:
         if isinstance(ahead, slice):
             return [self[each] for each in range(*ahead.indices(self._horizon))]
         slices = self._slices
@@ -65,7 +53,7 @@ class RollOut(Sequence[Slice]):
             self._tables.append(followed_table(before, self[len(self._tables)]))
         return self._tables[ahead]
 
-    def _next(self) -> Slice:
+    def _next(self) -> Motion:
         percept, ahead = self._percept, len(self._slices)
         walking = pedestrians_walk(percept.episode_tick + ahead)
         motion = move_movers(
@@ -81,4 +69,4 @@ class RollOut(Sequence[Slice]):
         self._right, self._left = motion.right, motion.left
         if self._pedestrians:
             self._pedestrians = followed_board(self._pedestrians, motion)
-        return Slice(*motion)
+        return motion

@@ -12,7 +12,7 @@ from enum import StrEnum
 from sim.forecast.rollout import RollOut
 from sim.perceive import Percept
 from sim.road import Board, Road
-from sim.rules import Steps, free_steps, swapped
+from sim.rules import Steps, free_steps, spread, swapped
 
 
 class Verdict(StrEnum):
@@ -56,6 +56,20 @@ class Forecast:
     def blocked(self, ahead: int = 0) -> Board:
         """Every cell that anything stands in, `ahead` + 1 ticks from now."""
         return self.fixed | self.slices[ahead].occupied
+
+    def spread(self, start: Board, ahead: int = 0) -> Board:
+        """Every cell a vehicle in any cell of `start` may be in one tick later, `ahead` ticks from now."""
+        road = self.road
+        right, left, came_right, came_left = self.slices[ahead]
+        return spread(
+            start,
+            start >> road.columns,
+            self.potholes | self.barriers | right | left,
+            came_right,
+            came_left,
+            road.left_edge,
+            road.right_edge,
+        )
 
     def steps(self, start: Board, ahead: int = 0) -> Steps:
         """Where vehicles in any cell of `start` may be one tick later, `ahead` ticks from now."""

@@ -6,7 +6,7 @@ from typing import Protocol
 
 from sim.config import Config
 from sim.forecast import Forecast
-from sim.plan import priority
+from sim.plan import astar, dijkstra, exact, priority
 from sim.plan.decision import Decision
 
 
@@ -37,4 +37,10 @@ def planner_named(name: str) -> Planner | None:
     return _planners.get(name)
 
 
-register(priority.PriorityPlanner())
+for planner in (
+    priority.PriorityPlanner(),
+    astar.AStarPlanner(),
+    dijkstra.DijkstraPlanner(),
+    exact.ExactPlanner(),
+):
+    register(planner)

@@ -1,0 +1,47 @@
+"""`astar`: the cheapest way to the goal, searched ahead in (column, row, tick).
+
+Structure: one A* for each move that is free now, from the cell it leads to; what one search shows of
+the way to the goal sharpens the bounds of the next, so that most of them end where an earlier way is
+met. Guarantees: every move's total cost is exact, and the move taken is a cheapest (ties in the order
+of `Move`); since every tick costs something and the forecast holds, the cost to go falls by what is paid,
+so that there is no livelock; a road that can be driven is driven. Simplifications: with courtesy above 0
+the forecast assumes that nobody gives way after the coming tick; smoothness is charged per move.
+Sources: Hart, Nilsson & Raphael (1968); space-time: Silver, "Cooperative pathfinding" (2005);
+Koenig & Likhachev, "Adaptive A*" (2005).
+"""
+
+from __future__ import annotations
+
+from sim.config import Config
+from sim.forecast import Forecast
+from sim.plan.costs import weights
+from sim.plan.decision import Decision
+from sim.plan.weighted import decided
+from sim.search.astar import Lessons, cheapest
+from sim.search.reach import MOVES, least_ticks_by_move, steps_left
+from sim.search.spacetime import SpaceTime
+
+
+class AStarPlanner:
+    """The first move of a cheapest way to the goal."""
+
+    name = "astar"
+
+    def horizon(self, config: Config) -> int:
+        """To the end of the episode; ticks are only foretold as far as the search gets."""
+        return config.max_ticks + 1
+
+    def decide(self, forecast: Forecast, config: Config) -> Decision:
+        """The move, and what each of the six costs in all."""
+        limit = steps_left(config, forecast.episode_tick)
+        terrain = SpaceTime(forecast, weights(config), limit)
+        totals: list[int | None] = [None] * len(MOVES)
+        lessons = Lessons()
+        ticks = least_ticks_by_move(forecast, limit)
+        for move, there, cost in terrain.steps(terrain.start):
+            if ticks[move] is None:
+                continue  # a heuristic search would try everything before it gave up
+            way = cheapest(terrain, there, lessons=lessons)
+            if way is not None:
+                totals[move] = cost + way.cost
+        return decided(self.name, forecast, totals, limit)

@@ -1,0 +1,35 @@
+"""`dijkstra`: the cost to the goal from every state at once, backwards, without a heuristic.
+
+Structure: a bound on how far ahead a cheapest way can lie, then one sweep backwards through the ticks.
+Guarantees: as `astar`, whose totals and moves it shares exactly, found another way. It takes about as
+long on an empty road as on a crowded one. Simplifications: as `astar`.
+Source: Dijkstra, "A note on two problems in connexion with graphs" (1959), whose order of settling is
+here given by time.
+"""
+
+from __future__ import annotations
+
+from sim.config import Config
+from sim.forecast import Forecast
+from sim.plan.costs import weights
+from sim.plan.decision import Decision
+from sim.plan.weighted import decided
+from sim.search.reach import steps_left
+
+
+class DijkstraPlanner:
+    """The first move of a cheapest way to the goal."""
+
+    name = "dijkstra"
+
+    def horizon(self, config: Config) -> int:
+        """To the end of the episode; ticks are only foretold as far as the sweep begins."""
+        return config.max_ticks + 1
+
+    def decide(self, forecast: Forecast, config: Config) -> Decision:
+        """The move, and what each of the six costs in all."""
+        from sim.search.sweep import totals_by_move
+
+        limit = steps_left(config, forecast.episode_tick)
+        totals = totals_by_move(forecast, weights(config), limit)
+        return decided(self.name, forecast, totals, limit)
