@@ -22,6 +22,7 @@ from service.language import LanguageDataError
 from service.settings import Settings
 from service.store import Store, StoreError, open_store
 from service.version import VERSION
+from sim import planner_names
 
 STOP_S = 2
 """How long a stopping service waits for requests under way."""
@@ -82,6 +83,27 @@ def serve(
         pass
     finally:
         listener.close()
+
+
+@cli.command("check-planner")
+def check_planner(
+    name: Annotated[str, typer.Argument(help="The planner's name, for instance: astar")],
+) -> None:
+    """Try a planner's promises on many roads. Exits with 1 when one is broken."""
+    from sim.plan.checker import MAX_TOLD, check, found
+
+    planner = found(name)
+    if planner is None:
+        _fail(f"There is no planner called {name}. There are: {', '.join(planner_names.names())}.")
+    report = check(planner)
+    for defect in report.defects[:MAX_TOLD]:
+        typer.echo(f"{defect.promise:<14} seed {defect.seed}, tick {defect.tick}: {defect.what}")
+    if len(report.defects) > MAX_TOLD:
+        typer.echo(f"... and {len(report.defects) - MAX_TOLD} more")
+    broken = len({defect.promise for defect in report.defects})
+    typer.echo(f"{name}: {report.decisions} decisions, {broken} promises broken")
+    if report.defects:
+        raise typer.Exit(1)
 
 
 @cli.command()

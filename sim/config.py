@@ -8,7 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass, fields, replace
 from typing import Any, Final, get_args
 
-from sim.actions import PlannerName, Preference, RoadType, SensorName, Traffic
+from sim import planner_names
+from sim.actions import Preference, RoadType, SensorName, Traffic
 from sim.randomness import MAX_SEED
 from sim.road import Road
 
@@ -51,7 +52,6 @@ RANGES: Final[dict[str, tuple[float, float]]] = {
 CHOICES: Final[dict[str, tuple[str, ...]]] = {
     "road": get_args(RoadType),
     "traffic": get_args(Traffic),
-    "planner": get_args(PlannerName),
     "sensor": get_args(SensorName),
 }
 """The words that may stand where a word is asked for."""
@@ -99,7 +99,7 @@ class Config:
     reset_delay_s: float = 2.0
     road: RoadType | None = None
     traffic: Traffic | None = None
-    planner: PlannerName = "priority"
+    planner: str = "priority"
     preferences: tuple[Preference, ...] = ()
     """how planners that weigh costs should weigh them; the balance is in `sim.plan.costs`"""
     safety_buffer: int = 1
@@ -164,6 +164,8 @@ class Config:
             for name, choices in CHOICES.items()
             if getattr(self, name) not in choices and not (name in _OPTIONAL and getattr(self, name) is None)
         ]
+        if not planner_names.may_be_named(self.planner):
+            problems.append(Problem("planner", f"must be one of {', '.join(planner_names.names())}"))
         for name, choices in LISTS.items():
             words = getattr(self, name)
             if not isinstance(words, tuple) or not set(words) <= set(choices) or len(set(words)) < len(words):

@@ -13,7 +13,7 @@ from typing import Any
 from sim.actions import Add, Drive, Remove, Reset, Scenario, SetCount, SetMode, WorldAction
 from sim.config import Config, ConfigError
 from sim.events import Event, EventType
-from sim.generate import lowest_ranked, named
+from sim.generate import GenerationError, lowest_ranked, named
 from sim.kinds import PLACEABLE, Kind, Outcome
 from sim.place import PlaceError, nearest_first, place_for_adding, place_for_finding
 from sim.randomness import Stream
@@ -215,7 +215,11 @@ def _scenario(run: Run, action: Scenario) -> Applied:
         problem = error.problems[0]
         named = f"{getattr(action, problem.field, None) or 'So many'} {problem.field} are {problem.message}."
         raise EditError("does-not-fit", named, problem.field) from None
-    begun, event = reconfigured(run, config)
+    try:
+        begun, event = reconfigured(run, config)
+    except GenerationError as error:
+        message = f"The scenario is not begun: {error.problems[0].message}."
+        raise EditError("does-not-fit", message, "solvable") from None
     return Applied(action, begun, events=(event,))
 
 

@@ -12,11 +12,15 @@ class EventType(StrEnum):
     """What kind of thing happened."""
 
     EPISODE_STARTED = "episode_started"
+    ROAD_KEPT = "road_kept"
+    """no next road that can be driven was found, so the present one begins again"""
     ARRIVED = "arrived"
     CRASHED = "crashed"
     STUCK = "stuck"
     HELD_BACK = "held_back"
     """a person's move was not taken because its cell would not be free"""
+    PLANNER_FAILED = "planner_failed"
+    """the planner did something else than answer, and the vehicle stays"""
     DISABLED = "disabled"
     """a pothole was put under a mover, which stays in it"""
 
@@ -32,4 +36,5 @@ class Event:
     cell: Cell | None = None
     move: Move | None = None
     how: str | None = None
-    """for a crash `hit` or `swap`, for a move held back what it would have met (`Verdict`)"""
+    """for a crash `hit` or `swap`, for a move held back what it would have met (`Verdict`),
+    for a planner that failed what it did"""

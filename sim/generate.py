@@ -2,32 +2,69 @@
 
 Every kind draws from a stream of its own, so that asking for another number of potholes leaves
 the cars where they were. An exact number takes the free cells of lowest random rank: one more
-adds one and moves none.
+adds one and moves none. Where roads must be drivable, the same is drawn again, from streams numbered
+by the attempt, until one is.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from sim.config import Config
+from sim.config import Config, ConfigError, Problem
+from sim.forecast import foretell
 from sim.kinds import Kind
+from sim.perceive import perceive
 from sim.randomness import Stream
 from sim.road import Board, Road, bits, board_of
+from sim.search.reach import reach, steps_left
 from sim.world import World
 
+MAX_ATTEMPTS = 200
+"""Draws until it is given up that a road be drivable."""
+
 _PRESENCE, _COLUMN = 0, 1
+
+
+class GenerationError(ConfigError):
+    """No road that can be driven was found among `MAX_ATTEMPTS` draws."""
+
+    def __init__(self) -> None:
+        message = f"no drivable road was found in {MAX_ATTEMPTS} draws; ask for fewer hazards"
+        super().__init__((Problem("solvable", message),))
 
 
 def generate(
     config: Config, episode: int, *, tick: int = 0, numbered: Mapping[Kind, int] | None = None
 ) -> World:
-    """The world in which an episode begins, at `tick`; ids go on from `numbered`."""
+    """The world in which an episode begins, at `tick`; ids go on from `numbered`.
+
+    Raises `GenerationError` where the road must be drivable and none is found.
+    """
+    if not config.solvable:
+        return _drawn(config, episode, (), tick, numbered)
+    for attempt in range(MAX_ATTEMPTS):
+        world = _drawn(config, episode, (attempt,) if attempt else (), tick, numbered)
+        if drivable(world, config):
+            return world
+    raise GenerationError
+
+
+def drivable(world: World, config: Config) -> bool:
+    """Whether row 0 can be reached in time, assuming that nobody gives way after the first tick."""
+    limit = steps_left(config, world.episode_tick)
+    forecast = foretell(perceive(world, config), limit)
+    return reach(forecast, 1 << world.av, limit).ticks is not None
+
+
+def _drawn(
+    config: Config, episode: int, attempt: tuple[int, ...], tick: int, numbered: Mapping[Kind, int] | None
+) -> World:
     road = config.geometry
     taken = 0
 
     def furnish(kind: Kind, count: int | None, probability: float) -> Board:
         nonlocal taken
-        stream = Stream.of(config.seed, f"spawn {kind}", episode)
+        stream = Stream.of(config.seed, f"spawn {kind}", episode, *attempt)
         free = road.between & ~taken
         chosen = (
             _one_a_row(road, free, probability, stream) if count is None else _exactly(free, count, stream)
@@ -40,7 +77,7 @@ def generate(
     barriers = furnish(Kind.BARRIER, config.barriers, 0.0)
     potholes = furnish(Kind.POTHOLE, config.potholes, config.pothole_probability)
 
-    heading = Stream.of(config.seed, "heading", episode)
+    heading = Stream.of(config.seed, "heading", episode, *attempt)
     right = board_of([cell for cell in bits(vehicles | pedestrians) if heading.below(2, cell)])
     last = dict(numbered or {})
     return World(

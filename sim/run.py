@@ -10,13 +10,13 @@ from dataclasses import dataclass, field, replace
 from sim.config import Config
 from sim.courtesy import yielding
 from sim.events import Event, EventType
-from sim.forecast import foretell
-from sim.generate import generate
+from sim.generate import GenerationError, generate
 from sim.judge import collisions, outcome
 from sim.kinds import Kind, Mode, Move, Outcome
 from sim.metrics import Metrics
 from sim.perceive import perceive
-from sim.plan import Decision, planner_named
+from sim.plan import Decision
+from sim.plan.guard import is_foreign, planned, stayed
 from sim.plan.manual import obey
 from sim.rules import followed_board, followed_table, move_movers, pedestrians_walk
 from sim.world import World
@@ -40,10 +40,12 @@ class Run:
     metrics: Metrics = field(default_factory=Metrics)
     edits: int = 0
     """changes made so far; numbers the stream random places are drawn from"""
+    fault: str | None = None
+    """what the planner did instead of answering at the latest decision"""
 
     @staticmethod
     def start(config: Config) -> Run:
-        """The first episode's beginning."""
+        """The first episode's beginning. Raises `GenerationError` (`sim.generate`)."""
         return Run(config, generate(config, 1))
 
 
@@ -61,14 +63,13 @@ def decide(run: Run) -> Decision | None:
     world, config = run.world, run.config
     if world.outcome is not Outcome.RUNNING:
         return None
-    planner = planner_named(config.planner)
-    if planner is None:
-        raise LookupError(f"no planner is called {config.planner!r}")
-    forecast = foretell(perceive(world, config), planner.horizon(config))
-    planned = planner.decide(forecast, config)
+    percept = perceive(world, config)
+    by_hand = bool(run.queue) or run.mode is Mode.MANUAL
+    # A person's move needs no planner, and a foreign one may be what is being taken over from.
+    decision = stayed(percept, config) if by_hand and is_foreign(config.planner) else planned(percept, config)
     if run.queue:
-        return obey(planned, run.queue[0])
-    return obey(planned, Move.STAY) if run.mode is Mode.MANUAL else planned
+        return obey(decision, run.queue[0])
+    return obey(decision, Move.STAY) if run.mode is Mode.MANUAL else decision
 
 
 def advance(run: Run) -> Tick:
@@ -82,6 +83,8 @@ def advance(run: Run) -> Tick:
     result = outcome(after, crashes, run.config.max_ticks)
     metrics = run.metrics.after_move(decision.move, run.config.cell_m)
     events = []
+    if decision.fault is not None and decision.fault != run.fault:
+        events.append(Event(after.tick, EventType.PLANNER_FAILED, after.episode, how=decision.fault))
     if decision.held_back and decision.asked is not None:
         blocked = decision.option(decision.asked)
         events.append(
@@ -101,7 +104,11 @@ def advance(run: Run) -> Tick:
         metrics = metrics.after_end(result, after.episode_tick)
         ids, cell, how = (cause.ids, cause.cell, cause.how) if cause else ((), None, None)
         events.append(Event(after.tick, _END_EVENTS[result], after.episode, ids, cell, decision.move, how))
-    return Tick(replace(run, world=after, metrics=metrics, queue=run.queue[1:]), decision, tuple(events))
+    return Tick(
+        replace(run, world=after, metrics=metrics, queue=run.queue[1:], fault=decision.fault),
+        decision,
+        tuple(events),
+    )
 
 
 def commit(world: World, move: Move, config: Config) -> World:
@@ -134,8 +141,15 @@ def commit(world: World, move: Move, config: Config) -> World:
 
 
 def next_episode(run: Run) -> tuple[Run, Event]:
-    """The following episode's beginning, at the present tick."""
-    return _begin(run, run.config, run.world.episode + 1)
+    """The following episode's beginning, at the present tick.
+
+    Where roads must be drivable and none is found, the present episode again, which was; the event says so.
+    """
+    try:
+        return _begin(run, run.config, run.world.episode + 1)
+    except GenerationError:
+        begun, event = restarted(run)
+        return begun, replace(event, type=EventType.ROAD_KEPT)
 
 
 def restarted(run: Run) -> tuple[Run, Event]:

@@ -11,7 +11,7 @@ from typing import Final
 
 from sim.actions import RoadType, Scenario, Traffic
 from sim.config import Config, Problem
-from sim.plan import planner_named
+from sim.planner_names import PROMISED
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,11 +43,18 @@ def unavailable(scenario: Scenario) -> Problem | None:
         return Problem("time_of_day", f"Another time of day than day ({scenario.time_of_day})")
     if scenario.sensor not in (None, "perfect"):
         return Problem("sensor", f"A sensor other than the perfect one ({scenario.sensor})")
-    if planner_named(scenario.planner or "priority") is None:
+    if scenario.planner in PROMISED:
         return Problem("planner", f"The planner {scenario.planner}")
     if scenario.avs:
         return Problem("avs", "A second autonomous vehicle")
     return None
+
+
+def unavailable_setting(config: Config) -> Problem | None:
+    """The first setting of a configuration that this version has not, and what it is called."""
+    if config.planner in PROMISED:
+        return Problem("planner", f"The planner {config.planner}")
+    return unavailable(Scenario(sensor=config.sensor))
 
 
 def configured(config: Config, scenario: Scenario) -> Config:

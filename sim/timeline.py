@@ -23,6 +23,15 @@ RECENT_RUNS = 8
 """States kept as they were, for questions about what has just been done."""
 
 
+class PlannerSilentError(Exception):
+    """A planner from another package did not answer in time."""
+
+    def __init__(self, planner: str, fault: str) -> None:
+        super().__init__(f"The planner {planner} {fault}")
+        self.planner = planner
+        self.fault = fault
+
+
 @dataclass(frozen=True, slots=True)
 class Entry:
     """One action of the log. Entries of one `sequence` were said together."""
@@ -70,9 +79,15 @@ class Timeline:
         return twin
 
     def advance(self) -> Tick:
-        """One tick on."""
-        self._recent.append(self.run)
+        """One tick on. Raises `PlannerSilentError`; nothing has then changed.
+
+        A planner that did not answer in time may answer when the tick is run again, so a tick without its
+        answer must not become part of what is replayed.
+        """
         tick = advance(self.run)
+        if tick.decision is not None and tick.decision.timed_out:
+            raise PlannerSilentError(tick.decision.planner, tick.decision.fault or "")
+        self._recent.append(self.run)
         self._arrive(tick.run)
         return tick
 

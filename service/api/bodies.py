@@ -11,7 +11,6 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSche
 
 from service.actions import Action, load
 from service.api.config_schema import CONFIG_SCHEMA
-from sim.actions import PlannerName
 
 Tick = Annotated[int, Field(ge=0, le=2**53 - 1, description="Ticks since the session began.")]
 ConfigParts = Annotated[dict[str, Any], WithJsonSchema(CONFIG_SCHEMA)]
@@ -63,7 +62,7 @@ class NewSession(Sent):
     scenario: str | None = Field(None, description="A sentence that describes a road.")
     config: ConfigParts | None = None
     seed: int | None = Field(None, ge=0, le=2**53 - 1)
-    planner: PlannerName | None = None
+    planner: str | None = None
     paused: bool | None = Field(
         None, description="Default: running, or paused when replayed from a recording."
     )

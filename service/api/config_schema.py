@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import fields
 from typing import Any
 
+from sim import planner_names
 from sim.config import _WHOLE, CHOICES, LISTS, RANGES, Config
 
 
@@ -13,6 +14,9 @@ def _property(name: str, default: Any) -> dict[str, Any]:
     if name in CHOICES:
         choices: list[str | None] = [*CHOICES[name], *([None] if nullable else [])]
         return {"enum": choices, "default": default}
+    if name == "planner":
+        examples = list(planner_names.names())
+        return {"type": "string", "examples": examples, "default": default}
     if name in LISTS:
         items = {"type": "string", "enum": list(LISTS[name])}
         return {"type": "array", "items": items, "uniqueItems": True, "default": list(default)}

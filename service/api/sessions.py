@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import secrets
-from dataclasses import replace
 from typing import Annotated
 
 from fastapi import APIRouter, Body, Query, Response
@@ -35,8 +34,9 @@ from service.sessions.manager import Recorded
 from service.settings import Settings
 from service.store import EntryRecord
 from sim.actions import Scenario
-from sim.config import Config, ConfigError
-from sim.scenario import configured, unavailable
+from sim.config import Config, ConfigError, Problem
+from sim.generate import GenerationError
+from sim.scenario import configured, unavailable, unavailable_setting
 
 router = APIRouter(tags=["sessions"], route_class=StrictRoute)
 
@@ -71,7 +71,12 @@ async def make(
     """
     if body.recording is None:
         config = _config(here, body)
-        session = await here.manager.create(body.name, config, paused=bool(body.paused))
+        try:
+            session = await here.manager.create(body.name, config, paused=bool(body.paused))
+        except GenerationError as error:
+            raise invalid(
+                FieldProblem(f"config.{each.field}", each.message) for each in error.problems
+            ) from error
     else:
         config, recorded = _recorded(here.settings, body, body.recording)
         session = await here.manager.create(
@@ -143,16 +148,20 @@ def _config(here: Context, body: bodies.NewSession) -> Config:
     try:
         config = Config().with_parts(**parts)
         if body.scenario is not None:
-            config = configured(config, _scenario(here, body.scenario, config))
+            scenario = _scenario(here, body.scenario)
+            planner = scenario.planner or config.planner
+            config = configured(config, scenario).with_parts(planner=planner)
     except ConfigError as error:
+        beside = [name for name in ("seed", "planner") if getattr(body, name) is not None]
         raise invalid(
-            FieldProblem(f"config.{each.field}", each.message) for each in error.problems
+            FieldProblem(each.field if each.field in beside else f"config.{each.field}", each.message)
+            for each in error.problems
         ) from error
     _check_offered(here.settings, config)
     return config
 
 
-def _scenario(here: Context, text: str, config: Config) -> Scenario:
+def _scenario(here: Context, text: str) -> Scenario:
     """The one scenario a sentence describes; a planner named beside it stands unless it names one."""
     parse = understand(here, text, "scenario")
     if len(parse.actions) != 1 or not isinstance(parse.actions[0], Scenario):
@@ -163,19 +172,18 @@ def _scenario(here: Context, text: str, config: Config) -> Scenario:
             understood=[text],
         )
     scenario = parse.actions[0]
-    _check_available(scenario, "scenario")
-    return replace(scenario, planner=scenario.planner or config.planner)
+    _check_available(unavailable(scenario), "scenario")
+    return scenario
 
 
 def _check_offered(settings: Settings, config: Config) -> None:
     if config.columns * config.rows > settings.max_road_cells:
         message = f"makes a road of more than {settings.max_road_cells} cells, the most there can be here"
         raise invalid([FieldProblem("config.rows", message)])
-    _check_available(Scenario(planner=config.planner, sensor=config.sensor), "config")
+    _check_available(unavailable_setting(config), "config")
 
 
-def _check_available(scenario: Scenario, field: str) -> None:
-    missing = unavailable(scenario)
+def _check_available(missing: Problem | None, field: str) -> None:
     if missing is not None:
         sentence = f"{missing.message} is not available yet."
         raise NotAvailable(sentence, errors=[FieldProblem(field, sentence)])

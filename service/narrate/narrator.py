@@ -69,7 +69,13 @@ class Narrator:
             where="" if event.cell is None else self._sayings.where(event.cell),
             move="" if event.move is None else self._sayings.move(event.move, "name"),
             reason=reason,
+            planner=run.config.planner,
+            fault=event.how or "",
         )
+
+    def silent(self, planner: str, fault: str) -> str:
+        """What is said when a planner did not answer in time and a person is to drive."""
+        return self._sayings.say("log", "events", "planner_silent", planner=planner, fault=fault)
 
     def done(self, facts: tuple[Fact, ...]) -> str:
         """The reply: what was done, in a sentence for each fact."""

@@ -18,7 +18,7 @@ from service.sessions.facts import Asked, Fact, PauseSet, Stepped, Undone
 from service.sessions.history import History, Step
 from sim.actions import Add, Drive, Remove, Reset, Scenario, SetCount, SetMode, WorldAction
 from sim.edit import EditError, differences
-from sim.timeline import Timeline
+from sim.timeline import PlannerSilentError, Timeline
 
 WORLD_ACTIONS = (Add, Remove, SetCount, Scenario, Reset, SetMode, Drive)
 
@@ -87,7 +87,11 @@ class Draft:
 
     def _step(self, ticks: int) -> Stepped:
         self.paused = True
-        return Stepped(self.timeline.tick, tuple(self.timeline.advance() for _ in range(ticks)))
+        try:
+            return Stepped(self.timeline.tick, tuple(self.timeline.advance() for _ in range(ticks)))
+        except PlannerSilentError as silence:
+            sentence = f"{silence}. Drive yourself, or choose another planner."
+            raise NotAvailable(sentence, errors=[FieldProblem("planner", sentence)]) from silence
 
     def _undo(self, position: int) -> Undone:
         self._close_step()

@@ -65,7 +65,8 @@ class SessionManager:
     ) -> Session:
         """A new session, stored. With a recording it is replayed first.
 
-        Raises `TooManySessions`, `NotSaved`, `RecordingMismatch` or `Invalid` for a recording that
+        Raises `GenerationError`, `TooManySessions`, `NotSaved`,
+        `RecordingMismatch` or `Invalid` for a recording that
         cannot be replayed.
         """
         self._check_room()
@@ -79,7 +80,9 @@ class SessionManager:
                 paused=paused and recorded is None,
                 tick=recorded.tick if recorded else 0,
             )
-            session = Session(record, Timeline(config), self._around)
+            # Looking for a road that can be driven may take many draws.
+            timeline = await asyncio.to_thread(Timeline, config) if config.solvable else Timeline(config)
+            session = Session(record, timeline, self._around)
             if recorded is not None:
                 await self._replay(session, recorded)
             try:

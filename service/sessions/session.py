@@ -31,10 +31,12 @@ from service.sessions.words import Words
 from service.settings import Settings
 from service.store import EntryRecord, SessionRecord, Store, StoreError
 from service.wire.state import Standing, state_json
+from sim.actions import SetMode
 from sim.edit import Applied, Change
+from sim.kinds import Mode
 from sim.plan import Decision
 from sim.run import Run, Tick
-from sim.timeline import Timeline
+from sim.timeline import PlannerSilentError, Timeline
 
 _LOG = structlog.get_logger(__name__)
 
@@ -79,7 +81,7 @@ class Session:
         self._changing = False
         self._tick_due = False
         self._ended = False
-        self._tasks: set[asyncio.Task[Outcome]] = set()
+        self._tasks: set[asyncio.Task[Any]] = set()
 
     def __str__(self) -> str:
         return f"session {self.record.id}"
@@ -133,9 +135,26 @@ class Session:
             self._tick_due = True
             return
         before = self.run
-        tick = self.timeline.advance()
+        try:
+            tick = self.timeline.advance()
+        except PlannerSilentError as silence:
+            self._hand_over(silence)
+            return
         lines = self._note(tick.run, tick)
         self._publish_tick(before, tick, lines)
+
+    def _hand_over(self, silence: PlannerSilentError) -> None:
+        """Let a person drive, as a change like any other: a replay does not ask that planner again."""
+        self._changing = True  # no tick until it is done
+        text = self._around.words.silent(silence.planner, silence.fault)
+        task = asyncio.ensure_future(self._handed_over(text))
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+
+    async def _handed_over(self, text: str) -> None:
+        await self._change(Utterance(actions=(SetMode(mode=Mode.MANUAL),)), dry_run=False)
+        line = self._line(self.timeline.tick, "event", text)
+        self._publish_changed(None, text, (), [line])
 
     def tick_failed(self, error: Exception) -> None:
         """A defect of the world's rules: stand still and say so, rather than fail twice a second."""

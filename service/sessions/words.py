@@ -19,6 +19,9 @@ class Words(Protocol):
     def event(self, event: Event, run: Run) -> str:
         """One line of the log."""
 
+    def silent(self, planner: str, fault: str) -> str:
+        """What is said when a planner did not answer in time and a person is to drive."""
+
     def done(self, facts: tuple[Fact, ...]) -> str:
         """The reply: what was done, in a sentence or two."""
 

@@ -29,6 +29,7 @@ from sim.batch.layout import (
     COLUMN_BIT,
     COURTESY_KEY,
     ENDS,
+    EPISODE,
     EPISODE_TICK,
     FIXED,
     HOLES,
@@ -48,11 +49,11 @@ from sim.batch.layout import (
     Words,
 )
 from sim.batch.reach import exact_moves
-from sim.batch.roads import EPISODE, begin_all
+from sim.batch.roads import begin_all
 from sim.batch.sweep import weighted_moves
 from sim.batch.tick import END_FIELD, MAX_TICKS_A_CALL, MOVE_FIELD, ticks_kernel
 from sim.config import Config
-from sim.generate import named
+from sim.generate import GenerationError, named
 from sim.kinds import Kind, Outcome
 from sim.plan.costs import weights
 from sim.randomness import Stream
@@ -91,7 +92,10 @@ class Batch:
     """Lanes that advance together. Not safe to use from several threads; `run` uses several by itself."""
 
     def __init__(self, configs: Sequence[Config], *, after: After = "next") -> None:
-        """Every lane at its first episode's beginning. Raises `ValueError` unless all roads have one size."""
+        """Every lane at its first episode's beginning. Raises `ValueError` unless all roads have one size.
+
+        Raises `GenerationError` where a road must be drivable and none is found.
+        """
         sizes = {(config.columns, config.rows) for config in configs}
         if len(sizes) != 1:
             raise ValueError(f"a batch has roads of one size, not of {len(sizes)}")
@@ -113,6 +117,7 @@ class Batch:
                     config.seed,
                     1,
                     config.reset_delay_ticks,
+                    config.solvable,
                 )
                 for config in padded
             ],
@@ -124,7 +129,7 @@ class Batch:
         self._charges = np.array([astuple(weights(config)) for config in padded], np.int64)
         self._ticks = np.zeros(blocks * LANES, np.int64)
         self._counts = np.zeros((_COUNTERS, blocks * LANES), np.int64)
-        begin_all(
+        found = begin_all(
             self._state,
             self._lanes,
             blocks * LANES,
@@ -133,6 +138,8 @@ class Batch:
             self._wholes,
             self._shares,
         )
+        if not found:
+            raise GenerationError
         self._remember_first()
 
     @classmethod

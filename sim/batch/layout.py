@@ -51,6 +51,12 @@ cell index), the clock and the end of its episode, packed counters, and what a t
 loop to the next."""
 
 
+SPAWN_PROBABILITY, POTHOLE_PROBABILITY, COURTESY = range(3)
+"""Columns of a batch's table of probabilities (float64)."""
+VEHICLES, PEDESTRIANS, BARRIERS, POTHOLES, SEED, EPISODE, HOLD_TICKS, SOLVABLE = range(8)
+"""Columns of its table of whole numbers (int64); a number of −1 means: drawn row by row."""
+
+
 @dataclass(frozen=True, slots=True)
 class Layout:
     """How a road of `columns` × `rows` is cut."""

@@ -30,6 +30,7 @@ from sim.batch.compiled import (
 from sim.batch.layout import (
     CELL,
     COLUMN_BIT,
+    COURTESY,
     COURTESY_KEY,
     EPISODE_TICK,
     FIXED,
@@ -43,7 +44,6 @@ from sim.batch.layout import (
     WALKERS,
     WORD,
 )
-from sim.batch.roads import COURTESY
 
 _ZERO: Final = np.uint64(0)
 _ONE: Final = np.uint64(1)
@@ -296,3 +296,21 @@ def exact_moves(state, lanes, shares, columns, rows, left_edge, right_edge, coun
             moves[lane] = step_from(layers, 0, cell, columns)[0]
         else:
             moves[lane] = longest_survival(now, layers, rolled, last, columns, left_edge, right_edge)
+
+
+@compiled
+def drivable(block, lane_block, lane, columns, rows, share):
+    """Whether a lane's vehicle can reach row 0 in time, if nobody gives way after the first tick."""
+    rows_per_word = 64 // columns
+    words = -(-rows // rows_per_word)
+    first_column = np.uint64(0)
+    for row in range(rows_per_word):
+        first_column |= _ONE << np.uint64(row * columns)
+    now = np.empty((7, words), np.uint64)
+    layers = np.empty((10 * rows + 3, 6, words), np.uint64)
+    last = prepare(now, block, lane_block, lane, columns, rows, share, 0)
+    row = np.int64(lane_block[CELL * LANES + lane]) // columns
+    episode_tick = np.int64(lane_block[EPISODE_TICK * LANES + lane])
+    limit = steps_left(lane_block, lane, rows)
+    last_column = first_column << np.uint64(columns - 1)
+    return search(now, layers, row, last, episode_tick, limit, columns, first_column, last_column)[0] >= 0

@@ -12,29 +12,36 @@ import numpy as np
 
 from sim.batch.compiled import compiled, fraction, mix, scaled, word_at
 from sim.batch.layout import (
+    BARRIERS,
     CELL,
     COLUMN_BIT,
+    COURTESY,
     COURTESY_KEY,
+    EPISODE,
     EPISODE_TICK,
     FIXED,
     HOLES,
     LANES,
     LEFT,
     OUTCOME,
+    PEDESTRIANS,
     PLANES,
+    POTHOLE_PROBABILITY,
+    POTHOLES,
     RIGHT,
+    SEED,
     SHIFT,
     SINCE_END,
+    SOLVABLE,
+    SPAWN_PROBABILITY,
+    VEHICLES,
     WALKERS,
     WORD,
 )
+from sim.batch.reach import drivable
+from sim.generate import MAX_ATTEMPTS
 from sim.kinds import Kind
 from sim.randomness import purpose_key
-
-SPAWN_PROBABILITY, POTHOLE_PROBABILITY, COURTESY = range(3)
-"""Columns of a batch's table of probabilities (float64)."""
-VEHICLES, PEDESTRIANS, BARRIERS, POTHOLES, SEED, EPISODE, HOLD_TICKS = range(7)
-"""Columns of its table of whole numbers (int64); a number of −1 means: drawn row by row."""
 
 _GOLDEN: Final = np.uint64(0x9E3779B97F4A7C15)
 _VEHICLE_KEY: Final = np.uint64(purpose_key(f"spawn {Kind.VEHICLE}"))
@@ -102,25 +109,58 @@ def _furnish(taken, columns, count, probability, key):
 
 
 @compiled
-def _stream(base, purpose, episode):
-    return word_at(base ^ purpose, episode)
+def _stream(base, purpose, episode, attempt):
+    stream = word_at(base ^ purpose, episode)
+    return word_at(stream, attempt) if attempt else stream
 
 
 @compiled
 def begin(block, lane_block, lane, columns, rows, wholes, shares):
-    """Write the road of `wholes[EPISODE]` into one lane of a block and put the vehicle at its start."""
+    """Begin episode `wholes[EPISODE]` in a lane, as `sim.generate.generate`; False: no road was found."""
+    if not wholes[SOLVABLE]:
+        _draw(block, lane_block, lane, columns, rows, wholes, shares, 0)
+        return True
+    for attempt in range(MAX_ATTEMPTS):
+        _draw(block, lane_block, lane, columns, rows, wholes, shares, attempt)
+        if drivable(block, lane_block, lane, columns, rows, shares[COURTESY]):
+            return True
+    return False
+
+
+@compiled
+def begin_next(block, lane_block, lane, columns, rows, wholes, shares):
+    """Begin the next episode, or where no road is found the present one again (`sim.run.next_episode`)."""
+    wholes[EPISODE] += 1
+    if not begin(block, lane_block, lane, columns, rows, wholes, shares):
+        wholes[EPISODE] -= 1
+        begin(block, lane_block, lane, columns, rows, wholes, shares)
+
+
+@compiled
+def _draw(block, lane_block, lane, columns, rows, wholes, shares, attempt):
+    """Write a road into one lane of a block and put the vehicle at its start."""
     episode = wholes[EPISODE]
     base = mix(np.uint64(wholes[SEED]) + _GOLDEN)
     taken = np.zeros(rows, np.uint64)
     vehicles = _furnish(
-        taken, columns, wholes[VEHICLES], shares[SPAWN_PROBABILITY], _stream(base, _VEHICLE_KEY, episode)
+        taken,
+        columns,
+        wholes[VEHICLES],
+        shares[SPAWN_PROBABILITY],
+        _stream(base, _VEHICLE_KEY, episode, attempt),
     )
-    walkers = _furnish(taken, columns, wholes[PEDESTRIANS], 0.0, _stream(base, _PEDESTRIAN_KEY, episode))
-    barriers = _furnish(taken, columns, wholes[BARRIERS], 0.0, _stream(base, _BARRIER_KEY, episode))
+    walkers = _furnish(
+        taken, columns, wholes[PEDESTRIANS], 0.0, _stream(base, _PEDESTRIAN_KEY, episode, attempt)
+    )
+    barriers = _furnish(taken, columns, wholes[BARRIERS], 0.0, _stream(base, _BARRIER_KEY, episode, attempt))
     potholes = _furnish(
-        taken, columns, wholes[POTHOLES], shares[POTHOLE_PROBABILITY], _stream(base, _POTHOLE_KEY, episode)
+        taken,
+        columns,
+        wholes[POTHOLES],
+        shares[POTHOLE_PROBABILITY],
+        _stream(base, _POTHOLE_KEY, episode, attempt),
     )
-    heading = _stream(base, _HEADING_KEY, episode)
+    heading = _stream(base, _HEADING_KEY, episode, attempt)
     rows_per_word = 64 // columns
     for word in range(-(-rows // rows_per_word)):
         right = left = fixed = holes = walking = _ZERO
@@ -152,12 +192,14 @@ def begin(block, lane_block, lane, columns, rows, wholes, shares):
     lane_block[EPISODE_TICK * LANES + lane] = _ZERO
     lane_block[OUTCOME * LANES + lane] = _ZERO
     lane_block[SINCE_END * LANES + lane] = _ZERO
-    lane_block[COURTESY_KEY * LANES + lane] = _stream(base, _COURTESY_KEY, episode)
+    lane_block[COURTESY_KEY * LANES + lane] = _stream(base, _COURTESY_KEY, episode, 0)
 
 
 @compiled
 def begin_all(state, lanes, count, columns, rows, wholes, shares):
-    """Begin the episode of every lane. Shapes: `sim.batch.batch`."""
+    """Begin the episode of every lane. Shapes: `sim.batch.batch`. False: for some no road was found."""
+    found = True
     for lane in range(count):
         block = lane // LANES
-        begin(state[block], lanes[block], lane % LANES, columns, rows, wholes[lane], shares[lane])
+        found &= begin(state[block], lanes[block], lane % LANES, columns, rows, wholes[lane], shares[lane])
+    return found

@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 
 from sim.batch.compiled import beside, compiled
-from sim.batch.layout import CELL, EPISODE_TICK, LANES, OUTCOME
+from sim.batch.layout import CELL, COURTESY, EPISODE_TICK, LANES, OUTCOME
 from sim.batch.reach import (
     ALL_FIXED,
     BLOCKED,
@@ -31,7 +31,6 @@ from sim.batch.reach import (
     step_from,
     steps_left,
 )
-from sim.batch.roads import COURTESY
 
 TICK, SIDEWAYS, DIAGONAL, WAITING, NEAR_FIXED, NEAR_MOVER, BUFFER = range(7)
 """Columns of a batch's table of charges (int64), as in `sim.plan.costs.Weights`."""

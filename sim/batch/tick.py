@@ -27,10 +27,12 @@ from sim.batch.layout import (
     CAME_RIGHT,
     CELL,
     COLUMN_BIT,
+    COURTESY,
     COURTESY_KEY,
     ENDS,
     EPISODE_TICK,
     FIXED,
+    HOLD_TICKS,
     HOLES,
     LANES,
     LEFT,
@@ -47,7 +49,7 @@ from sim.batch.layout import (
     WORD,
     YIELDING,
 )
-from sim.batch.roads import COURTESY, EPISODE, HOLD_TICKS, begin
+from sim.batch.roads import begin_next
 from sim.rules import Motion
 
 _ZERO: Final = np.uint64(0)
@@ -227,8 +229,7 @@ def ticks_kernel(*, walking: bool, courteous: bool, held: bool, asked: bool, ren
                         if held:
                             lane = block * LANES + i
                             if renewed and v[SINCE_END * LANES + i] == np.uint64(wholes[lane, HOLD_TICKS]):
-                                wholes[lane, EPISODE] += 1
-                                begin(boards, v, i, columns, rows, wholes[lane], shares[lane])
+                                begin_next(boards, v, i, columns, rows, wholes[lane], shares[lane])
                         else:
                             first, u = first_state[block], first_lanes[block]
                             v[WORD * LANES + i] = u[WORD * LANES + i]

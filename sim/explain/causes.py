@@ -15,12 +15,12 @@ spared; whether any smaller part would do is then tried outright.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from itertools import combinations
 
 from sim.explain.facts import Cause, Counterfactual, Explanation, Role, Verified
 from sim.explain.rerun import Rerun, removal, wall
 from sim.kinds import Move
+from sim.optimum.thin import spared
 from sim.place import nearest_first
 from sim.plan import Decision
 from sim.run import Run
@@ -64,24 +64,6 @@ def _had_it_been_blocked(rerun: Rerun, decision: Decision) -> list[Counterfactua
         return []
     change = (wall(rerun.run.world, decision.chosen.cell),)
     return [Counterfactual(change, rerun.after(change))]
-
-
-def spared(names: Sequence[str], holds: Callable[[Sequence[str]], bool]) -> list[str]:
-    """What is left of `names` when all that can be spared (the last first) is, one by one in the end.
-
-    `holds` is true of `names`, and of the answer.
-    """
-    kept = list(names)
-    size = len(kept)
-    while size:
-        dropped = False
-        for end in range(len(kept), 0, -size):
-            fewer = kept[: max(0, end - size)] + kept[end:]
-            if holds(fewer):
-                kept, dropped = fewer, True
-        if not (dropped and size == 1):
-            size //= 2
-    return kept
 
 
 def _telling_first(world: World, decision: Decision) -> list[str]:

@@ -11,10 +11,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from sim.actions import Add
-from sim.explain.causes import spared
 from sim.explain.facts import Cause, Counterfactual, Explanation, Role, Verified
 from sim.explain.rerun import Rerun, removal, wall
 from sim.kinds import Move
+from sim.optimum.thin import spared
 from sim.plan import Decision
 from sim.run import Run
 

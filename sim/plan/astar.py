@@ -15,7 +15,7 @@ from __future__ import annotations
 from sim.config import Config
 from sim.forecast import Forecast
 from sim.plan.costs import weights
-from sim.plan.decision import Decision
+from sim.plan.decision import Decision, Measure
 from sim.plan.weighted import decided
 from sim.search.astar import Lessons, cheapest
 from sim.search.reach import MOVES, least_ticks_by_move, steps_left
@@ -44,4 +44,4 @@ class AStarPlanner:
             way = cheapest(terrain, there, lessons=lessons)
             if way is not None:
                 totals[move] = cost + way.cost
-        return decided(self.name, forecast, totals, limit)
+        return decided(self.name, Measure.COST, forecast, totals, limit)

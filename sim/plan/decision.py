@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import StrEnum
 
 from sim.forecast import Verdict
 from sim.kinds import Cell, Move
@@ -36,6 +37,17 @@ class Option:
         return "blocked" if self.reason.blocks else "free"
 
 
+class Measure(StrEnum):
+    """What a planner's costs are."""
+
+    RANK = "rank"
+    """a move's place in a fixed order"""
+    COST = "cost"
+    """the charges (`sim.plan.costs`) of the move and the cheapest way on, to the goal"""
+    TICKS = "ticks"
+    """ticks of the quickest way to the goal that begins with the move"""
+
+
 @dataclass(frozen=True, slots=True)
 class Decision:
     """The decision taken in the world of `tick`; it leads to the world of `tick + 1`."""
@@ -49,6 +61,12 @@ class Decision:
     """all six moves, the most preferred first"""
     asked: Move | None = None
     """what a person asked for; it was held back if it differs from `move`"""
+    measure: Measure = Measure.RANK
+    """what the options' costs measure"""
+    fault: str | None = None
+    """what the planner did instead of answering; the vehicle stays"""
+    timed_out: bool = False
+    """whether the fault was that it did not answer in time, which another run may not repeat"""
 
     @property
     def held_back(self) -> bool:

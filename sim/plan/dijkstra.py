@@ -12,7 +12,7 @@ from __future__ import annotations
 from sim.config import Config
 from sim.forecast import Forecast
 from sim.plan.costs import weights
-from sim.plan.decision import Decision
+from sim.plan.decision import Decision, Measure
 from sim.plan.weighted import decided
 from sim.search.reach import steps_left
 
@@ -32,4 +32,4 @@ class DijkstraPlanner:
 
         limit = steps_left(config, forecast.episode_tick)
         totals = totals_by_move(forecast, weights(config), limit)
-        return decided(self.name, forecast, totals, limit)
+        return decided(self.name, Measure.COST, forecast, totals, limit)

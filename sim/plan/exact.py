@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from sim.config import Config
 from sim.forecast import Forecast
-from sim.plan.decision import Decision
+from sim.plan.decision import Decision, Measure
 from sim.plan.weighted import decided
 from sim.search.reach import least_ticks_by_move, steps_left
 
@@ -26,4 +26,4 @@ class ExactPlanner:
     def decide(self, forecast: Forecast, config: Config) -> Decision:
         """The move, and the ticks each of the six leads to the goal in."""
         limit = steps_left(config, forecast.episode_tick)
-        return decided(self.name, forecast, least_ticks_by_move(forecast, limit), limit)
+        return decided(self.name, Measure.TICKS, forecast, least_ticks_by_move(forecast, limit), limit)

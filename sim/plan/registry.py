@@ -1,9 +1,10 @@
-"""Planners by name. One name, one planner: a second of the same name is refused."""
+"""Planners by name: those built in, those a program registers, those other packages bring (entry points)."""
 
 from __future__ import annotations
 
 from typing import Protocol
 
+from sim import planner_names
 from sim.config import Config
 from sim.forecast import Forecast
 from sim.plan import astar, dijkstra, exact, priority
@@ -26,14 +27,16 @@ _planners: dict[str, Planner] = {}
 
 
 def register(planner: Planner) -> None:
-    """Make a planner available by its name. Raises `ValueError` if the name is taken."""
-    if planner.name in _planners:
-        raise ValueError(f"there is already a planner called {planner.name!r}")
+    """Make a planner of this program available by its name. Raises `ValueError` if the name is taken.
+
+    It is called as it is; one that is not trusted belongs in a package of its own (`sim.plan.guard`).
+    """
+    planner_names.claim(planner.name)
     _planners[planner.name] = planner
 
 
 def planner_named(name: str) -> Planner | None:
-    """The planner of that name, or None if this version has none."""
+    """The planner of that name that is called directly, or None if there is none."""
     return _planners.get(name)
 
 

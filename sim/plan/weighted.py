@@ -6,11 +6,13 @@ from collections.abc import Sequence
 
 from sim.forecast import Forecast
 from sim.kinds import Move
-from sim.plan.decision import Decision, Option
+from sim.plan.decision import Decision, Measure, Option
 from sim.search.reach import first_longest, survival_by_move
 
 
-def decided(planner: str, forecast: Forecast, totals: Sequence[int | None], limit: int) -> Decision:
+def decided(
+    planner: str, measure: Measure, forecast: Forecast, totals: Sequence[int | None], limit: int
+) -> Decision:
     """The cheapest move, ties in the order of `Move`; with no way on, the move after which one lasts longest.
 
     `totals` are in the order of `Move`; None where the step is not free or no way leads on.
@@ -27,4 +29,4 @@ def decided(planner: str, forecast: Forecast, totals: Sequence[int | None], limi
     else:
         move = first_longest(survival_by_move(forecast, limit))
         options.sort(key=lambda option: option.move is not move)
-    return Decision(forecast.tick, forecast.ego_id, planner, move, tuple(options))
+    return Decision(forecast.tick, forecast.ego_id, planner, move, tuple(options), measure=measure)

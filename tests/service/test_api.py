@@ -74,7 +74,7 @@ async def test_a_session_from_words_and_figures(service: Service) -> None:
         ({"paused": "yes"}, "invalid", "paused"),
         ({"name": ""}, "invalid", "name"),
         ({"planner": "magic"}, "invalid", "planner"),
-        ({"planner": "astar"}, "not-available", "config"),
+        ({"planner": "dwa"}, "not-available", "config"),
         ({"config": {"sensor": "lidar"}}, "not-available", "config"),
         ({"scenario": "add five potholes"}, "not-understood", "scenario"),
         ({"scenario": "a rainy road"}, "not-available", "scenario"),

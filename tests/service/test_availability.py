@@ -59,7 +59,7 @@ REFUSED: list[dict[str, Any]] = [
     {"do": "remove", "kind": "av", "count": "all"},
     {"do": "set_count", "kind": "av", "count": 2},
     *({"do": "scenario", key: value} for key, value in (
-        ("weather", "rain"), ("time_of_day", "night"), ("sensor", "lidar"), ("planner", "astar"), ("avs", 1),
+        ("weather", "rain"), ("time_of_day", "night"), ("sensor", "lidar"), ("planner", "rl"), ("avs", 1),
     )),
     {"do": "ask", "about": "what_if", "change": [{"do": "remove", "kind": "pothole", "count": 1}]},
     *({"do": "ask", "about": about} for about in (

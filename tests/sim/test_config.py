@@ -39,7 +39,9 @@ def test_the_defaults_are_the_source_s_table() -> None:
 
 
 def test_every_field_has_a_range_or_a_choice_and_nothing_else_has() -> None:
-    assert sorted([*RANGES, *CHOICES, *LISTS, *SWITCHES]) == sorted(field.name for field in fields(Config))
+    assert sorted([*RANGES, *CHOICES, *LISTS, *SWITCHES, "planner"]) == sorted(
+        field.name for field in fields(Config)
+    )
 
 
 @pytest.mark.parametrize("name", list(RANGES))

@@ -441,7 +441,7 @@ def test_a_scenario_is_a_fresh_road() -> None:
     assert told["episode"] == (1, 2)
 
 
-@pytest.mark.parametrize("planner", ["astar", "dijkstra", "dwa", "rl", "cooperative"])
+@pytest.mark.parametrize("planner", ["dwa", "rl", "cooperative"])
 def test_planners_of_later_versions_are_refused(planner: PlannerName) -> None:
     error = refusal(EMPTY, Scenario(planner=planner))
     assert (error.code, error.field) == ("not-available", "planner")

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 from sim.batch import Batch
 from sim.config import Config, ConfigError
+from sim.generate import GenerationError
 from sim.metrics import Metrics
 from sim.run import Run, advance
 
@@ -51,6 +52,7 @@ def mixed_configs(seed: int, count: int) -> Iterator[list[Config]]:
                     barriers=draw.choice([0, draw.randint(0, rows)]),
                     pedestrians=draw.choice([0, 0, draw.randint(0, rows)]),
                     courtesy=draw.choice([0.0, 0.0, 0.5, 1.0]),
+                    solvable=draw.random() < 0.2,
                     reset_delay_s=draw.choice([0.0, 0.5, 2.0, 3.3]),
                 )
             except ConfigError:
@@ -62,6 +64,9 @@ def mixed_configs(seed: int, count: int) -> Iterator[list[Config]]:
 
 def difference(configs: list[Config], ticks: int) -> Difference | None:
     """The first thing that is not the same in both engines; None if all is."""
+    configs = [config for config in configs if _has_a_road(config)]
+    if not configs:
+        return None
     batch, runs = Batch(configs), [Run.start(config) for config in configs]
     for tick in range(ticks + 1):
         for lane, run in enumerate(runs):
@@ -75,6 +80,19 @@ def difference(configs: list[Config], ticks: int) -> Difference | None:
         if any(getattr(run.metrics, name) != getattr(totals, name)[lane] for name in COUNTED):
             return Difference(run.config, ticks, "metrics")
     return None
+
+
+def _has_a_road(config: Config) -> bool:
+    """Whether a road can be drawn; both engines must say the same."""
+    try:
+        Run.start(config)
+    except GenerationError:
+        try:
+            Batch([config])
+        except GenerationError:
+            return False
+        raise AssertionError(f"only one engine finds a road for {config}") from None
+    return True
 
 
 COUNTED = ("forward", "lateral", "diagonal", "stay", "successes", "crashes", "stuck")

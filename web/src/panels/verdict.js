@@ -63,6 +63,6 @@ function contentOf(state) {
   }
   const { world } = state;
   if (world === null) return { title: "Waiting", tone: "plain", text: "The service cannot be reached yet." };
-  const last = state.log.findLast(({ tone, type }) => tone === "event" && type !== "episode_started");
+  const last = state.log.findLast(({ tone, type }) => tone === "event" && type !== "episode_started" && type !== "road_kept");
   return { ...ENDS[world.status], text: last?.text };
 }

@@ -1,0 +1,63 @@
+"""What a decision cost against the best that could have been done from the same moment.
+
+Source: regret as in decision theory (Savage, 1951), here exact, since the world is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from sim.judge import collisions, outcome
+from sim.kinds import Move, Outcome
+from sim.optimum.least import foreseen, least_cost, least_ticks
+from sim.plan.costs import weights
+from sim.run import Run, commit, decide
+from sim.search.spacetime import SpaceTime
+from sim.timeline import Timeline
+
+
+@dataclass(frozen=True, slots=True)
+class Regret:
+    """How much worse a move was than the best. None where there is none: the road could not be driven."""
+
+    ticks: int | None
+    """ticks lost; None also if the move lost the road altogether"""
+    cost: int | None
+    """cost lost, by the configuration's charges; None as for ticks"""
+    lost: bool
+    """whether the goal could be reached before the move and cannot after it"""
+
+
+def regret(run: Run, move: Move) -> Regret:
+    """The regret of a move. Raises `ValueError` if it leads off the road or the episode has ended."""
+    best_ticks = least_ticks(run)
+    after = _after(run, move)
+    if best_ticks is None:
+        return Regret(None, None, lost=False)
+    ticks = least_ticks(after)
+    if ticks is None:
+        return Regret(None, None, lost=True)
+    forecast, limit = foreseen(run)
+    terrain = SpaceTime(forecast, weights(run.config), limit)
+    paid = next(cost for taken, _, cost in terrain.steps(terrain.start) if list(Move)[taken] is move)
+    best, rest = least_cost(run), least_cost(after)
+    if best is None or rest is None:
+        raise AssertionError("what can be reached has a cost")
+    return Regret(1 + ticks - best_ticks, paid + rest - best, lost=False)
+
+
+def regrets(timeline: Timeline, first: int, stop: int) -> Iterator[tuple[int, Regret]]:
+    """(tick, regret) of the decisions taken in ticks `first` to before `stop`. Raises `IndexError`."""
+    for run in timeline.between(first, stop):
+        decision = decide(run)
+        if decision is not None:
+            yield run.world.tick, regret(run, decision.move)
+
+
+def _after(run: Run, move: Move) -> Run:
+    if run.world.outcome is not Outcome.RUNNING:
+        raise ValueError("the episode has ended")
+    after = commit(run.world, move, run.config)
+    result = outcome(after, collisions(run.world, after), run.config.max_ticks)
+    return replace(run, world=replace(after, outcome=result), queue=run.queue[1:])

@@ -1,0 +1,44 @@
+"""Which planners there are, by name: a leaf, so that a configuration can be checked without loading one.
+
+Planners from outside the project are found by entry points of the group `roadtalk.planners`; their names are
+read from what is installed, and nothing of theirs is run for it.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib.metadata import EntryPoint, entry_points
+from typing import Final
+
+GROUP: Final = "roadtalk.planners"
+PROMISED: Final = ("dwa", "rl", "cooperative")
+"""Names that people may say and this version has not."""
+
+_registered: list[str] = []
+
+
+def claim(name: str) -> None:
+    """Take a name for a planner. Raises `ValueError` if it is taken."""
+    if name in _registered or name in PROMISED:
+        raise ValueError(f"there is already a planner called {name!r}")
+    _registered.append(name)
+
+
+@cache
+def installed() -> dict[str, EntryPoint]:
+    """Planners of other packages by name; of two that claim one name, the first by package counts."""
+    found: dict[str, EntryPoint] = {}
+    for point in sorted(entry_points(group=GROUP), key=lambda point: point.value):
+        found.setdefault(point.name, point)
+    return found
+
+
+def names() -> tuple[str, ...]:
+    """The names of all planners there are: built in, registered, installed."""
+    others = [name for name in installed() if name not in _registered and name not in PROMISED]
+    return (*_registered, *others)
+
+
+def may_be_named(name: object) -> bool:
+    """Whether a configuration may name this planner; promised ones are refused where they are asked for."""
+    return isinstance(name, str) and (name in _registered or name in PROMISED or name in installed())
