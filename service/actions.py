@@ -16,15 +16,18 @@ from pydantic_core import to_json
 
 from sim.actions import (
     Add,
+    Adjust,
     Amount,
     Drive,
     PlaceableKind,
     PlannerName,
+    Prefer,
     Remove,
     Reset,
     RoadType,
     Scenario,
     SensorName,
+    Set,
     SetCount,
     SetMode,
     TimeOfDay,
@@ -40,69 +43,8 @@ _STRICT = {"extra": "forbid"}
 
 Ticks = Annotated[int, Ge(1), Le(10_000)]
 Name = Annotated[str, MinLen(1), MaxLen(80)]
-Preference = Literal["avoid_potholes", "smooth_ride", "fastest", "cautious", "balanced"]
 ViewName = Literal["road", "schematic", "occupancy", "plan", "log", "potholes", "sensors", "path", "metrics"]
 MetricName = Literal["crashes", "successes", "success_rate", "steps", "moves", "distance"]
-Parameter = Literal[
-    "weather",
-    "time_of_day",
-    "traffic",
-    "planner",
-    "sensor",
-    "dynamics",
-    "playback_speed",
-    "target_speed_kmh",
-    "step_seconds",
-    "spawn_probability",
-    "pothole_probability",
-    "courtesy",
-    "sensor_noise",
-    "detection_sensitivity",
-    "false_positive_rate",
-    "sensor_range_m",
-    "safety_buffer",
-    "columns",
-    "rows",
-    "seed",
-]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Set:
-    """Give a parameter a value."""
-
-    do: Literal["set"] = "set"
-    parameter: Parameter
-    value: int | float | str
-
-    __pydantic_config__ = _STRICT
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Adjust:
-    """Change a parameter by a factor, by a signed amount, or simply up or down."""
-
-    do: Literal["adjust"] = "adjust"
-    parameter: Parameter
-    factor: Annotated[float, Gt(0)] | None = None
-    by: float | None = None
-    direction: Literal["up", "down"] | None = None
-
-    __pydantic_config__ = _STRICT
-
-    def __post_init__(self) -> None:
-        if [self.factor, self.by, self.direction].count(None) != 2:
-            raise ValueError("say exactly one of 'factor', 'by' and 'direction'")
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Prefer:
-    """How the vehicle should weigh one way of driving against another."""
-
-    do: Literal["prefer"] = "prefer"
-    preference: Preference
-
-    __pydantic_config__ = _STRICT
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -22,7 +22,32 @@ Traffic = Literal["none", "light", "normal", "heavy"]
 PlannerName = Literal["priority", "astar", "dijkstra", "dwa", "rl", "cooperative"]
 Preference = Literal["avoid_potholes", "smooth_ride", "fastest", "cautious"]
 """What a vehicle can be asked to mind; `balanced` is none of them."""
+Wish = Literal[Preference, "balanced"]
+"""A preference as it is said."""
 SensorName = Literal["perfect", "camera", "lidar", "radar", "fusion"]
+
+Parameter = Literal[
+    "weather",
+    "time_of_day",
+    "traffic",
+    "planner",
+    "sensor",
+    "dynamics",
+    "playback_speed",
+    "target_speed_kmh",
+    "step_seconds",
+    "spawn_probability",
+    "pothole_probability",
+    "courtesy",
+    "sensor_noise",
+    "detection_sensitivity",
+    "false_positive_rate",
+    "sensor_range_m",
+    "safety_buffer",
+    "columns",
+    "rows",
+    "seed",
+]
 
 MAX_THINGS = 10_000
 """The largest number of things one action may name; what the road can hold is checked later."""
@@ -133,4 +158,42 @@ class Drive:
     __pydantic_config__ = _STRICT
 
 
-WorldAction = Add | Remove | SetCount | Scenario | Reset | SetMode | Drive
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Set:
+    """Give a parameter a value."""
+
+    do: Literal["set"] = "set"
+    parameter: Parameter
+    value: int | float | str
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Adjust:
+    """Change a parameter by a factor, by a signed amount, or simply up or down."""
+
+    do: Literal["adjust"] = "adjust"
+    parameter: Parameter
+    factor: Annotated[float, Gt(0)] | None = None
+    by: float | None = None
+    direction: Literal["up", "down"] | None = None
+
+    __pydantic_config__ = _STRICT
+
+    def __post_init__(self) -> None:
+        if [self.factor, self.by, self.direction].count(None) != 2:
+            raise ValueError("say exactly one of 'factor', 'by' and 'direction'")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Prefer:
+    """How the vehicle should weigh one way of driving against another."""
+
+    do: Literal["prefer"] = "prefer"
+    preference: Wish
+
+    __pydantic_config__ = _STRICT
+
+
+WorldAction = Add | Remove | SetCount | Scenario | Reset | SetMode | Drive | Set | Adjust | Prefer

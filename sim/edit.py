@@ -10,8 +10,21 @@ from __future__ import annotations
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
-from sim.actions import Add, Drive, Remove, Reset, Scenario, SetCount, SetMode, WorldAction
+from sim.actions import (
+    Add,
+    Adjust,
+    Drive,
+    Prefer,
+    Remove,
+    Reset,
+    Scenario,
+    Set,
+    SetCount,
+    SetMode,
+    WorldAction,
+)
 from sim.config import Config, ConfigError
+from sim.edit_error import EditError
 from sim.events import Event, EventType
 from sim.generate import GenerationError, lowest_ranked, named
 from sim.kinds import PLACEABLE, Kind, Outcome
@@ -20,6 +33,7 @@ from sim.randomness import Stream
 from sim.road import Board, bits, board_of
 from sim.run import Run, next_episode, reconfigured, restarted
 from sim.scenario import configured, unavailable
+from sim.settings import NEEDS_A_NEW_ROAD, preferring, setting, vehicles_for
 from sim.world import Thing, World
 
 MAX_QUEUE = 100
@@ -33,17 +47,6 @@ PLURALS = {
     Kind.AV: "avs",
 }
 """How counts are called in changes and configurations."""
-
-
-class EditError(ValueError):
-    """A change that cannot be made. `code` is for programs, the message for a person."""
-
-    def __init__(self, code: str, message: str, field: str) -> None:
-        super().__init__(message)
-        self.code = code
-        self.message = message
-        self.field = field
-        """the key of the action that is the trouble"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,6 +101,30 @@ def _apply(run: Run, action: WorldAction) -> Applied:
             if len(run.queue) >= MAX_QUEUE:
                 raise EditError("too-many", f"{MAX_QUEUE} moves are waiting already.", "move")
             return Applied(action, replace(run, queue=(*run.queue, action.move)))
+        case Prefer():
+            return Applied(action, replace(run, config=preferring(run.config, action.preference)))
+        case Set() | Adjust():
+            return _set(run, action)
+
+
+def _set(run: Run, action: Set | Adjust) -> Applied:
+    """A setting given a value. Those a road is made from show from the next road on, or begin one."""
+    config = setting(run.config, action)
+    if action.parameter in NEEDS_A_NEW_ROAD and config != run.config:
+        return _begun(run, action, config)
+    after = replace(run, config=config)
+    if action.parameter == "traffic" and run.world.outcome is Outcome.RUNNING:
+        # Who says "heavy traffic" means what is on the road now as well.
+        wanted = SetCount(kind="vehicle", count=min(vehicles_for(config), _room(after, Kind.VEHICLE)))
+        counted = _set_count(after, wanted)
+        return replace(counted, action=action)
+    return Applied(action, after)
+
+
+def _room(run: Run, kind: Kind) -> int:
+    """The largest number of a kind that the road can hold now."""
+    free = run.world.road.between & ~run.world.occupied
+    return run.world.count(kind) + free.bit_count()
 
 
 def _add(run: Run, action: Add) -> Applied:
@@ -215,10 +242,15 @@ def _scenario(run: Run, action: Scenario) -> Applied:
         problem = error.problems[0]
         named = f"{getattr(action, problem.field, None) or 'So many'} {problem.field} are {problem.message}."
         raise EditError("does-not-fit", named, problem.field) from None
+    return _begun(run, action, config)
+
+
+def _begun(run: Run, action: WorldAction, config: Config) -> Applied:
+    """A new road of this configuration."""
     try:
         begun, event = reconfigured(run, config)
     except GenerationError as error:
-        message = f"The scenario is not begun: {error.problems[0].message}."
+        message = f"No new road is begun: {error.problems[0].message}."
         raise EditError("does-not-fit", message, "solvable") from None
     return Applied(action, begun, events=(event,))
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from service.narrate.sayings import Sayings
 from sim.explain import Cause, Counterfactual, Explanation
 from sim.kinds import Move
+from sim.plan import Decision, Measure, Option
 
 
 class Explained:
@@ -23,6 +24,11 @@ class Explained:
     def _why(self, explanation: Explanation) -> str:
         decision = explanation.decision
         did = self._sayings.move(decision.move, "did")
+        if decision.fault is not None:
+            fault = decision.fault
+            return self._say("fact_fault", tick=decision.tick, planner=decision.planner, fault=fault)
+        if decision.measure is not Measure.RANK and decision.asked is None:
+            return " ".join([self._weighed(decision, did), *self._proofs(explanation)])
         if decision.asked is not None and not decision.held_back:
             return self._say("fact_asked", tick=decision.tick, did=did)
         if decision.held_back and decision.asked is not None:
@@ -79,7 +85,9 @@ class Explained:
         do = self._sayings.move(foil, "do")
         if option.cell is None:
             return self._say("not_off_road", tick=decision.tick, do=do, reason=reason)
-        if option.verdict == "free":
+        if decision.measure is not Measure.RANK and option.verdict == "free":
+            told = self._not_worth(decision, option, do)
+        elif option.verdict == "free":
             told = self._say(
                 "not_preferred",
                 tick=decision.tick,
@@ -91,6 +99,37 @@ class Explained:
         else:
             told = self._say("not_blocked", tick=decision.tick, do=do, reasons=reason)
         return " ".join([told, *(self._flip(flip, foil) for flip in explanation.counterfactuals)])
+
+    def _weighed(self, decision: Decision, did: str) -> str:
+        """What the move costs in all, and the next best."""
+        chosen = decision.chosen
+        if chosen.cost is None:
+            return self._say("weighed_no_way", tick=decision.tick, did=did)
+        costs = f"{chosen.cost:g}"
+        others = [option for option in decision.options if option.cost is not None and option is not chosen]
+        if not others:
+            return self._say(f"weighed_only_{decision.measure}", tick=decision.tick, did=did, costs=costs)
+        next_best = others[0]
+        assert next_best.cost is not None
+        more = next_best.cost - chosen.cost
+        return self._say(
+            f"weighed_{decision.measure}" if more else "weighed_even",
+            tick=decision.tick,
+            did=did,
+            costs=costs,
+            other=self._sayings.move(next_best.move, "name"),
+            more=f"{more:g}",
+        )
+
+    def _not_worth(self, decision: Decision, option: Option, do: str) -> str:
+        """Why a free move was not taken by a planner that knows what each costs in all."""
+        best = decision.chosen.cost
+        if option.cost is None or best is None:
+            return self._say("not_dead_end", tick=decision.tick, do=do)
+        more = option.cost - best
+        key = f"not_worth_{decision.measure}" if more else "not_even"
+        instead = self._sayings.move(decision.move, "name")
+        return self._say(key, tick=decision.tick, do=do, more=f"{more:g}", instead=instead)
 
     def _flip(self, flip: Counterfactual, foil: Move) -> str:
         who = self._sayings.joined(flip.removed)

@@ -11,7 +11,7 @@ from service.narrate.sayings import Sayings
 from service.sessions.facts import Asked, Fact
 from sim.events import Event, EventType
 from sim.kinds import Move
-from sim.plan import Decision
+from sim.plan import Decision, Measure
 from sim.run import Run
 
 
@@ -31,10 +31,14 @@ class Narrator:
 
     def decision(self, decision: Decision, run: Run) -> str:  # noqa: ARG002 - later words will look round
         """What the vehicle does at a tick and why, in one line."""
+        if decision.fault is not None:
+            return self._say("fault", planner=decision.planner, fault=decision.fault)
         first, chosen = decision.options[0], decision.chosen
         name = self._sayings.move(decision.move, "name").capitalize()
         if decision.asked is not None:
             return self._asked(decision, decision.asked, name)
+        if decision.measure is not Measure.RANK:
+            return self._weighed(decision, name)
         if decision.move is first.move:
             return self._say("first_choice")
         if decision.move is not Move.STAY:
@@ -84,6 +88,20 @@ class Narrator:
     def answer(self, asked: Asked) -> dict[str, Any]:
         """The answer to a question, as JSON values."""
         return self._answers.answer(asked)
+
+    def _weighed(self, decision: Decision, name: str) -> str:
+        """The move of a planner that knows what each costs in all, against going straight on."""
+        straight, chosen = decision.option(Move.FORWARD), decision.chosen
+        if chosen.cost is None:
+            return self._say("no_way_on", move=name)
+        if decision.move is Move.FORWARD:
+            return self._say("first_choice")
+        if straight.cost is None:
+            if straight.dead_end:
+                return self._say("leads_nowhere", move=name)
+            return self._say("other", move=name, reason=self._sayings.reason(straight, "now"))
+        more = straight.cost - chosen.cost
+        return self._say(f"saves_{decision.measure}", move=name, more=f"{more:g}")
 
     def _asked(self, decision: Decision, asked: Move, name: str) -> str:
         if decision.held_back:

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from service.narrate.sayings import Sayings
 from service.sessions.facts import Asked, Fact, PauseSet, Stepped, Undone
-from sim.actions import Add, Drive, Remove, Reset, Scenario, SetCount, SetMode
+from sim.actions import Add, Adjust, Drive, Prefer, Remove, Reset, Scenario, Set, SetCount, SetMode
 from sim.edit import Applied, Change
 from sim.events import EventType
 from sim.kinds import Mode
 from sim.run import Run
+from sim.settings import AS_IT_IS, FROM_THE_NEXT_ROAD, NEEDS_A_NEW_ROAD
+
+WEIGHING = ("astar", "dijkstra")
+"""Planners that weigh preferences."""
 
 
 class Replies:
@@ -64,11 +68,41 @@ class Replies:
             case SetMode(mode=mode):
                 changed = any(change.path == "mode" for change in applied.changes)
                 return self._say(f"mode_{mode}" if changed else "mode_already")
+            case Prefer():
+                return self._preferring(applied)
+            case Set(parameter=parameter) | Adjust(parameter=parameter):
+                return self._setting(parameter, applied)
             case Drive(move=move):
                 key = "drive" if applied.run.mode is Mode.MANUAL else "drive_then_auto"
                 said = self._say(key, move=self._sayings.move(move, "do"))
         started = any(event.type is EventType.EPISODE_STARTED for event in applied.events)
         return f"{self._say('road_first')} {said}" if started else said
+
+    def _setting(self, parameter: str, applied: Applied) -> str:
+        """What was set, from what to what, and when it shows."""
+        name = self._sayings.say("replies", "parameters", parameter)
+        changed = {change.path: change for change in applied.changes}
+        change = changed.get(f"config.{parameter}")
+        if change is None:
+            value = getattr(applied.run.config, parameter, None) or AS_IT_IS.get(parameter, "")
+            return self._say("set_already", name=name, value=value)
+        before = self._say("unset") if change.before is None else change.before
+        said = self._say("set", name=name, before=before, after=change.after)
+        if parameter in NEEDS_A_NEW_ROAD:
+            return f"{said} {self._scenario(applied.run)}"
+        counted = self._diff(applied.changes)
+        told = [said, self._say("on_the_road", diff=counted) if counted else ""]
+        if parameter in FROM_THE_NEXT_ROAD:
+            told.append(self._say("next_road" if not counted else "next_roads_too"))
+        return " ".join(sentence for sentence in told if sentence)
+
+    def _preferring(self, applied: Applied) -> str:
+        config = applied.run.config
+        wishes = [self._sayings.say("replies", "preferences", wish) for wish in config.preferences]
+        said = self._say("prefer", wishes=self._sayings.joined(wishes)) if wishes else self._say("balanced")
+        if not wishes or config.planner in WEIGHING:
+            return said
+        return f"{said} {self._say('weighs_nothing', planner=config.planner)}"
 
     def _moved(self, key: str, applied: Applied) -> str:
         """Things added or removed: one by its id and place, several by their number."""

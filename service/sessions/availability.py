@@ -7,9 +7,10 @@ the same. What a scenario may name is the world's rule.
 from __future__ import annotations
 
 from service.actions import Action, Ask
-from sim.actions import Add, Drive, Remove, Reset, Scenario, SetCount, SetMode
+from sim.actions import Add, Adjust, Drive, Remove, Reset, Scenario, Set, SetCount, SetMode
 from sim.kinds import Kind
 from sim.scenario import unavailable
+from sim.settings import offered
 
 _OFFERED = frozenset(
     (
@@ -20,6 +21,9 @@ _OFFERED = frozenset(
         "reset",
         "mode",
         "drive",
+        "set",
+        "adjust",
+        "prefer",
         "pause",
         "resume",
         "step",
@@ -30,9 +34,6 @@ _OFFERED = frozenset(
 _ANSWERED = frozenset(("why", "why_not", "status", "help"))
 
 _NAMES = {
-    "set": "Changing a setting while the road runs",
-    "adjust": "Changing a setting while the road runs",
-    "prefer": "Preferring one way of driving over another",
     "show": "Other views than the road",
     "hide": "Other views than the road",
     "rewind": "Going back in time",
@@ -66,6 +67,9 @@ def refusal(action: Action) -> str | None:
         case Scenario():
             missing = unavailable(action)
             return None if missing is None else _sentence(missing.message)
+        case Set() | Adjust() if not offered(action):
+            value = f" ({action.value})" if isinstance(action, Set) else ""
+            return _sentence(f"Changing the {action.parameter.replace('_', ' ')}{value}")
         case Drive() | Reset() | SetMode() | _:
             return None
 

@@ -16,11 +16,24 @@ from service.problems import DoesNotFit, FieldProblem, Invalid, NotAvailable, No
 from service.sessions import availability
 from service.sessions.facts import Asked, Fact, PauseSet, Stepped, Undone
 from service.sessions.history import History, Step
-from sim.actions import Add, Drive, Remove, Reset, Scenario, SetCount, SetMode, WorldAction
-from sim.edit import EditError, differences
+from sim.actions import (
+    Add,
+    Adjust,
+    Drive,
+    Prefer,
+    Remove,
+    Reset,
+    Scenario,
+    Set,
+    SetCount,
+    SetMode,
+    WorldAction,
+)
+from sim.edit import differences
+from sim.edit_error import EditError
 from sim.timeline import PlannerSilentError, Timeline
 
-WORLD_ACTIONS = (Add, Remove, SetCount, Scenario, Reset, SetMode, Drive)
+WORLD_ACTIONS = (Add, Remove, SetCount, Scenario, Reset, SetMode, Drive, Set, Adjust, Prefer)
 
 
 class Draft:
@@ -69,7 +82,18 @@ class Draft:
                 return self._undo(position)
             case Redo():
                 return self._redo(position)
-            case Add() | Remove() | SetCount() | Scenario() | Reset() | SetMode() | Drive():
+            case (
+                Add()
+                | Remove()
+                | SetCount()
+                | Scenario()
+                | Reset()
+                | SetMode()
+                | Drive()
+                | Set()
+                | Adjust()
+                | Prefer()
+            ):
                 return self._apply(sequence, position, action)
             case _:
                 raise AssertionError(f"{action.do} is offered but nobody does it")

@@ -40,6 +40,9 @@ from sim.timeline import PlannerSilentError, Timeline
 
 _LOG = structlog.get_logger(__name__)
 
+QUICK_PLANNERS = frozenset(("priority",))
+"""Planners that decide in so little time that an answer from hundreds of decisions is at once."""
+
 THREAD_TICKS = 500
 """Work of more ticks than this is done beside the event loop."""
 
@@ -190,8 +193,8 @@ class Session:
                 draft = Draft(self.timeline, self.paused, self.history)
                 facts = await self._perform(draft, utterance)
                 if dry_run or all(isinstance(action, Ask) for action in utterance.actions):
-                    return self._outcome(utterance, facts, self.sequence)
-                outcome = self._outcome(utterance, facts, self.sequence + 1)
+                    return await self._told(utterance, facts, self.sequence)
+                outcome = await self._told(utterance, facts, self.sequence + 1)
                 await self._save(outcome)
                 self._become(draft, outcome)
                 return outcome
@@ -217,6 +220,13 @@ class Session:
             sequence=sequence,
             changes=changes_of(facts),
         )
+
+    async def _told(self, utterance: Utterance, facts: tuple[Fact, ...], sequence: int) -> Outcome:
+        """The outcome in words; beside the event loop where a question has a slow planner run many times."""
+        asked = any(isinstance(fact, Asked) for fact in facts)
+        if asked and self.run.config.planner not in QUICK_PLANNERS:
+            return await to_thread.run_sync(self._outcome, utterance, facts, sequence)
+        return self._outcome(utterance, facts, sequence)
 
     async def _save(self, outcome: Outcome) -> None:
         try:

@@ -68,6 +68,8 @@ def _walls(rerun: Rerun, cleared: Sequence[str], foil: Move) -> list[Add]:
     world = rerun.run.world.without(frozenset(cleared))
     before = seen.options[: seen.options.index(seen.option(foil))]
     cells = [option.cell for option in before if option.verdict == "free" and option.cell is not None]
+    if world.road.cell(world.av) in cells:
+        return []  # nothing can be put where the vehicle stands, so staying cannot be taken away
     walls = [wall(world, cell) for cell in cells]
     return walls if walls and rerun.after((*removal(cleared), *walls)) is foil else []
 

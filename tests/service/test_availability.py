@@ -39,12 +39,14 @@ OFFERED: list[dict[str, Any]] = [
     {"do": "ask", "about": "why"},
     {"do": "ask", "about": "why_not", "move": "left"},
     {"do": "ask", "about": "status"},
+    {"do": "set", "parameter": "planner", "value": "astar"},
+    {"do": "adjust", "parameter": "safety_buffer", "by": 1},
+    {"do": "prefer", "preference": "cautious"},
     {"do": "ask", "about": "help"},
 ]
 REFUSED: list[dict[str, Any]] = [
     {"do": "set", "parameter": "weather", "value": "rain"},
     {"do": "adjust", "parameter": "playback_speed", "factor": 2},
-    {"do": "prefer", "preference": "cautious"},
     {"do": "show", "view": "log"},
     {"do": "hide", "view": "log"},
     {"do": "rewind", "ticks": 2},
