@@ -86,7 +86,8 @@ def test_sim_reaches_neither_up_nor_out(name: str) -> None:
     assert tops.isdisjoint(FOREIGN_TO_SIM)
     if not name.startswith("sim.view"):
         assert tops.isdisjoint(ONLY_IN_VIEW)
-        assert "sim.view" not in set(imports(MODULES[name], whole=True))
+        # A learning environment can be looked at: it is an edge of `sim`, nothing else there imports it.
+        assert "sim.view" not in set(imports(MODULES[name], whole=True)) or name == "sim.env.single"
 
 
 @pytest.mark.parametrize("name", ["sim.judge", "sim.world", "sim.rules", "sim.notation"])

@@ -48,6 +48,7 @@ from sim.batch.layout import (
     Layout,
     Words,
 )
+from sim.batch.observe import observe
 from sim.batch.reach import exact_moves
 from sim.batch.roads import begin_all
 from sim.batch.sweep import weighted_moves
@@ -218,6 +219,13 @@ class Batch:
     def episode_ticks(self) -> NDArray[np.int64]:
         """Ticks since every lane's episode began (shape: lanes)."""
         return self._lane_values(EPISODE_TICK).astype(np.int64)
+
+    def observe(self) -> NDArray[np.uint8]:
+        """Every lane's cells (shape: lanes, 7, rows, columns; planes as in `sim.env.observation`)."""
+        columns, rows = self.layout.columns, self.layout.rows
+        out = np.empty((len(self), 7, rows, columns), np.uint8)
+        observe(self._state, self._lanes, len(self), columns, rows, out)
+        return out
 
     def totals(self) -> Totals:
         """What has been counted since the batch was made."""

@@ -13,7 +13,9 @@ from sim.view.motion import STEP_FRAMES, eased
 from sim.view.theme import MAX_SIDE_PX
 
 if TYPE_CHECKING:
+    import numpy as np
     import pygame
+    from numpy.typing import NDArray
 
     from sim.plan import Decision
     from sim.run import Run
@@ -24,7 +26,17 @@ FORMATS = ("png", "jpeg")
 MIN_SIDE_PX = 64
 """The least room for a picture."""
 
-__all__ = ["FORMATS", "MAX_SIDE_PX", "MIN_SIDE_PX", "STEP_FRAMES", "VIEWS", "eased", "encode", "render"]
+__all__ = [
+    "FORMATS",
+    "MAX_SIDE_PX",
+    "MIN_SIDE_PX",
+    "STEP_FRAMES",
+    "VIEWS",
+    "eased",
+    "encode",
+    "pixels",
+    "render",
+]
 
 
 def render(
@@ -63,3 +75,11 @@ def encode(picture: pygame.Surface, form: str = "png") -> bytes:
     if form not in FORMATS:
         raise ValueError(f"pictures can be had as {' and '.join(FORMATS)}, not as {form!r}")
     return encoded(picture, form)
+
+
+def pixels(picture: pygame.Surface) -> NDArray[np.uint8]:
+    """A picture as an array (shape: height, width, 3)."""
+    import numpy as np
+    import pygame
+
+    return np.ascontiguousarray(pygame.surfarray.array3d(picture).transpose(1, 0, 2))
