@@ -11,6 +11,8 @@ from importlib.metadata import EntryPoint, entry_points
 from typing import Final
 
 GROUP: Final = "roadtalk.planners"
+BUILT_IN: Final = ("priority", "astar", "dijkstra", "exact")
+"""Names of the planners that come with the project (`sim.plan`)."""
 PROMISED: Final = ("dwa", "rl", "cooperative")
 """Names that people may say and this version has not."""
 
@@ -35,10 +37,11 @@ def installed() -> dict[str, EntryPoint]:
 
 def names() -> tuple[str, ...]:
     """The names of all planners there are: built in, registered, installed."""
-    others = [name for name in installed() if name not in _registered and name not in PROMISED]
-    return (*_registered, *others)
+    return tuple(
+        dict.fromkeys((*BUILT_IN, *_registered, *(name for name in installed() if name not in PROMISED)))
+    )
 
 
 def may_be_named(name: object) -> bool:
     """Whether a configuration may name this planner; promised ones are refused where they are asked for."""
-    return isinstance(name, str) and (name in _registered or name in PROMISED or name in installed())
+    return isinstance(name, str) and (name in PROMISED or name in names())

@@ -84,6 +84,7 @@ def ticks_kernel(*, walking: bool, courteous: bool, held: bool, asked: bool, ren
         top = np.uint64((rows_per_word - 1) * columns)
         last_bit = _ONE << np.uint64(columns - 1)
         limit = np.uint64(10 * rows)
+        end_field = np.uint64(END_FIELD)
         sideways = _ONE << np.uint64(MOVE_FIELD)
         diagonal = _ONE << np.uint64(2 * MOVE_FIELD)
         waited = _ONE << np.uint64(3 * MOVE_FIELD)
@@ -203,8 +204,12 @@ def ticks_kernel(*, walking: bool, courteous: bool, held: bool, asked: bool, ren
                     outcome = STUCK if tick > limit else RUNNING
                     outcome = SUCCESS if cell_after < row_size else outcome
                     outcome = CRASH if crashed else outcome
+                    ending = _ONE << (outcome - _ONE) * end_field if outcome != RUNNING else _ZERO
+                    arriving = tick if outcome == SUCCESS else _ZERO
                     if held:
                         live = v[OUTCOME * LANES + i] == RUNNING
+                        ending = ending if live else _ZERO
+                        arriving = arriving if live else _ZERO
                         goes_on = goes_on & live
                         bit_after = bit_after if live else bit
                         cell_after = cell_after if live else cell
@@ -218,14 +223,11 @@ def ticks_kernel(*, walking: bool, courteous: bool, held: bool, asked: bool, ren
                     v[CELL * LANES + i] = cell_after
                     v[EPISODE_TICK * LANES + i] = tick
                     v[MOVES * LANES + i] += count
+                    v[ENDS * LANES + i] += ending
+                    v[TICKS_TO_GOAL * LANES + i] += arriving
                     v[OUTCOME * LANES + i] = outcome
                 for i in range(LANES):
-                    outcome = v[OUTCOME * LANES + i]
-                    if outcome != RUNNING:
-                        if not held or v[SINCE_END * LANES + i] == _ZERO:
-                            v[ENDS * LANES + i] += _ONE << (outcome - _ONE) * np.uint64(END_FIELD)
-                            if outcome == SUCCESS:
-                                v[TICKS_TO_GOAL * LANES + i] += v[EPISODE_TICK * LANES + i]
+                    if v[OUTCOME * LANES + i] != RUNNING:
                         if held:
                             lane = block * LANES + i
                             if renewed and v[SINCE_END * LANES + i] == np.uint64(wholes[lane, HOLD_TICKS]):

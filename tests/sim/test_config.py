@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from dataclasses import fields
 from typing import Any
 
@@ -121,3 +123,8 @@ def test_changing_parts() -> None:
 )
 def test_a_result_stands_for_whole_ticks(delay_s: float, step_s: float, ticks: int) -> None:
     assert Config(reset_delay_s=delay_s, step_seconds=step_s).reset_delay_ticks == ticks
+
+
+def test_a_configuration_needs_no_planner_to_be_loaded() -> None:
+    code = "from sim.config import Config; Config(planner='astar'); import sys; assert 'sim.plan' not in sys.modules"
+    subprocess.run([sys.executable, "-c", code], check=True)
