@@ -100,14 +100,13 @@ def roll(now, layers, ahead, last, episode_tick, left_edge, right_edge):
         resting = now[RESTING_IN_HOLES, w]
         if not walking:
             resting |= now[NOW_WALKERS, w]
-        yields = now[YIELDS, w] if ahead == 0 else _ZERO
         motion = move_movers(
             now[NOW_RIGHT, w],
             now[NOW_LEFT, w],
             resting,
             now[ALL_FIXED, w],
-            yields,
-            now[VEHICLE, w],
+            now[YIELDS, w] if ahead == 0 else _ZERO,
+            now[VEHICLE, w] if ahead == 0 else _ZERO,
             left_edge,
             right_edge,
         )
@@ -123,12 +122,12 @@ def roll(now, layers, ahead, last, episode_tick, left_edge, right_edge):
 
 @compiled
 def one_row_on(board, w, last, columns):
-    """Word `w` of a board moved one row towards the destination."""
-    top = np.uint64((64 // columns - 1) * columns)
+    """Word `w` of a board moved one row towards the destination; no word is beyond `last`."""
     ahead = board[w] >> np.uint64(columns - 1) >> _ONE
     if w < last:
-        first_row = (_ONE << np.uint64(columns - 1) << _ONE) - _ONE
-        ahead |= (board[w + 1] & first_row) << top
+        # The first row of the next word comes last in this one.
+        unused = np.uint64(64 % columns)
+        ahead |= (board[w + 1] << np.uint64(64 - columns)) >> unused
     return ahead
 
 
@@ -137,21 +136,25 @@ def one_row_back(board, w, columns):
     """Word `w` of a board moved one row away from the destination."""
     behind = board[w] << np.uint64(columns - 1) << _ONE
     if w > 0:
-        behind |= board[w - 1] >> np.uint64((64 // columns - 1) * columns)
+        behind |= board[w - 1] >> np.uint64(64 - columns - 64 % columns)
     return behind
 
 
 @compiled
 def expand(layers, ahead, first, last, columns, left_edge, right_edge):
     """Step the reached set over one tick, from word `first` on; whether it is not empty."""
-    alive = False
-    reached = layers[ahead, REACHED]
+    alive = _ZERO
+    unused, up = np.uint64(64 % columns), np.uint64(64 - columns)
     if first > 0:
         layers[ahead + 1, REACHED, first - 1] = _ZERO  # read when the next word comes into reach
     for w in range(first, last + 1):
+        start = layers[ahead, REACHED, w]
+        on = start >> np.uint64(columns - 1) >> _ONE
+        if w < last:
+            on |= layers[ahead, REACHED, w + 1] << up >> unused
         after = spread(
-            reached[w],
-            one_row_on(reached, w, last, columns),
+            start,
+            on,
             layers[ahead, BLOCKED, w],
             layers[ahead, CAME_RIGHT, w],
             layers[ahead, CAME_LEFT, w],
@@ -159,14 +162,8 @@ def expand(layers, ahead, first, last, columns, left_edge, right_edge):
             right_edge,
         )
         layers[ahead + 1, REACHED, w] = after
-        alive |= after != _ZERO
-    return alive
-
-
-@compiled
-def first_word(row, ahead, columns):
-    """The first word that a vehicle in that row can be in, so many ticks later (it gains a row a tick)."""
-    return max(0, row - ahead) // (64 // columns)
+        alive |= after
+    return alive != _ZERO
 
 
 @compiled
@@ -175,9 +172,13 @@ def search(now, layers, row, last, episode_tick, limit, columns, left_edge, righ
     for w in range(last + 1):
         layers[0, REACHED, w] = now[VEHICLE, w]
     goal = (_ONE << np.uint64(columns - 1) << _ONE) - _ONE
+    rows_per_word = 64 // columns
+    # Words before `first` cannot hold the vehicle yet: it gains a row a tick.
+    first = row // rows_per_word
     for ahead in range(limit):
         roll(now, layers, ahead, last, episode_tick, left_edge, right_edge)
-        first = first_word(row, ahead + 1, columns)
+        if first > 0 and row - ahead - 1 < first * rows_per_word:
+            first -= 1
         alive = expand(layers, ahead, first, last, columns, left_edge, right_edge)
         if first == 0 and layers[ahead + 1, REACHED, 0] & goal:
             return ahead + 1, ahead + 1
@@ -189,25 +190,38 @@ def search(now, layers, row, last, episode_tick, limit, columns, left_edge, righ
 @compiled
 def keep_shortest(layers, ticks, row, last, columns, left_edge, right_edge):
     """The backward pass: of every layer, the reached cells that lie on a way of so many ticks."""
+    rows_per_word = 64 // columns
+    down = np.uint64(64 - columns - 64 % columns)
     goal = (_ONE << np.uint64(columns - 1) << _ONE) - _ONE
     for w in range(last + 1):
         layers[ticks, NEEDED, w] = _ZERO
     layers[ticks, NEEDED, 0] = layers[ticks, REACHED, 0] & goal
+    # What is needed at a tick can neither be further on than the vehicle gets, nor too far back to arrive.
+    nearest, furthest = 0, 0
     for ahead in range(ticks - 1, 0, -1):
-        needed = layers[ahead + 1, NEEDED]
-        first = first_word(row, ahead, columns)
-        for w in range(first):
-            layers[ahead, NEEDED, w] = _ZERO
-        for w in range(first, last + 1):
-            before = spread_back(
-                needed[w],
-                one_row_back(needed, w, columns),
+        while (nearest + 1) * rows_per_word <= row - ahead:
+            layers[ahead, NEEDED, nearest] = _ZERO
+            nearest += 1
+        if furthest < last and (furthest + 1) * rows_per_word <= ticks - ahead:
+            furthest += 1
+        if nearest > 0:
+            layers[ahead, NEEDED, nearest - 1] = _ZERO
+        if furthest < last:
+            layers[ahead, NEEDED, furthest + 1] = _ZERO
+        for w in range(nearest, furthest + 1):
+            end = layers[ahead + 1, NEEDED, w]
+            behind = end << np.uint64(columns - 1) << _ONE
+            if w > 0:
+                behind |= layers[ahead + 1, NEEDED, w - 1] >> down
+            kept = spread_back(
+                end,
+                behind,
                 layers[ahead, CAME_RIGHT, w],
                 layers[ahead, CAME_LEFT, w],
                 left_edge,
                 right_edge,
             )
-            layers[ahead, NEEDED, w] = before & layers[ahead, REACHED, w]
+            layers[ahead, NEEDED, w] = kept & layers[ahead, REACHED, w]
 
 
 @compiled
