@@ -1,4 +1,4 @@
-"""The C yardstick, compiled when it is measured and checked against the batch engine before it is believed."""
+"""The C yardstick, compiled when it is measured, and checked against the batch engine first."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ FLAGS = ("-O3", "-march=native", "-mprefer-vector-width=512", "-shared", "-fPIC"
 
 
 class CLoop:
-    """As many worlds as a batch has, in C. Configurations are of one road size, without pedestrians and courtesy."""
+    """As many worlds as a batch has, in C: of one road size, without pedestrians and courtesy."""
 
     def __init__(self, configs: Sequence[Config]) -> None:
         """Compile and lay out. Raises `LookupError` where there is no C compiler."""

@@ -14,16 +14,25 @@ from functools import lru_cache
 
 from sim.kinds import Cell, Move
 
+_WORD_BITS = 240
+_WORD = (1 << _WORD_BITS) - 1
+
 Board = int
 """A set of cells of one road."""
 
 
 def bits(board: Board) -> Iterator[int]:
     """The cell indices in a board, lowest first."""
+    # Word by word: taking single bits off a long number costs its whole length each time.
+    offset = 0
     while board:
-        lowest = board & -board
-        yield lowest.bit_length() - 1
-        board ^= lowest
+        word = board & _WORD
+        while word:
+            lowest = word & -word
+            yield offset + lowest.bit_length() - 1
+            word ^= lowest
+        board >>= _WORD_BITS
+        offset += _WORD_BITS
 
 
 def board_of(indices: Iterator[int] | list[int] | tuple[int, ...]) -> Board:

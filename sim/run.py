@@ -7,18 +7,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
+from sim.commit import commit
 from sim.config import Config
-from sim.courtesy import yielding
 from sim.events import Event, EventType
 from sim.generate import GenerationError, generate
 from sim.judge import collisions, outcome
-from sim.kinds import Kind, Mode, Move, Outcome
+from sim.kinds import Mode, Move, Outcome
 from sim.metrics import Metrics
 from sim.perceive import perceive
 from sim.plan import Decision
 from sim.plan.guard import is_foreign, planned, stayed
 from sim.plan.manual import obey
-from sim.rules import followed_board, followed_table, move_movers, pedestrians_walk
 from sim.world import World
 
 _END_EVENTS = {
@@ -26,6 +25,9 @@ _END_EVENTS = {
     Outcome.CRASH: EventType.CRASHED,
     Outcome.STUCK: EventType.STUCK,
 }
+
+
+__all__ = ["Run", "Tick", "advance", "commit", "decide", "next_episode", "reconfigured", "restarted"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,35 +110,6 @@ def advance(run: Run) -> Tick:
         replace(run, world=after, metrics=metrics, queue=run.queue[1:], fault=decision.fault),
         decision,
         tuple(events),
-    )
-
-
-def commit(world: World, move: Move, config: Config) -> World:
-    """Everything moved at once, nothing judged: the world one tick later."""
-    road = world.road
-    disabled = world.disabled
-    resting = disabled if pedestrians_walk(world.episode_tick) else disabled | world.pedestrians
-    motion = move_movers(
-        world.right,
-        world.left,
-        resting,
-        world.fixed,
-        yielding(world, config),
-        world.board(Kind.AV),
-        road.left_edge,
-        road.right_edge,
-    )
-    target = road.moved(world.av, move)
-    if target is None:
-        raise ValueError(f"{move} leads off the road")
-    return replace(
-        world,
-        tick=world.tick + 1,
-        avs=(target, *world.avs[1:]),
-        right=motion.right,
-        left=motion.left,
-        pedestrians=followed_board(world.pedestrians, motion),
-        movers=followed_table(world.movers, motion),
     )
 
 

@@ -126,5 +126,8 @@ def test_a_result_stands_for_whole_ticks(delay_s: float, step_s: float, ticks: i
 
 
 def test_a_configuration_needs_no_planner_to_be_loaded() -> None:
-    code = "from sim.config import Config; Config(planner='astar'); import sys; assert 'sim.plan' not in sys.modules"
+    code = (
+        "from sim.config import Config; Config(planner='astar'); import sys; "
+        "assert 'sim.plan' not in sys.modules"
+    )
     subprocess.run([sys.executable, "-c", code], check=True)

@@ -1,0 +1,40 @@
+"""One tick of motion: everything at once, nothing judged."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from sim.config import Config
+from sim.courtesy import yielding
+from sim.kinds import Kind, Move
+from sim.rules import followed_board, followed_table, move_movers, pedestrians_walk
+from sim.world import World
+
+
+def commit(world: World, move: Move, config: Config) -> World:
+    """Everything moved at once, nothing judged: the world one tick later."""
+    road = world.road
+    disabled = world.disabled
+    resting = disabled if pedestrians_walk(world.episode_tick) else disabled | world.pedestrians
+    motion = move_movers(
+        world.right,
+        world.left,
+        resting,
+        world.fixed,
+        yielding(world, config),
+        world.board(Kind.AV),
+        road.left_edge,
+        road.right_edge,
+    )
+    target = road.moved(world.av, move)
+    if target is None:
+        raise ValueError(f"{move} leads off the road")
+    return replace(
+        world,
+        tick=world.tick + 1,
+        avs=(target, *world.avs[1:]),
+        right=motion.right,
+        left=motion.left,
+        pedestrians=followed_board(world.pedestrians, motion),
+        movers=followed_table(world.movers, motion),
+    )
