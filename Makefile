@@ -29,7 +29,7 @@ format: $(VENV)/.ready-dev ## rewrite the code in the project's style
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
-bench: $(VENV)/.ready-dev ## measured figures, in one run
+bench: $(VENV)/.ready-bench ## measured figures, in one run, peers included
 	$(BIN)/python -m bench
 
 clean: ## take away what was set up
@@ -48,6 +48,11 @@ $(VENV)/.ready-dev: pyproject.toml | $(VENV)/bin/python
 	@echo "Setting up for development (once; a minute or less) ..."
 	@$(call install,.[dev])
 	@touch $@ $(VENV)/.ready-run
+
+$(VENV)/.ready-bench: pyproject.toml | $(VENV)/bin/python
+	@echo "Setting up for measuring (once; a minute or two) ..."
+	@$(call install,.[dev,bench])
+	@touch $@ $(VENV)/.ready-dev $(VENV)/.ready-run
 
 define install
 if command -v uv >/dev/null; then uv pip install --quiet --python $(BIN)/python -e '$(1)'; \

@@ -7,10 +7,12 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from service.settings import Settings
+from sim.plan.checker import check
 from tests.browser.service_process import ServiceProcess
 
 ROOT = Path(__file__).parents[1]
@@ -53,6 +55,16 @@ def test_every_link_leads_to_a_file(link: str) -> None:
     assert (ROOT / link).is_file()
 
 
-def test_the_examples_of_the_world_are_so() -> None:
-    results = doctest.testfile(str(ROOT / "sim" / "README.md"), module_relative=False)
+def test_the_planner_shown_keeps_its_promises() -> None:
+    text = (ROOT / "sim" / "plan" / "README.md").read_text(encoding="utf-8")
+    names: dict[str, Any] = {}
+    exec(re.findall(r"```python\n(.*?)```", text, re.DOTALL)[0], names)
+    report = check(names["Patient"]())
+    assert report.decisions > 100
+    assert report.defects == ()
+
+
+@pytest.mark.parametrize("name", ["README.md", "sim/README.md"])
+def test_the_examples_of_the_world_are_so(name: str) -> None:
+    results = doctest.testfile(str(ROOT / name), module_relative=False)
     assert (results.failed, results.attempted > 3) == (0, True)

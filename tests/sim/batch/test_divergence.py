@@ -1,0 +1,28 @@
+"""Where planners part is where they part in two single runs."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from sim.batch import first_divergence
+from sim.config import Config
+from sim.kinds import Outcome
+from sim.run import Run, advance
+
+
+def parting(config: Config) -> int:
+    """The tick at which the rule and the exact planner first differ, one world at a time; −1: never."""
+    one, other = Run.start(config), Run.start(replace(config, planner="exact"))
+    while one.world.outcome is Outcome.RUNNING:
+        tick = one.world.tick
+        one, other = advance(one).run, advance(other).run
+        if one.world.av != other.world.av:
+            return tick
+    return -1
+
+
+def test_the_first_difference_is_found() -> None:
+    configs = [Config(seed=seed, potholes=4) for seed in range(40)]
+    found = first_divergence(configs, "priority", "exact")
+    assert found.tolist() == [parting(config) for config in configs]
+    assert (first_divergence(configs, "weighted", "weighted") == -1).all()
