@@ -7,6 +7,7 @@ Validation is pydantic's, over plain dataclasses; `None` means "not said" and is
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal, TypeAlias
 
@@ -43,6 +44,9 @@ _STRICT = {"extra": "forbid"}
 
 Ticks = Annotated[int, Ge(1), Le(10_000)]
 Name = Annotated[str, MinLen(1), MaxLen(80)]
+Phrase = Annotated[str, MinLen(1), MaxLen(80)]
+MAX_MEANT = 50
+"""How many actions a what-if or a taught phrase may hold."""
 ViewName = Literal["road", "schematic", "occupancy", "plan", "log", "potholes", "sensors", "path", "metrics"]
 MetricName = Literal["crashes", "successes", "success_rate", "steps", "moves", "distance"]
 
@@ -142,7 +146,7 @@ class Ask:
     ]
     move: Move | None = None
     tick: Annotated[int, Ge(0)] | None = None
-    change: tuple[Action, ...] | None = None
+    change: Annotated[tuple[Action, ...], MinLen(1), MaxLen(MAX_MEANT)] | None = None
     kind: PlaceableKind | None = None
     metric: MetricName | None = None
 
@@ -156,6 +160,7 @@ class Ask:
                 raise ValueError(f"'{key}' does not belong to a question about {self.about}")
             if not said and key in must:
                 raise ValueError(f"a question about {self.about} needs '{key}'")
+        _no_such("what if nothing changes: it cannot be asked about to", self.change or (), (Ask, Teach, Forget))
 
 
 _ASKED_WITH: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
@@ -257,10 +262,30 @@ class Teach:
     """From now on, a phrase means these actions."""
 
     do: Literal["teach"] = "teach"
-    phrase: Annotated[str, MinLen(1), MaxLen(80)]
-    meaning: tuple[Action, ...]
+    phrase: Phrase
+    meaning: Annotated[tuple[Action, ...], MinLen(1), MaxLen(MAX_MEANT)]
 
     __pydantic_config__ = _STRICT
+
+    def __post_init__(self) -> None:
+        _no_such("a phrase cannot mean to", self.meaning, (Teach, Forget))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Forget:
+    """A taught phrase means nothing any more."""
+
+    do: Literal["forget"] = "forget"
+    phrase: Phrase
+
+    __pydantic_config__ = _STRICT
+
+
+def _no_such(why: str, actions: Iterable[Action], kinds: tuple[type, ...]) -> None:
+    """Raise where an action is of a kind that must not stand inside another."""
+    for action in actions:
+        if isinstance(action, kinds):
+            raise ValueError(f"{why} {action.do}")
 
 
 Action: TypeAlias = Annotated[
@@ -289,7 +314,8 @@ Action: TypeAlias = Annotated[
     | Save
     | Load
     | Record
-    | Teach,
+    | Teach
+    | Forget,
     Discriminator("do"),
 ]
 

@@ -12,7 +12,9 @@ from typing import Any
 
 from service.language.frames import Filled
 from service.language.lattice import Edge
+from service.language.lexicon import Sense
 from service.language.noun_phrases import Amount
+from sim.kinds import kind_of
 
 _ABSENT = object()
 _MEASURES = ("number", "length", "speed", "seconds", "fraction", "times")
@@ -45,11 +47,15 @@ def build(filled: Filled, parameters: Parameters) -> list[dict[str, Any]]:
     frame = filled.frame
     maker = _Maker(filled, parameters)
     if not frame.per:
-        return [maker.action(template, None) for template in frame.actions]
+        return [made for template in frame.actions for made in maker.actions(template)]
     turns = filled.of(*frame.per)
     if len(turns) > 1 and maker.where() is not None:
         raise CannotBuild("one place for several things")
     return [maker.action(template, turn) for turn in turns for template in frame.actions]
+
+
+def _ids(edge: Edge) -> tuple[str, ...]:
+    return edge.sense.value.ids if isinstance(edge.sense.value, Amount) else ()
 
 
 class _Maker:
@@ -58,6 +64,17 @@ class _Maker:
     def __init__(self, filled: Filled, parameters: Parameters) -> None:
         self._filled = filled
         self._parameters = parameters
+
+    def actions(self, template: Mapping[str, Any] | str) -> list[dict[str, Any]]:
+        """One action; those of a slot that is actions itself; or one for each thing that is named by id."""
+        if isinstance(template, str):
+            whole: list[dict[str, Any]] = self._slot(template.removeprefix("$"), None)
+            return whole
+        named = [name for edge in self._filled.slots for name in _ids(edge)]
+        if not named:
+            return [self.action(template, None)]
+        turns = [Edge(0, 0, Sense("thing.id", Amount(kind_of(name), 1, (name,)))) for name in named]
+        return [self.action(template, turn) for turn in turns]
 
     def action(self, template: Mapping[str, Any], turn: Edge | None) -> dict[str, Any]:
         """One action; `turn` is the slot it is about when a frame makes one for each."""
@@ -111,7 +128,7 @@ class _Maker:
             raise CannotBuild(f"two values for {name}")
         value = slots[0].sense.value
         if isinstance(value, Amount):
-            return value.of if attribute == "of" else value.count
+            return {"of": value.of, "count": value.count, "id": "".join(value.ids[:1])}[attribute or "count"]
         return value[attribute] if attribute else value
 
     def where(self) -> dict[str, Any] | None:

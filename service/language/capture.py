@@ -1,69 +1,122 @@
 """Names: the words after "save this as", kept as they were written.
 
 They are found before anything else is read, so that no typo is "repaired" in a name and no word of
-it is taken for a request. A name ends at a comma, at "then" or at the end.
+it is taken for a request. A name ends at a comma, at "then" or at the end; one in quotation marks, at
+the closing mark, whatever is in it (`\\"` is a mark within).
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
-from service.language.lattice import GLUE
-from service.language.lexicon import Lexicon
+from service.language.lattice import GLUE, Name
+from service.language.lexicon import Lexicon, Sense
 from service.language.tokens import Token
+from service.language.topic import Phrases
 
 CAPTURE = "captures"
 ENDS = "name_end"
 TRAILING = "name_tail"
+FORGETS = "forgets"
 TEACH = "teach"
 MEANS = "means"
 STARTS_AFTER = "separator"
 
 
-def names(tokens: Sequence[Token], lexicon: Lexicon) -> dict[int, int]:
-    """Start → end (tokens) of every name in the sentence."""
-    found: dict[int, int] = {}
+QUOTE = '"'
+ESCAPE = "\\"
+_LOOSE = "\"' "
+"""Marks around a name that are no part of it."""
+
+
+def names(tokens: Sequence[Token], lexicon: Lexicon, said: str, phrases: Phrases) -> dict[int, Name]:
+    """Start (token) → name, for every name in the sentence.
+
+    `said` is the text they are taken from, `phrases` those that were taught and so can be forgotten.
+    """
+    found: dict[int, Name] = {}
+    if (begun := _forgets(tokens, lexicon, phrases)) is not None:
+        start, end = begun
+        quoted = _quoted(tokens, start, said)
+        return {start: quoted or Name(end, said[tokens[start].start : tokens[end - 1].end])}
     at = 0
     while at < len(tokens):
         after = _longest(lexicon, tokens, at, TEACH)
-        if after and not found and (end := _before_meaning(tokens, after, lexicon)) is not None:
-            found[after] = end
+        if after and not found and (name := _taught(tokens, after, lexicon, said)) is not None:
+            found[after] = name
             break
         after = _longest(lexicon, tokens, at, CAPTURE)
-        if not after:
+        if not after or not _begins(tokens, at, lexicon):
             at += 1
             continue
-        if not _begins(tokens, at, lexicon):
-            at += 1
-            continue
-        at = end = after
-        while end < len(tokens) and not _is(lexicon, tokens[end], ENDS):
-            end += 1
-        last = end
-        if any(_names_a_thing(lexicon, token) for token in tokens[at:end]):
-            continue
-        while last > at and _is(lexicon, tokens[last - 1], TRAILING):
-            last -= 1
-        if last > at:
-            found[at] = last
-        at = max(end, at)
+        name = _quoted(tokens, after, said) or _open(tokens, after, lexicon, said)
+        if name is not None:
+            found[after] = name
+        at = name.end if name else after
     return found
 
 
-def _before_meaning(tokens: Sequence[Token], at: int, lexicon: Lexicon) -> int | None:
-    """Where a taught phrase that starts at `at` ends: before "I mean" and what separates it."""
+def _forgets(tokens: Sequence[Token], lexicon: Lexicon, phrases: Phrases) -> tuple[int, int] | None:
+    """Where the phrase to be forgotten is: one in quotation marks, or one that was taught."""
+    words = [token.text for token in tokens]
+    for at in range(len(tokens)):
+        ends = {end for end, senses, _ in lexicon.matches(tokens, at, {}, {}) if _any_is(senses, FORGETS)}
+        for start in sorted(ends, reverse=True):
+            if start < len(tokens) and words[start] == QUOTE:
+                return start, len(tokens)
+            if start < len(tokens) and (taught := phrases.at(words, start)) is not None:
+                return start, taught[0]
+    return None
+
+
+def _quoted(tokens: Sequence[Token], at: int, said: str) -> Name | None:
+    """The name between quotation marks at `at`, or None."""
+    if at >= len(tokens) or tokens[at].text != QUOTE:
+        return None
+    end = at + 1
+    while end < len(tokens) and tokens[end].text != QUOTE:
+        escaped = tokens[end].text == ESCAPE and end + 1 < len(tokens)
+        end += 2 if escaped and tokens[end + 1].start == tokens[end].end else 1
+    if end >= len(tokens) or end == at + 1:
+        return None
+    inside = said[tokens[at].end : tokens[end].start]
+    return Name(end + 1, re.sub(r"\\(.)", r"\1", inside, flags=re.DOTALL))
+
+
+def _open(tokens: Sequence[Token], at: int, lexicon: Lexicon, said: str) -> Name | None:
+    """The name that starts at `at` and ends at the next mark."""
+    end = at
+    while end < len(tokens) and not _is(lexicon, tokens[end], ENDS):
+        end += 1
+    if any(_names_a_thing(lexicon, token) for token in tokens[at:end]):
+        return None
+    while end > at and _is(lexicon, tokens[end - 1], TRAILING):
+        end -= 1
+    return Name(end, said[tokens[at].start : tokens[end - 1].end].strip(_LOOSE)) if end > at else None
+
+
+def _taught(tokens: Sequence[Token], at: int, lexicon: Lexicon, said: str) -> Name | None:
+    """The phrase that starts at `at` and ends before "I mean" and what separates it."""
+    quoted = _quoted(tokens, at, said)
+    if quoted is not None:
+        return quoted
     for end in range(at + 1, len(tokens)):
         if _longest(lexicon, tokens, end, MEANS):
             while end - 1 > at and _is(lexicon, tokens[end - 1], STARTS_AFTER):
                 end -= 1
-            return end
+            return Name(end, said[tokens[at].start : tokens[end - 1].end].strip(_LOOSE))
     return None
 
 
 def _longest(lexicon: Lexicon, tokens: Sequence[Token], at: int, concept: str) -> int:
     """The end of the longest phrase at `at` with this concept; 0 when there is none."""
     matches = lexicon.matches(tokens, at, {}, {})
-    return max((end for end, senses, _ in matches if any(s.concept == concept for s in senses)), default=0)
+    return max((end for end, senses, _ in matches if _any_is(senses, concept)), default=0)
+
+
+def _any_is(senses: Sequence[Sense], concept: str) -> bool:
+    return any(sense.concept == concept for sense in senses)
 
 
 def _begins(tokens: Sequence[Token], at: int, lexicon: Lexicon) -> bool:

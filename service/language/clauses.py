@@ -9,21 +9,23 @@ potholes"). Negated fragments are understood and then left out.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Protocol
 
 from service.language.frames import Filled
 from service.language.lattice import GLUE, Edge, Lattice
 from service.language.lexicon import Sense
-from service.language.noun_phrases import Amount, understood_nouns
+from service.language.noun_phrases import QUANTITY, Amount, understood_nouns
 from service.language.paths import ALLOWS, NEGATION, SEPARATOR, Stretch
 
 MAX_JOINED = 16
 """How many fragments one listing clause may have."""
 
 _LENIENT = ("counted", "the_many", "bare_many")
-_TOGETHER = frozenset({"pause", "and", "but"})
+_TOGETHER = frozenset({"pause", "stop", "and", "but"})
 """Separators inside a listing clause; any other ends it."""
+_MARKS = frozenset({"pause", "stop"})
+"""Separators that are punctuation."""
 _OR = "or"
 _BUT = "but"
 """After this a part says for itself what to do: "remove all but two cars" leans on nothing."""
@@ -31,10 +33,14 @@ _BUT = "but"
 _WHOLE = (".all", ".the_many", ".bare_many", ".those")
 """Amounts that hold again in another place: "the cones in lane 3 and in lane 5"."""
 
+_FURTHER = ("more", "another")
+
 _NEGATED = frozenset({"ing", "negated"})
 """Forms in place in a negated part: "don't go adding anything"."""
 
 INTERJECTION = "interjection"
+REPEATED = "repeated"
+"""What was done before, said again: "again"."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +61,10 @@ class Clause:
     filled: Filled
     actions: list[dict[str, Any]]
     negated: bool = False
+    after: str = "pause"
+    """the separator before it"""
+    leans: bool = False
+    """whether it leans on what was said before this sentence"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +75,8 @@ class Context:
     noun: Edge | None = None
     verbless: bool = True
     negated: bool = False
+    distant: bool = False
+    """Whether it comes from an earlier sentence: then only "two more" and the like may lean on it."""
 
 
 @dataclass(slots=True)
@@ -99,12 +111,12 @@ def fragments(lattice: Lattice, start: int, end: int) -> list[Fragment]:
             if _says_something(lattice, begin, at):
                 found.append(Fragment(after, begin, at))
                 after = str(separator.sense.value)
-            elif str(separator.sense.value) != "pause":
+            elif str(separator.sense.value) not in _MARKS:
                 after = str(separator.sense.value)
             at = begin = inside = separator.end
             continue
         for edge in lattice.edges[at]:
-            if edge.end <= end and edge.concept != SEPARATOR:
+            if edge.end <= end and edge.concept not in (SEPARATOR, INTERJECTION):
                 inside = max(inside, edge.end)
         at += 1
     if _says_something(lattice, begin, end):
@@ -118,7 +130,7 @@ def _past_interjection(lattice: Lattice, start: int, end: int) -> int:
     for edge in lattice.edges[start] if start < end else ():
         if edge.end == longest and edge.concept == INTERJECTION and edge.end < end:
             marks = [
-                e for e in lattice.edges[edge.end] if e.concept == SEPARATOR and e.sense.value == "pause"
+                e for e in lattice.edges[edge.end] if e.concept == SEPARATOR and e.sense.value in _MARKS
             ]
             if marks and _says_something(lattice, marks[0].end, end):
                 return marks[0].end
@@ -130,7 +142,7 @@ def _says_something(lattice: Lattice, start: int, end: int) -> bool:
     at = start
     while at < end:
         glue = [e.end for e in lattice.edges[at] if e.concept == GLUE and not e.sense.form and e.end <= end]
-        if not glue:
+        if not glue or any(e.concept == REPEATED and e.end <= end for e in lattice.edges[at]):
             return True
         at = max(glue)
     return False
@@ -145,10 +157,16 @@ class Divider:
         self._vague = vague
         self._moods = moods
 
-    def divide(self, parts: Sequence[Fragment]) -> Divided:
-        """The clauses of the fragments, or those up to the first that nothing fits."""
+    def divide(self, parts: Sequence[Fragment], kind: str | None = None) -> Divided:
+        """The clauses of the fragments, or those up to the first that nothing fits.
+
+        `kind` is what an amount without a noun may be of in the first of them: "two more".
+        """
         divided = Divided()
         context = Context()
+        if kind is not None:
+            spoken = Edge(0, 0, Sense("thing.counted", Amount(kind, None)))
+            context = Context(noun=spoken, distant=True)
         at = 0
         while at < len(parts):
             clause, used = self._joined(parts, at, context)
@@ -157,7 +175,7 @@ class Divider:
             if clause is None:
                 divided.failed = parts[at]
                 return divided
-            divided.clauses.append(clause)
+            divided.clauses.append(replace(clause, after=parts[at].after))
             context = _context(clause, context)
             at += used
         return divided
@@ -200,12 +218,25 @@ class Divider:
                 return Clause(start, end, found[0], [] if context.negated else found[1], context.negated)
         if context.verbless:
             found = self._matcher.match(plain, verbless=True)
-            if found is None and context.noun is not None:
-                noun = Context(noun=context.noun)
-                found = self._matcher.match(self._stretch(start, end, noun), verbless=True)
             if found is not None:
                 return Clause(start, end, *found)
+            if context.noun is not None and (not context.distant or self._says_more(start, end)):
+                noun = Context(noun=context.noun)
+                if context.distant:
+                    found = self._matcher.match(self._stretch(start, end, noun), verbless=False)
+                    if found is not None:
+                        return Clause(start, end, *found)
+                found = self._matcher.match(self._stretch(start, end, noun), verbless=True)
+                if found is not None:
+                    return Clause(start, end, *found, leans=context.distant)
         return None
+
+    def _says_more(self, start: int, end: int) -> bool:
+        """Whether an amount in the tokens is one more of something."""
+        return any(
+            edge.concept == QUANTITY and edge.sense.value in _FURTHER
+            for edge in self._lattice.between(start, end)
+        )
 
     def _negated(self, part: Fragment, context: Context) -> Clause | None:
         """A fragment that says what not to do: understood, then left out."""

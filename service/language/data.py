@@ -35,6 +35,10 @@ class LanguageData:
     parameters: Parameters
     frames: list[Frame]
     messages: Mapping[str, str]
+    lanes: tuple[str, ...]
+    """what may be meant by a lane that is not clear"""
+    sentences: Mapping[str, Any]
+    """how actions are said back; empty in a language that cannot"""
     vague: int
     number_words: frozenset[str]
     nouns: Mapping[str, str]
@@ -85,6 +89,8 @@ def _read(folder: Path) -> LanguageData:
         parameters=Parameters({name: takes.split() for name, takes in words["parameters"].items()}),
         frames=read_frames(frames),
         messages=words["messages"],
+        lanes=tuple(words.get("lanes", ())),
+        sentences=read_yaml(folder / "sentences.yaml") if (folder / "sentences.yaml").is_file() else {},
         vague=int(words["vague"]),
         number_words=numbers.words(),
         nouns=frames["agree"],

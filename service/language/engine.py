@@ -9,28 +9,32 @@ pure function of the text; no input raises.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 from pydantic import ValidationError
 
-from service.actions import Action, load
+from service.actions import Action, dump, load
 from service.language.capture import names
 from service.language.clauses import Clause, Divided, Divider, Fragment, fragments
 from service.language.data import LanguageData, LanguageDataError, read_language
-from service.language.lattice import GLUE, Lattice, Scanner
+from service.language.lattice import GLUE, Lattice, Name, Scanner
 from service.language.linter import defects, flaws
 from service.language.matching import Frames
 from service.language.noun_phrases import NOUN, QUANTITY, Amount, add_noun_phrases
 from service.language.parse_types import Ambiguous, Choice, Correction, Parse, Reason, Refused, Understood
 from service.language.paths import ALLOWS, SEPARATOR
+from service.language.references import Unclear, add_known, add_referents
+from service.language.sentences import Sentences
 from service.language.suggestions import Suggestions
-from service.language.tokens import Token, normalise, renamed, tokenise
+from service.language.tokens import Token, as_said, normalise, renamed, tokenise
+from service.language.topic import ALONE, Phrases, Topic
 from service.language.typos import Typos
-from service.language.wrappers import wrapped
+from service.language.wrappers import sentences, wrapped
 from service.resources import prompts_folder
+from sim.actions import Add, Remove
 
 MAX_TOKENS = 300
 """Longer utterances are refused unread: the service caps text at 500 characters anyway."""
@@ -48,6 +52,7 @@ class Language:
         self._lexicon = data.lexicon
         self._scanner = Scanner(data.lexicon, data.numbers)
         self.frames = Frames(data.frames, data.parameters)
+        self.sentences = Sentences(data.sentences)
 
     @classmethod
     def load(
@@ -66,11 +71,15 @@ class Language:
             raise LanguageDataError("; ".join(found))
         return cls(data, offered)
 
-    def parse(self, text: str) -> Parse:
-        """What a person said: `Understood`, `Refused` or `Ambiguous`. Never raises."""
-        return self._parse(text, asking=True)
+    def parse(self, text: str, topic: Topic = ALONE) -> Parse:
+        """What a person said: `Understood`, `Refused` or `Ambiguous`. Never raises.
 
-    def _parse(self, text: str, *, asking: bool) -> Parse:
+        `topic` is what it may refer to; without one it is read as a sentence that stands alone.
+        """
+        return self.read(text, topic, asking=True)
+
+    def read(self, text: str, topic: Topic, *, asking: bool) -> Parse:
+        """`parse`; unless `asking`, what would be asked about is refused."""
         messages = self.data.messages
         plain = normalise(text)
         tokens = tokenise(plain, self.data.contractions)
@@ -78,11 +87,28 @@ class Language:
             return Refused(text, "empty", messages["empty"])
         if len(tokens) > MAX_TOKENS:
             return Refused(text, "not_understood", messages["too_long"].format(words=MAX_TOKENS))
-        kept = names(tokens, self._lexicon)
-        tokens, corrections = self._repaired(plain, tokens, kept)
-        lattice = self._scanner.scan(tokens, kept, plain)
+        kept = names(tokens, self._lexicon, as_said(text, plain), topic.phrases)
+        tokens, corrections = self._repaired(plain, tokens, kept, topic)
+        lattice = self._scanner.scan(tokens, kept)
         lattice.keep_whole(self.data.nouns)
-        return _Reading(self, text, plain, tokens, lattice, corrections).parse(asking=asking)
+        add_known(lattice, tokens, topic)
+        return _Reading(self, text, plain, tokens, lattice, corrections, topic).parse(asking=asking)
+
+    def sentence(self, actions: Sequence[Action]) -> str:
+        """One sentence that means exactly these actions. Raises `Unsayable`."""
+        return self.sentences.sentence(actions)
+
+    def phrases(self, taught: Mapping[str, Sequence[Action]]) -> Phrases:
+        """Taught phrases and what they mean, ready to be found in sentences of this language."""
+        by_first: dict[str, list[tuple[tuple[str, ...], list[dict[str, Any]]]]] = {}
+        for phrase, actions in taught.items():
+            if words := self.words_of(phrase):
+                by_first.setdefault(words[0], []).append((words, dump(tuple(actions))))
+        return Phrases(by_first)
+
+    def words_of(self, text: str) -> tuple[str, ...]:
+        """The words and marks of a text, as they are compared."""
+        return tuple(token.text for token in tokenise(normalise(text), self.data.contractions))
 
     def check(self) -> list[str]:
         """Every defect of the language's data (see `linter`); empty when it is fit."""
@@ -104,14 +130,19 @@ class Language:
         return frozenset(str(sense.value) for sense in senses if sense.concept.startswith(NOUN))
 
     def _repaired(
-        self, plain: str, tokens: list[Token], kept: dict[int, int]
+        self, plain: str, tokens: list[Token], kept: Mapping[int, Name], topic: Topic
     ) -> tuple[list[Token], tuple[Correction, ...]]:
         """The tokens with one-edit typos read as meant, and the list of what was changed."""
         corrections: list[Correction] = []
-        in_names = {at for start, end in kept.items() for at in range(start, end)}
+        in_names = {at for start, name in kept.items() for at in range(start, name.end)}
+        if topic.phrases.by_first:
+            words = [token.text for token in tokens]
+            for start in range(len(tokens)):
+                if (taught := topic.phrases.at(words, start)) is not None:
+                    in_names.update(range(start, taught[0]))
         for at, token in enumerate(tokens):
             word = token.text
-            if token.digits or at in in_names or self.data.knows(word) or not word.isalpha():
+            if token.digits or token.id or at in in_names or self.data.knows(word) or not word.isalpha():
                 continue
             meant = self.typos.repair(word)
             if meant is not None:
@@ -135,7 +166,7 @@ class Language:
         """The content concepts that occur in a text."""
         plain = normalise(text)
         tokens = tokenise(plain, self.data.contractions)
-        return _content(self._scanner.scan(tokens, {}, plain))
+        return _content(self._scanner.scan(tokens, {}))
 
 
 def _content(lattice: Lattice) -> frozenset[str]:
@@ -147,17 +178,21 @@ def _content(lattice: Lattice) -> frozenset[str]:
     )
 
 
-def _once(values: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Without what is only said again for emphasis: "stop, hold on" pauses once."""
-    return [
-        value
-        for value, before in zip(values, [None, *values], strict=False)
-        if value != before or value["do"] not in _STEADY
-    ]
+def _once(clauses: Sequence[Clause]) -> list[dict[str, Any]]:
+    """All actions, without what is only said again for emphasis: "stop, hold on" pauses once."""
+    values: list[dict[str, Any]] = []
+    for clause in clauses:
+        again = bool(values) and clause.after in _EMPHASIS and clause.actions == values[-1:]
+        if not (again and clause.actions[0]["do"] in _STEADY):
+            values += clause.actions
+    return values
 
 
 _STEADY = ("pause", "resume")
 """Actions that make no difference the second time."""
+
+_EMPHASIS = ("pause", "stop", "and")
+"""Separators after which they may be said again for emphasis; "pause, then pause" is two."""
 
 
 class _Reading:
@@ -171,8 +206,11 @@ class _Reading:
         tokens: list[Token],
         lattice: Lattice,
         corrections: tuple[Correction, ...],
+        topic: Topic,
     ) -> None:
         self._language = language
+        self._topic = topic
+        self._unclear: list[Unclear] = []
         self._messages = language.data.messages
         self._text = text
         self._plain = plain
@@ -186,31 +224,83 @@ class _Reading:
         if unknown:
             return self._refused(self._stretches(unknown), ())
         add_noun_phrases(self._lattice, self._language.data.vague)
-        result = wrapped(self._lattice, self._divide)
-        if isinstance(result, Fragment):
-            return self._refused([self._written(result.start, result.end)], ())
-        divided = Divided([result]) if result else self._divide(0, self._lattice.size, frozenset())
+        self._unclear = add_referents(self._lattice, self._topic)
+        divided = self._all_sentences()
+        if isinstance(divided, Fragment):
+            return self._refused([self._written(divided.start, divided.end)], (), asking=asking)
         clauses = divided.clauses
         if divided.failed is not None or not clauses:
-            return self._refused_after(divided)
+            return self._refused_after(divided, asking=asking)
         question = next(
             (clause for clause in clauses if clause.filled.frame.ask and not clause.negated), None
         )
         if question is not None:
             return self._asked(question) if asking else self._refused([self._plain], ())
-        values = _once([value for clause in clauses for value in clause.actions])
+        values = _once(clauses)
         if not values:
             return self._refusal("negation", self._messages["negation"])
         try:
             actions = load(values)
         except ValidationError:
             return self._impossible(clauses)
+        if self._topic.removed and clauses[0].leans:
+            return self._more_of_what(actions) if asking else self._refused([self._plain], ())
         return Understood(self._text, actions, self._corrections)
+
+    def _all_sentences(self) -> Divided | Fragment:
+        """The clauses of all sentences, or the part of a wrapped one that nothing fits."""
+        whole = Divided()
+        for start, end in sentences(self._lattice):
+            result = wrapped(self._lattice, start, end, self._divide)
+            if isinstance(result, Fragment):
+                return result
+            divided = Divided([result]) if result else self._divide(start, end, frozenset())
+            whole.clauses += divided.clauses
+            if divided.failed is not None:
+                whole.failed = divided.failed
+                break
+        return whole
 
     def _divide(self, start: int, end: int, moods: frozenset[str]) -> Divided:
         """The clauses of tokens `[start, end)`, with these forms in place."""
         divider = Divider(self._language.frames, self._lattice, self._language.data.vague, moods)
-        return divider.divide(fragments(self._lattice, start, end))
+        return divider.divide(fragments(self._lattice, start, end), None if start else self._topic.kind)
+
+    def _more_of_what(self, actions: tuple[Action, ...]) -> Parse:
+        """The question after "two more" when the last amount was taken away."""
+        first = actions[0]
+        if not isinstance(first, Add):
+            return self._refused([self._plain], ())
+        away = Remove(kind=first.kind, count=first.count, where=first.where)
+        choices = tuple(
+            Choice(self._language.sentence(each), each)
+            for each in ((away, *actions[1:]), actions)
+        )
+        return Ambiguous(self._text, self._messages["more_of_what"], choices)
+
+    def _which(self) -> Parse | None:
+        """The question about a reference to one of several things, or the refusal of one to nothing."""
+        for unclear in self._unclear:
+            lanes = self._language.data.lanes
+            tried = unclear.candidates or (lanes if unclear.lane else ("vehicle-1",))
+            choices: list[Choice] = []
+            for candidate in tried:
+                parsed = self._language.read(self._instead(unclear, candidate), self._topic, asking=False)
+                if isinstance(parsed, Understood) and all(c.actions != parsed.actions for c in choices):
+                    choices.append(Choice(parsed.text.strip(), parsed.actions))
+            if len(choices) > 1:
+                return Ambiguous(self._text, self._messages["which"], tuple(choices))
+            if choices:
+                phrase = self._written(unclear.start, unclear.end)
+                return self._refusal(
+                    "not_understood", self._messages["no_referent"].format(phrase=phrase), (phrase,)
+                )
+        return None
+
+    def _instead(self, unclear: Unclear, phrase: str) -> str:
+        """The whole text with a reference replaced by what it may mean."""
+        start, end = self._tokens[unclear.start].start, self._tokens[unclear.end - 1].end
+        return self._plain[:start] + phrase + self._plain[end:]
 
     def _asked(self, clause: Clause) -> Parse:
         """The question of an ambiguous clause; each choice is the whole utterance with it replaced."""
@@ -232,7 +322,7 @@ class _Reading:
             except KeyError:
                 continue
             whole = self._plain[:start] + sentence + self._plain[end:]
-            parsed = self._language._parse(whole, asking=False)
+            parsed = self._language.read(whole, self._topic, asking=False)
             if isinstance(parsed, Understood) and all(c.actions != parsed.actions for c in choices):
                 choices.append(Choice(whole.strip(), parsed.actions))
         if len(choices) < 2:
@@ -251,8 +341,8 @@ class _Reading:
                 )
         return self._refusal("impossible", self._messages["impossible"].format(phrase=self._text))
 
-    def _refused_after(self, divided: Divided) -> Refused:
-        """The refusal of a sentence of known words that make no request."""
+    def _refused_after(self, divided: Divided, *, asking: bool) -> Parse:
+        """The refusal of a sentence of known words that make no request; or a question about one of them."""
         understood = tuple(self._written(clause.start, clause.end) for clause in divided.clauses)
         part = divided.failed
         if part is None:
@@ -260,9 +350,13 @@ class _Reading:
         failed = self._written(part.start, part.end)
         if any(_impossible_number(edge.sense.value) for edge in self._lattice.between(part.start, part.end)):
             return self._refusal("impossible", self._messages["impossible"].format(phrase=failed), (failed,))
-        return self._refused([failed], understood)
+        return self._refused([failed], understood, asking=asking)
 
-    def _refused(self, unparsed: list[str], understood: tuple[str, ...]) -> Refused:
+    def _refused(
+        self, unparsed: list[str], understood: tuple[str, ...], *, asking: bool = False
+    ) -> Parse:
+        if asking and (which := self._which()) is not None:
+            return which
         shown = unparsed[:MAX_UNPARSED]
         quoted = self._messages["and"].join(f'"{_shortened(phrase)}"' for phrase in shown)
         message = self._messages["not_understood"].format(phrases=quoted)

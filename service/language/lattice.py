@@ -19,8 +19,14 @@ GLUE = "glue"
 NUMBER = "number"
 UNIT = "unit"
 NAME = "name"
-QUOTES = "\"' "
-"""Marks around a name that are no part of it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Name:
+    """Tokens up to `end` that are kept as they were written."""
+
+    end: int
+    text: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,8 +90,8 @@ class Scanner:
         self._lexicon = lexicon
         self._numbers = numbers
 
-    def scan(self, tokens: Sequence[Token], names: Mapping[int, int], text: str) -> Lattice:
-        """The lattice of a sentence. `names` gives stretches to be kept as written: start → end."""
+    def scan(self, tokens: Sequence[Token], names: Mapping[int, Name]) -> Lattice:
+        """The lattice of a sentence. `names` gives, by their start, stretches to be kept as written."""
         numbers: dict[int, Found] = {}
         ordinals: dict[int, int] = {}
         for at, token in enumerate(tokens):
@@ -96,14 +102,13 @@ class Scanner:
         lattice = Lattice(len(tokens), [[] for _ in tokens])
         at = 0
         while at < len(tokens):
-            if (end := names.get(at)) is not None:
-                name = text[tokens[at].start : tokens[end - 1].end].strip(QUOTES)
-                lattice.edges[at].append(Edge(at, end, Sense(NAME, name)))
-                at = end
+            if (name := names.get(at)) is not None:
+                lattice.edges[at].append(Edge(at, name.end, Sense(NAME, name.text)))
+                at = name.end
                 continue
             matches = self._lexicon.matches(tokens, at, numbers, ordinals)
             for end, senses, part in matches:
-                if not any(end > name > at for name in names):
+                if not any(end > start > at for start in names):
                     lattice.edges[at].extend(Edge(at, end, sense, part) for sense in senses)
             if (number := numbers.get(at)) is not None and not _inside_number(numbers, at):
                 lattice.edges[at].extend(self._measures(tokens, at, number, numbers, ordinals))

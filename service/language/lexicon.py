@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from service.language.numbers import Found
-from service.language.patterns import GAP, NUMBER, ORDINAL, Words, expand
+from service.language.patterns import GAP, ID, NUMBER, ORDINAL, Words, expand
 from service.language.tokens import Token
 
 
@@ -52,6 +52,8 @@ class Lexicon:
         self.concepts: dict[str, set[str]] = {}
         """Concept → its forms."""
         self.collisions: list[str] = []
+        self.typical: dict[tuple[str, str], Words] = {}
+        """Concept and value → its first phrase without a slot: how it is best said."""
 
     def add_section(self, data: Mapping[str, Any]) -> None:
         """Add one file of the lexicon: concept → phrases, value → phrases, or a list of both."""
@@ -93,6 +95,8 @@ class Lexicon:
 
     def _add(self, words: Words, sense: Sense) -> None:
         node = self._node(words)
+        if not sense.form and not any(word.startswith("{") for word in words):
+            self.typical.setdefault((sense.concept, repr(sense.value)), words)
         if node.senses is None:
             node.senses = []
         for other in node.senses:
@@ -139,6 +143,8 @@ class Lexicon:
                 number = numbers[here]
                 if isinstance(number.value, int) and number.value >= 0:
                     open_paths.append((after, number.end, (*slots, number.value)))
+            if tokens[here].id and (after := node.next.get(ID)) is not None:
+                open_paths.append((after, here + 1, (*slots, tokens[here].text)))
             if here in ordinals and (after := node.next.get(ORDINAL)) is not None:
                 open_paths.append((after, here + 1, (*slots, ordinals[here])))
             if (after := node.next.get(tokens[here].text)) is not None:

@@ -31,6 +31,8 @@ class Amount:
 
     of: str
     count: int | float | None
+    ids: tuple[str, ...] = ()
+    """the very things, where they are known"""
 
 
 @dataclass(slots=True)
@@ -121,6 +123,9 @@ def _form(gathered: _Gathered, many: bool, vague: int) -> tuple[str, int | float
         return ("none", 0) if said == {"no"} and number is None else ("odd", None)
     if "any" in said:
         return ("any", None) if said <= {"any", "more", "the"} and number is None else ("odd", None)
+    if "last" in said:
+        odd = said - {"last", "the"}
+        return ("odd", None) if odd else ("last", None) if number is None else ("last_counted", number)
     if number is not None:
         if "all" in said:
             return ("all", None)

@@ -2,19 +2,26 @@
 
 A small parser of our own, because the words around a number decide what it may be: "a couple of" is a
 number here, "a few" (a vague amount) and "second" (an ordinal) are not. Which words there are is data
-(`numbers.yaml`). Negative numbers and fractions are read as what they are; that a count
-cannot be one is for the frames to say.
+(`numbers.yaml`), and so is whether they are written as one word and which mark is the decimal one.
+Negative numbers and fractions are read as what they are; that a count cannot be one is for the
+frames to say.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import takewhile
 from typing import Any
 
 from service.language.tokens import Token
 
 Value = int | float
+LONGEST_WORD = 60
+"""Letters of the longest word that is read as a number in one word."""
+
+OPENING = ("(", "[")
+"""After one of these "3,7" is a pair and not a number, whatever the decimal mark."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,6 +30,22 @@ class Found:
 
     value: Value
     end: int
+
+
+@dataclass(frozen=True, slots=True)
+class Together:
+    """How numbers are written as one word; there is none in languages that do not."""
+
+    bound: Mapping[str, int]
+    """Pieces that are no number by themselves: the "ein" of "einundzwanzig"."""
+    link: str
+    """What stands between ones and tens, and may stand after a power."""
+    ones_first: bool
+
+    @classmethod
+    def from_data(cls, data: Mapping[str, Any]) -> Together:
+        """From `{"bound": {"ein": 1}, "link": "und", "ones_first": True}`."""
+        return cls(data.get("bound", {}), str(data.get("link", "")), bool(data.get("ones_first", False)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +63,11 @@ class NumberWords:
     of: frozenset[str]
     minus: frozenset[str]
     point: frozenset[str]
+    together: Together | None = None
+    decimal: str = "."
+    thousands: str = ","
+    part_ending: str = "s"
+    """What a word for a part ends in when there are several: "quarters"."""
 
     @classmethod
     def from_data(cls, data: Mapping[str, Any]) -> NumberWords:
@@ -47,7 +75,12 @@ class NumberWords:
         sets = {
             key: frozenset(str(data[key]).split()) for key in ("articles", "joins", "of", "minus", "point")
         }
+        marks = data.get("marks", {"decimal": ".", "thousands": ","})
         return cls(
+            together=Together.from_data(data["together"]) if "together" in data else None,
+            decimal=marks["decimal"],
+            thousands=marks["thousands"],
+            part_ending=str(data.get("part_ending", "s")),
             ones=data["ones"],
             tens=data["tens"],
             powers=data["powers"],
@@ -106,8 +139,9 @@ class NumberWords:
         while at < len(tokens):
             word = tokens[at].text
             begins = last in ("nothing", "power", "join")
-            if word in self.ones and (begins or (last == "tens" and self.ones[word] in range(1, 10))):
-                part, last = part + self.ones[word], "ones"
+            small = self._in_one_word(word)
+            if small is not None and (begins or (last == "tens" and self._ends_tens(small))):
+                part, last = part + small, "ones"
             elif word in self.tens and begins:
                 part, last = part + self.tens[word], "tens"
             elif word in self.powers and last in ("ones", "tens", "article", "power"):
@@ -133,26 +167,103 @@ class NumberWords:
         return self._decimals(tokens, Found(total + part, at))
 
     def _continues(self, tokens: Sequence[Token], at: int) -> bool:
-        return at < len(tokens) and (tokens[at].text in self.ones or tokens[at].text in self.tens)
+        return at < len(tokens) and (
+            tokens[at].text in self.tens or self._in_one_word(tokens[at].text) is not None
+        )
+
+    def _ends_tens(self, value: int) -> bool:
+        """Whether a word may follow one for tens: "twenty five", where that is how it is said."""
+        return self.together is None and value in range(1, 10)
+
+    def _in_one_word(self, word: str) -> int | None:
+        """The number that is one word: "seven", and "einundzwanzig" where words are put together."""
+        plain = self.ones.get(word)
+        if plain is not None or self.together is None or word in self.together.bound:
+            return plain
+        if word in self.tens or len(word) > LONGEST_WORD:
+            return None
+        powers = sorted(self.powers.items(), key=lambda power: (-power[1], -len(power[0])))
+        return self._put_together(word, powers, self.together)
+
+    def _put_together(self, word: str, powers: Sequence[tuple[str, int]], how: Together) -> int | None:
+        """A number in one word that has none but these powers in it, the greatest first."""
+        for at, (name, power) in enumerate(powers):
+            head, found, tail = word.partition(name)
+            if not found:
+                continue
+            below = [other for other in powers[at + 1 :] if other[1] < power]
+            many = self._put_together(head, below, how) if head else 1
+            rest = self._put_together(tail.removeprefix(how.link), below, how) if tail else 0
+            if not many or rest is None:
+                return None
+            return many * power + rest
+        return self._below_hundred(word, how)
+
+    def _below_hundred(self, word: str, how: Together) -> int | None:
+        small = {**self.ones, **how.bound}
+        if word in small or word in self.tens:
+            return small.get(word, self.tens.get(word))
+        for ten, value in self.tens.items():
+            if how.ones_first:
+                one = word.removesuffix(how.link + ten)
+            else:
+                one = word.removeprefix(ten + how.link)
+            if one != word and small.get(one, 0) in range(1, 10):
+                return value + small[one]
+        return None
 
     def _digits(self, tokens: Sequence[Token], at: int) -> Found | None:
-        text = tokens[at].text.replace(",", "")
+        text, end = self._written_digits(tokens, at)
         if "/" in text:
             over, under = text.split("/")
             if len(text) > 12 or int(under) == 0:
                 return None
-            return Found(int(over) / int(under), at + 1)
-        if len(text) > 15:
+            return Found(int(over) / int(under), end)
+        plain = self._without_marks(text)
+        if plain is None or len(plain) > 15:
             return None
-        if text.isdigit():
-            value = int(text)
-            if at + 1 < len(tokens) and not tokens[at + 1].digits and tokens[at + 1].text in self.powers:
-                return Found(value * self.powers[tokens[at + 1].text], at + 2)
-            return Found(value, at + 1)
+        if plain.isdigit():
+            value = int(plain)
+            if end < len(tokens) and not tokens[end].digits and tokens[end].text in self.powers:
+                return Found(value * self.powers[tokens[end].text], end + 1)
+            return Found(value, end)
         try:
-            return Found(float(text), at + 1)
+            return Found(float(plain), end)
         except ValueError:
             return None
+
+    def _written_digits(self, tokens: Sequence[Token], at: int) -> tuple[str, int]:
+        """Digits and their marks as they were written without a space, and the token after them."""
+        text, end = tokens[at].text, at + 1
+        if self.decimal == "." or (at and tokens[at - 1].text in OPENING):
+            return text, end
+        touching = list(
+            takewhile(
+                lambda pair: pair[0].end == pair[1].start,
+                zip(tokens[at:], tokens[at + 1 :], strict=False),
+            )
+        )
+        for _, token in touching:
+            if not (token.digits or (token.text == self.decimal and text[-1].isdigit())):
+                break
+            text, end = text + token.text, end + 1
+        if not text[-1].isdigit():
+            text, end = text[:-1], end - 1
+        return text, end
+
+    def _without_marks(self, text: str) -> str | None:
+        """Digits with a point before the decimals and no other mark; None when marks are out of place."""
+        head, _, decimals = text.partition(self.decimal)
+        groups = head.split(self.thousands)
+        if len(groups) > 1:
+            grouped = all(len(group) == 3 for group in groups[1:]) and 1 <= len(groups[0]) <= 3
+            if self.decimal == "." or (grouped and not groups[0].startswith("0")):
+                head = "".join(groups)
+            else:
+                return text if len(groups) == 2 and not decimals else None
+        elif self.decimal != "." and len(decimals) == 3 and not head.startswith("0"):
+            return None
+        return f"{head}.{decimals}" if decimals else head
 
     def _decimals(self, tokens: Sequence[Token], whole: Found) -> Found:
         """The digits after a spoken point: "zero point four"."""
@@ -190,7 +301,8 @@ class NumberWords:
 
     def _names_parts(self, word: str, how_many: Value) -> bool:
         """Whether a word after a number names so many parts: "one half", "three quarters"."""
-        return word.rstrip("s") in self.fractions and (word.endswith("s") or how_many == 1)
+        several = word.endswith(self.part_ending)
+        return word.removesuffix(self.part_ending) in self.fractions and (several or how_many == 1)
 
     def _with_tail(self, tokens: Sequence[Token], found: Found) -> Found:
         """ "two and a half", "three quarters"."""
@@ -202,5 +314,5 @@ class NumberWords:
         ):
             return Found(found.value + tail.value, tail.end)
         if at < len(tokens) and self._names_parts(tokens[at].text, found.value):
-            return Found(found.value * self.fractions[tokens[at].text.rstrip("s")], at + 1)
+            return Found(found.value * self.fractions[tokens[at].text.removesuffix(self.part_ending)], at + 1)
         return found

@@ -13,6 +13,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+from sim.kinds import Kind
+
 _VARIANTS = str.maketrans(
     {
         "“": '"',
@@ -31,9 +33,10 @@ _VARIANTS = str.maketrans(
 )
 
 _TOKEN = re.compile(
-    r"""(?P<ordinal>[0-9]+(?:st|nd|rd|th)\b)
+    rf"""(?P<id>\b(?:{"|".join(Kind)})-[0-9]{{1,9}}\b)
+      | (?P<ordinal>[0-9]+(?:st|nd|rd|th)\b)
       | (?P<fraction>[0-9]+/[0-9]+)
-      | (?P<number>[0-9]{1,3}(?:,[0-9]{3})+(?:\.[0-9]+)?(?![0-9]) | [0-9]*\.[0-9]+ | [0-9]+)
+      | (?P<number>[0-9]{{1,3}}(?:,[0-9]{{3}})+(?:\.[0-9]+)?(?![0-9]) | [0-9]*\.[0-9]+ | [0-9]+)
       | (?P<word>[^\W\d_]+/[^\W\d_]+ | [^\W\d_]+(?:'[^\W\d_]+)*\*?)
       | (?P<mark>\S)""",
     re.VERBOSE | re.IGNORECASE,
@@ -48,6 +51,8 @@ class Token:
     start: int
     end: int
     digits: bool = False
+    id: bool = False
+    """Whether it is the id of a thing: "pothole-3"."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,6 +86,15 @@ def normalise(text: str) -> str:
     return text if text.isascii() else unicodedata.normalize("NFKC", text)
 
 
+def as_said(text: str, plain: str) -> str:
+    """The text with marks as they were written, character by character beside its normal form.
+
+    Where the normal form is of another length ("ﬁ" is two letters) it is the normal form itself.
+    """
+    said = text if text.isascii() else unicodedata.normalize("NFKC", text)
+    return said if len(said) == len(plain) else plain
+
+
 def tokenise(text: str, contractions: Contractions) -> list[Token]:
     """Tokens of a normalised text, in order, contractions written out."""
     tokens: list[Token] = []
@@ -97,6 +111,8 @@ def tokenise(text: str, contractions: Contractions) -> list[Token]:
                     tokens.append(Token(mark, start, end))
             else:
                 tokens.append(Token(written, start, end))
+        elif kind == "id":
+            tokens.append(Token(written, start, end, id=True))
         else:
             tokens.append(Token(written, start, end, digits=True))
     return tokens

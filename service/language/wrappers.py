@@ -13,8 +13,13 @@ from service.language.paths import SEPARATOR
 WHAT_IF = "what_if"
 IF = "if"
 THEN_WHAT = "then_what"
+STOP = "stop"
 TEACH = "teach"
 MEANS = "means"
+
+TEACHING = frozenset({"teach", "forget"})
+NO_CHANGE = TEACHING | {"ask"}
+"""Actions that cannot stand in a condition."""
 
 CONDITIONAL = frozenset({"cond", "past"})
 """Forms in place inside a condition."""
@@ -25,28 +30,42 @@ Divide = Callable[[int, int, frozenset[str]], Divided]
 _FRAME = Frame("wrapper", (), frozenset(), frozenset())
 
 
-def wrapped(lattice: Lattice, divide: Divide) -> Clause | Fragment | None:
+def sentences(lattice: Lattice) -> list[tuple[int, int]]:
+    """Where the sentences of a text begin and end, if one of them is a what-if question; else all as one.
+
+    A phrase is taught to the end of the text, full stops and all.
+    """
+    cuts = [0]
+    for starting in lattice.edges:
+        cuts += [edge.end for edge in starting if edge.concept == SEPARATOR and edge.sense.value == STOP]
+    parts = [(a, b) for a, b in zip(cuts, [*cuts[1:], lattice.size], strict=True) if a < b]
+    starts = [_past_glue(lattice, start, end) for start, end in parts]
+    taught = any(_longest(lattice, at, TEACH) for at in starts if at < lattice.size)
+    asked = any(_longest(lattice, at, WHAT_IF) for at in starts if at < lattice.size)
+    return parts if asked and not taught else [(0, lattice.size)]
+
+
+def wrapped(lattice: Lattice, start: int, end: int, divide: Divide) -> Clause | Fragment | None:
     """The clause a wrapped sentence is, the part of it that nothing fits, or None when it is not wrapped."""
-    start = _past_glue(lattice)
-    if start == lattice.size:
+    begin, start = start, _past_glue(lattice, start, end)
+    if start == end:
         return None
     if (taught := _longest(lattice, start, TEACH)) is not None:
         return _taught(lattice, taught, divide)
     failed: Fragment | None = None
-    for first, last in _conditions(lattice, start):
-        found = _inside(divide, first, last, CONDITIONAL)
+    for first, last in _conditions(lattice, start, end):
+        found = _inside(divide, first, last, CONDITIONAL, NO_CHANGE)
         if isinstance(found, Fragment):
             failed = failed or found
         else:
             question = {"do": "ask", "about": "what_if", "change": found}
-            return Clause(0, lattice.size, Filled(_FRAME, []), [question])
+            return Clause(begin, end, Filled(_FRAME, []), [question])
     return failed
 
 
-def _past_glue(lattice: Lattice) -> int:
-    """The first token that is neither glue nor a separator."""
-    at = 0
-    while at < lattice.size:
+def _past_glue(lattice: Lattice, at: int, end: int) -> int:
+    """The first token from `at` that is neither glue nor a separator."""
+    while at < end:
         if any(_longest(lattice, at, concept) for concept in (WHAT_IF, IF, TEACH)):
             return at
         passed = [edge.end for edge in lattice.edges[at] if edge.concept in (GLUE, SEPARATOR)]
@@ -62,20 +81,20 @@ def _longest(lattice: Lattice, at: int, concept: str) -> Edge | None:
     return max(found, key=lambda edge: edge.end, default=None)
 
 
-def _conditions(lattice: Lattice, start: int) -> Iterator[tuple[int, int]]:
+def _conditions(lattice: Lattice, start: int, end: int) -> Iterator[tuple[int, int]]:
     """Where the condition of a what-if question may be, whichever end the question itself stands at."""
     opened = sorted((e for e in lattice.edges[start] if e.concept in (WHAT_IF, IF)), key=lambda e: -e.end)
     for edge in opened:
-        if edge.concept == WHAT_IF and edge.end < lattice.size:
-            yield edge.end, lattice.size
-        for at in range(edge.end + 1, lattice.size):
+        if edge.concept == WHAT_IF and edge.end < end:
+            yield edge.end, end
+        for at in range(edge.end + 1, end):
             asked = _longest(lattice, at, THEN_WHAT)
-            if asked is not None and _only_marks(lattice, asked.end):
+            if asked is not None and _only_marks(lattice, asked.end, end):
                 yield edge.end, at
 
 
-def _only_marks(lattice: Lattice, at: int) -> bool:
-    while at < lattice.size:
+def _only_marks(lattice: Lattice, at: int, end: int) -> bool:
+    while at < end:
         passed = [edge.end for edge in lattice.edges[at] if edge.concept in (GLUE, SEPARATOR)]
         if not passed:
             return False
@@ -83,15 +102,17 @@ def _only_marks(lattice: Lattice, at: int) -> bool:
     return True
 
 
-def _inside(divide: Divide, start: int, end: int, forms: frozenset[str]) -> list[dict[str, Any]] | Fragment:
-    """The actions of the inner sentence, or the part that nothing fits."""
+def _inside(
+    divide: Divide, start: int, end: int, forms: frozenset[str], never: frozenset[str]
+) -> list[dict[str, Any]] | Fragment:
+    """The actions of the inner sentence, or the part that nothing fits; `never`: what may not be in it."""
     whole = Fragment("pause", start, max(end, start + 1))
     divided = divide(start, end, forms)
     if divided.failed is not None:
         return divided.failed
     values = [value for clause in divided.clauses for value in clause.actions]
     asks = any(clause.filled.frame.ask for clause in divided.clauses)
-    if asks or not values or any(value["do"] in ("ask", "teach") for value in values):
+    if asks or not values or any(value["do"] in never for value in values):
         return whole
     return values
 
@@ -111,9 +132,8 @@ def _taught(lattice: Lattice, opened: Edge, divide: Divide) -> Clause | Fragment
     means = _longest(lattice, at, MEANS)
     if means is None or means.end >= lattice.size:
         return None
-    found = _inside(divide, means.end, lattice.size, frozenset())
+    found = _inside(divide, means.end, lattice.size, frozenset(), TEACHING)
     if isinstance(found, Fragment):
         return found
-    phrase = str(name.sense.value).strip("\"' ")
-    taught = {"do": "teach", "phrase": phrase, "meaning": found}
+    taught = {"do": "teach", "phrase": str(name.sense.value), "meaning": found}
     return Clause(0, lattice.size, Filled(_FRAME, []), [taught])

@@ -1,0 +1,254 @@
+"""Actions → one sentence that means exactly these actions: the way back through the grammar.
+
+Used wherever what was done is told in the form it could have been said: replies to typed actions, logs,
+links, the confirmation of an interpretation. Which words is data (`sentences.yaml`). That the
+sentence parses to the same actions is a property the tests hold on thousands of random lists;
+what the language cannot say raises `Unsayable` rather than becoming something near it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from decimal import Decimal
+from typing import Any
+
+from service.actions import (
+    Action,
+    Advise,
+    Ask,
+    Evaluate,
+    FindWorst,
+    Forget,
+    Hide,
+    Load,
+    Record,
+    Rewind,
+    Save,
+    ScenarioParts,
+    Show,
+    Step,
+    Teach,
+)
+from sim.actions import (
+    Add,
+    Adjust,
+    Drive,
+    Prefer,
+    Remove,
+    Scenario,
+    Set,
+    SetCount,
+    SetMode,
+    Where,
+)
+
+_EXCLUSIVE = (("cell", "lane"), ("cell", "row"), ("cells", "distance_m"), ("nearest", "cell"), ("nearest", "lane"))
+"""Parts of a place that contradict each other when said together."""
+
+_KEPT_APART = (Teach, Forget)
+
+
+class Unsayable(ValueError):  # noqa: N818 - says what the actions are, not what went wrong
+    """Actions that no sentence of the language means."""
+
+
+class Sentences:
+    """Sentences in one language."""
+
+    def __init__(self, words: Mapping[str, Any]) -> None:
+        """`words`: the language's `sentences.yaml`."""
+        self._words = words
+
+    def sentence(self, actions: Sequence[Action]) -> str:
+        """One sentence for all of them, in order. Raises `Unsayable`."""
+        if not actions:
+            raise Unsayable("nothing is said by no sentence")
+        whole = ""
+        before: Action | None = None
+        for action in actions:
+            if before is not None:
+                # A what-if takes in all that follows it, so it has a sentence of its own.
+                apart = any(isinstance(each, Ask) for each in (before, action))
+                whole += self._words["stop"] if apart else self._words["then"]
+            whole += self._request(action)
+            before = action
+        return whole
+
+    def _request(self, action: Action) -> str:
+        match action:
+            case Add():
+                return self._say("add", **self._counted(action.kind, action.count), where=self._where(action.where))
+            case Remove():
+                return self._remove(action)
+            case SetCount():
+                return self._say("set_count", **self._counted(action.kind, action.count))
+            case Scenario():
+                parts = self._parts(action)
+                return self._say("scenario", parts=parts) if parts else self._say("scenario_empty")
+            case Set():
+                return self._set(action)
+            case Adjust():
+                return self._adjust(action)
+            case Prefer():
+                return self._word("prefer", action.preference)
+            case SetMode():
+                return self._word("mode", action.mode)
+            case Drive():
+                return self._say("drive", move=self._word("moves", action.move))
+            case Step() | Rewind():
+                key = action.do if action.ticks != 1 else f"{action.do}_one"
+                return self._say(key, count=action.ticks)
+            case Show() | Hide():
+                return self._say(action.do, view=self._word("views", action.view))
+            case Ask():
+                return self._question(action)
+            case Evaluate():
+                return self._evaluate(action)
+            case FindWorst():
+                planner = action.planner and self._say("find_worst_planner", planner=self._value("planner", action.planner))
+                runs = action.runs and self._say("find_worst_runs", runs=action.runs)
+                return self._say("find_worst", planner=planner or "", runs=runs or "")
+            case Advise():
+                thing = self._word("things", action.hazard)[0]
+                return self._say("advise", thing=thing, metres=number(action.distance_m), speed=number(action.speed_kmh))
+            case Save() | Load():
+                return self._say(action.do, name=quoted(action.name))
+            case Record():
+                return self._word("record", action.on)
+            case Teach():
+                return self._say("teach", phrase=quoted(action.phrase), meaning=self.sentence(action.meaning))
+            case Forget():
+                return self._say("forget", phrase=quoted(action.phrase))
+            case _:
+                return self._say(action.do)
+
+    def _remove(self, action: Remove) -> str:
+        kind, count, where = action.kind, action.count, action.where
+        if kind == "everything":
+            if count != "all":
+                raise Unsayable("everything is all there is")
+            return self._say("remove_everything", where=self._where(where))
+        if count == "all":
+            return self._say("remove_all", things=self._word("things", kind)[1], where=self._where(where))
+        if count == 1 and where == Where(nearest=True):
+            return self._say("remove_nearest", thing=self._word("things", kind)[0])
+        if count == 1 and where is not None and where.id is not None and where == Where(id=where.id):
+            if where.id.rpartition("-")[0] != kind:
+                raise Unsayable(f"{where.id} is no {kind}")
+            return self._say("remove_id", id=where.id)
+        return self._say("remove", **self._counted(kind, count), where=self._where(where))
+
+    def _where(self, where: Where | None) -> str:
+        """The place, each part said once; nothing for no place."""
+        if where is None or where == Where():
+            return ""
+        if any(getattr(where, a) is not None and getattr(where, b) is not None for a, b in _EXCLUSIVE):
+            raise Unsayable("parts of the place contradict each other")
+        said = self._absolute(where)
+        words = self._words["where"]
+        if where.distance_m is not None:
+            key = "distance_side" if where.side else "distance"
+            said += words[key].format(metres=number(where.distance_m))
+        elif where.cells is not None:
+            key = f"cell{'s' if where.cells != 1 else ''}_{'side' if where.side else 'away'}"
+            said += words.get(key, words["cells"]).format(cells=where.cells)
+        if where.side is not None:
+            said += words[where.side]
+        if where.nearest:
+            said += words["nearest"]
+        return said
+
+    def _absolute(self, where: Where) -> str:
+        words, said = self._words["where"], ""
+        if where.lane is not None:
+            key = "lane_number" if isinstance(where.lane, int) else "lane"
+            said += words[key].format(lane=where.lane)
+        if where.row is not None:
+            said += words["row"].format(row=where.row)
+        if where.cell is not None:
+            said += words["cell"].format(column=where.cell[0], row=where.cell[1])
+        if where.id is not None:
+            said += words["id"].format(id=where.id)
+        return said
+
+    def _set(self, action: Set) -> str:
+        value = action.value
+        told = self._value(action.parameter, value) if isinstance(value, str) else number(value)
+        return self._say("set", parameter=self._word("parameters", action.parameter), value=told)
+
+    def _adjust(self, action: Adjust) -> str:
+        parameter = self._word("parameters", action.parameter)
+        if action.factor is not None:
+            return self._say("adjust_factor", parameter=parameter, value=number(action.factor))
+        if action.by is not None:
+            key = "adjust_down_by" if action.by < 0 else "adjust_up_by"
+            return self._say(key, parameter=parameter, value=number(abs(action.by)))
+        return self._say(f"adjust_{action.direction}", parameter=parameter)
+
+    def _question(self, ask: Ask) -> str:
+        match ask.about:
+            case "why" | "why_not":
+                key = ask.about
+                if ask.move is not None and ask.about == "why":
+                    key += "_move"
+                if ask.tick is not None:
+                    key += "_tick"
+                move = "" if ask.move is None else self._word("asked", ask.move)
+                return self._say(key, move=move, tick=ask.tick)
+            case "what_if":
+                return self._say("what_if", change=self.sentence(ask.change or ()))
+            case "scene" if ask.kind is not None:
+                return self._say("scene_kind", things=self._word("things", ask.kind)[1])
+            case "metrics" if ask.metric is not None:
+                return self._word("metric", ask.metric)
+            case about:
+                return self._say(about)
+
+    def _evaluate(self, action: Evaluate) -> str:
+        planners = [self._value("planner", planner) for planner in action.planners or ()]
+        named = self._say("evaluate_with", planners=self._words["and"].join(planners)) if planners else ""
+        parts = self._parts(action.scenario) if action.scenario is not None else ""
+        scenario = self._say("evaluate_on", parts=parts) if parts else ""
+        if action.runs is not None:
+            return self._say("evaluate", runs=action.runs, planners=named, scenario=scenario)
+        key = "evaluate_planners" if planners else "evaluate_scenario"
+        return self._say(key, planners=named, scenario=scenario)
+
+    def _parts(self, parts: Scenario | ScenarioParts) -> str:
+        words = self._words["part"]
+        said = []
+        for key in ("weather", "time_of_day", "road", "traffic", "planner", "sensor"):
+            value = getattr(parts, key)
+            if value is not None:
+                said.append(words[key].format(value=self._value(key, value)))
+        for kind in self._words["things"]:
+            count = getattr(parts, f"{kind}s")
+            if count is not None:
+                said.append(words["things"].format(**self._counted(kind, count)))
+        return str(self._words["listed"].join(said))
+
+    def _counted(self, kind: str, count: int) -> dict[str, Any]:
+        return {"count": count, "things": self._word("things", kind)[0 if count == 1 else 1]}
+
+    def _value(self, key: str, value: str) -> str:
+        return str(self._words["values"].get(key, {}).get(value, value))
+
+    def _word(self, section: str, key: Any) -> Any:
+        try:
+            return self._words[section][key]
+        except KeyError:
+            raise Unsayable(f"no word for {key!r} of {section}") from None
+
+    def _say(self, key: str, **parts: Any) -> str:
+        return str(self._words[key]).format(**parts)
+
+
+def number(value: float) -> str:
+    """A number in digits, without an exponent, that reads as exactly the same number."""
+    told = format(Decimal(repr(value)), "f")
+    return told.rstrip("0").rstrip(".") if "." in told and isinstance(value, float) else told
+
+
+def quoted(name: str) -> str:
+    """A name in quotation marks, those within it escaped."""
+    return '"' + name.replace("\\", "\\\\").replace('"', '\\"') + '"'

@@ -1,0 +1,57 @@
+"""What a conversation is about: all that a sentence may refer to without naming it. A leaf.
+
+The engine is a pure function of a sentence and a topic; whoever holds the conversation makes the
+topic. An empty one is that of a sentence that stands alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from service.actions import Action
+from sim.actions import Where
+
+Words = tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Phrases:
+    """Taught phrases, ready to be found: by their first word, the words and the actions as JSON values."""
+
+    by_first: Mapping[str, Sequence[tuple[Words, list[dict[str, Any]]]]] = field(default_factory=dict)
+
+    def at(self, words: Sequence[str], start: int) -> tuple[int, list[dict[str, Any]]] | None:
+        """The end and the actions of the longest phrase that starts at a word."""
+        best: tuple[int, list[dict[str, Any]]] | None = None
+        for phrase, actions in self.by_first.get(words[start], ()):
+            end = start + len(phrase)
+            if tuple(words[start:end]) == phrase and (best is None or end > best[0]):
+                best = end, actions
+        return best
+
+
+@dataclass(frozen=True, slots=True)
+class Topic:
+    """What has been spoken of."""
+
+    things: tuple[str, ...] = ()
+    """ids of what was last added, moved or told about, still on the road: "it", "them" """
+    added: tuple[str, ...] = ()
+    """ids of all that was added by someone and is still there, the latest last: "the last pothole" """
+    actions: tuple[Action, ...] = ()
+    """what was last done or asked: "again" """
+    undone: bool = False
+    """whether the latest change was an undo: then "again" is to redo it"""
+    kind: str | None = None
+    """what "two more" is more of"""
+    removed: bool = False
+    """whether the latest amount was one taken away"""
+    where: Where | None = None
+    """where things were last put: "there", "the other lane" """
+    phrases: Phrases = field(default_factory=Phrases)
+
+
+ALONE = Topic()
+"""That of a sentence with nothing before it."""
