@@ -6,14 +6,16 @@ project reads the environment.
 
 from __future__ import annotations
 
-from pydantic import Field
+from pydantic import Field, HttpUrl, SecretStr, ValidationError, field_validator
 from pydantic_settings import BaseSettings, SettingsConfigDict
 
 
 class Settings(BaseSettings):
     """The settings of one running service."""
 
-    model_config = SettingsConfigDict(env_prefix="ROADTALK_", extra="ignore", frozen=True)
+    model_config = SettingsConfigDict(
+        env_prefix="ROADTALK_", extra="ignore", frozen=True, hide_input_in_errors=True
+    )
 
     host: str = Field(
         default="127.0.0.1",
@@ -49,3 +51,44 @@ class Settings(BaseSettings):
     max_malformed_messages: int = Field(
         default=20, ge=1, description="Malformed stream messages before the socket is closed."
     )
+    llm_base_url: str | None = Field(
+        default=None,
+        description="Address of an OpenAI-compatible server, `/v1` included; without it none is asked.",
+    )
+    llm_model: str | None = Field(default=None, description="Name of the language model asked there.")
+    llm_api_key: SecretStr | None = Field(
+        default=None, description="Key sent to that server, if it wants one."
+    )
+    llm_timeout_s: float = Field(
+        default=10.0, gt=0, le=120, description="Seconds a language model may take, a second try included."
+    )
+    llm_max_tokens: int = Field(
+        default=600, ge=16, le=16_384, description="Tokens a language model may answer with."
+    )
+    llm_per_minute: int = Field(
+        default=20,
+        ge=1,
+        le=6_000,
+        description="Requests to a language model in a minute, of all sessions together.",
+    )
+    llm_confirm: bool = Field(
+        default=True,
+        description="Whether what a language model understood is shown before it changes anything.",
+    )
+    llm_rephrase: bool = Field(
+        default=False, description="Whether a language model may put explanations in other words."
+    )
+
+    @field_validator("llm_base_url")
+    @classmethod
+    def _plain_url(cls, value: str | None) -> str | None:
+        """Only http(s), a host and a path: what else a URL can carry is secret, or has no use here."""
+        if not value:
+            return None
+        try:
+            url = HttpUrl(value)
+        except ValidationError:
+            raise ValueError("must be a URL that begins with http:// or https://") from None
+        if url.username or url.password or url.query or url.fragment:
+            raise ValueError("must hold no user name, password, query or fragment; a key has its own setting")
+        return str(url).rstrip("/")

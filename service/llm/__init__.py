@@ -1,0 +1,38 @@
+"""The optional language model: asked when the grammar refuses, and believed in nothing.
+
+Importing this package loads no model library; only `configured` does, and only where a model is named.
+"""
+
+from __future__ import annotations
+
+from service.llm.protocol import Facts, Interpretation, LanguageModel
+from service.settings import Settings
+
+__all__ = ["Facts", "Interpretation", "LanguageModel", "MissingExtraError", "configured"]
+
+_LIBRARIES = ("pydantic_ai", "openai", "httpx2")
+"""What the extra `llm` brings."""
+
+
+class MissingExtraError(RuntimeError):
+    """A language model is configured, but the library for it is not installed."""
+
+
+def configured(settings: Settings) -> LanguageModel | None:
+    """The language model the settings name; None without an address or a model.
+
+    Raises `MissingExtraError` where one is named and the extra `llm` is not installed, and
+    `PromptError` for broken prompts: both at the start, rather than when someone first needs it.
+    """
+    if settings.llm_base_url is None or not settings.llm_model:
+        return None
+    try:
+        from service.llm.openai import OpenAIModel
+    except ModuleNotFoundError as error:
+        if (error.name or "").partition(".")[0] not in _LIBRARIES:
+            raise
+        raise MissingExtraError(
+            "A language model is configured (ROADTALK_LLM_BASE_URL, ROADTALK_LLM_MODEL), but the extra "
+            "'llm' is not installed. Install roadtalk[llm], or take these settings away."
+        ) from None
+    return OpenAIModel(settings)

@@ -1,0 +1,95 @@
+"""What a text claims, so that other words for it can be held against the first.
+
+A model may change how an explanation sounds and nothing it says. So both are read down to their claims
+in order: ids, numbers, moves, negations, and every other word that carries a fact (`claims.yaml` names
+them). A faithful text has the same claims in the same order; the order keeps "vehicle-1 was left of me
+and pothole-2 right" from becoming the reverse. Much that is faithful is thrown away: that costs a nicer
+sentence, and keeping one that is wrong would cost the truth of an explanation.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, Final
+
+from service.llm.prompts import load_claims
+from service.llm.protocol import Facts
+
+Claim = tuple[str, str]
+"""What sort of claim, and which: `("id", "vehicle-3")`, `("number", "12")`, `("word", "left")`."""
+
+EXTRA_CHARS: Final = 80
+"""A text may be twice as long as the first, and this much."""
+
+_TOKEN = re.compile(
+    r"(?P<id>[^\W\d_]+-\d+)"
+    r"|(?P<number>\d+(?:,\d{3})+(?:\.\d+)?|\d+(?:\.\d+)?(?:e[+-]?\d+)?)"
+    r"|(?P<word>[^\W\d_]+(?:'[^\W\d_]+)?)"
+)
+_ADDRESS = re.compile(r"://|www\.|[a-z]\.[a-z]")
+_PLAIN = frozenset(" .,;:!?'\"()-–—’‘“”…/→")
+"""Marks that a sentence may have; letters and digits are those of ASCII."""
+
+
+@dataclass(frozen=True, slots=True)
+class Claims:
+    """The words of a language that carry facts."""
+
+    groups: dict[str, str]
+    """Word → what it says; words that say the same have one name."""
+    numbers: dict[str, str]
+
+    @classmethod
+    def load(cls) -> Claims:
+        """From `prompts/llm`. Raises `PromptError`."""
+        values = load_claims()
+        groups = {word: name for name, words in values["groups"].items() for word in words}
+        return cls(groups, {str(word): str(number) for word, number in values["numbers"].items()})
+
+    def of(self, text: str) -> tuple[Claim, ...]:
+        """The claims of a text, in order."""
+        return tuple(self._claims(text.lower().replace("’", "'")))
+
+    def faithful(self, answer: str, text: str, facts: Facts) -> bool:
+        """Whether an answer may stand for a text that was made from these facts."""
+        claims = self.of(text)
+        named = {value for sort, value in claims if sort == "id"}
+        return (
+            named <= set(_strings(facts))
+            and 0 < len(answer) <= 2 * len(text) + EXTRA_CHARS
+            and all(_plain(char) or char in text for char in answer)
+            and _ADDRESS.search(answer.lower()) is None
+            and self.of(answer) == claims
+        )
+
+    def _claims(self, text: str) -> Iterator[Claim]:
+        for match in _TOKEN.finditer(text):
+            token = match.group()
+            if match.lastgroup == "id":
+                yield "id", token
+            elif match.lastgroup == "number":
+                yield "number", f"{float(token.replace(',', '')):.12g}"
+            elif token in self.numbers:
+                yield "number", self.numbers[token]
+            else:
+                for word in (token.removesuffix("n't"), "not") if token.endswith("n't") else (token,):
+                    if word in self.groups:
+                        yield "word", self.groups[word]
+
+
+def _plain(char: str) -> bool:
+    return char in _PLAIN or (char.isascii() and unicodedata.category(char)[0] in "LN")
+
+
+def _strings(value: Any) -> Iterator[str]:
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, dict):
+        for part in value.values():
+            yield from _strings(part)
+    elif isinstance(value, list | tuple):
+        for part in value:
+            yield from _strings(part)

@@ -1,0 +1,103 @@
+"""The actions a model may cause, and their description for a prompt, generated from the contract.
+
+The notation is that of TypeScript's types, a tenth of the length of JSON Schema and as well understood.
+Which actions are offered is a list of what may be, so that an action new to the contract is out of a
+model's reach until someone has thought about it here.
+"""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from typing import Any, Final, get_args
+
+from service.actions import ACTIONS
+from sim.actions import PlannerName, SensorName, TimeOfDay, Traffic, Weather
+
+MAY: Final = frozenset(
+    (
+        *("add", "remove", "set_count", "scenario", "set", "adjust", "prefer"),
+        *("reset", "mode", "drive", "pause", "resume", "step", "rewind", "undo", "redo"),
+        *("show", "hide", "ask", "evaluate", "find_worst", "advise", "record"),
+    )
+)
+"""What a model may cause. Not what is kept under a name, and not what words mean from now on."""
+
+Json = dict[str, Any]
+_ACTION = "Action"
+
+_TYPES: Final[dict[str, Json]] = {
+    name: part for name, part in ACTIONS.json_schema()["$defs"].items() if "oneOf" not in part
+}
+_DO: Final[dict[str, str]] = {
+    name: part["properties"]["do"]["const"]
+    for name, part in _TYPES.items()
+    if "do" in part.get("properties", ())
+}
+
+FORBIDDEN: Final = frozenset(_DO.values()) - MAY
+"""What the contract has besides."""
+
+WORDS: Final[dict[str, tuple[str, ...]]] = {
+    "weather": get_args(Weather),
+    "time_of_day": get_args(TimeOfDay),
+    "traffic": get_args(Traffic),
+    "planner": get_args(PlannerName),
+    "sensor": get_args(SensorName),
+    "dynamics": ("grid", "continuous"),
+}
+"""Parameters that have words for values; all others have numbers."""
+
+
+@cache
+def schema() -> str:
+    """The types that actions are made of, then the actions, one a line, each with what it does."""
+    lines = [f"type {name} = {_type(part)}" for name, part in _TYPES.items() if name not in _DO]
+    lines += [
+        f"{_object(part)}  // {part['description'].splitlines()[0]}"
+        for name, part in _TYPES.items()
+        if _DO.get(name) in MAY
+    ]
+    lines += [f"values of {parameter}: {' '.join(words)}" for parameter, words in WORDS.items()]
+    return "\n".join(lines)
+
+
+def _object(part: Json) -> str:
+    required = set(part.get("required", ()))
+    fields = [
+        f"{name}{'' if name in required or name == 'do' else '?'}: {_type(value)}"
+        for name, value in part["properties"].items()
+    ]
+    return "{" + ", ".join(fields) + "}"
+
+
+def _type(part: Json) -> str:
+    if "$ref" in part:
+        name = str(part["$ref"].rpartition("/")[2])
+        return name if name in _TYPES and name not in _DO else _ACTION
+    if "oneOf" in part:
+        return _ACTION
+    if "anyOf" in part:
+        return " | ".join(_type(one) for one in part["anyOf"] if one.get("type") != "null")
+    if "const" in part:
+        return json.dumps(part["const"])
+    if "enum" in part:
+        return " | ".join(json.dumps(value) for value in part["enum"])
+    if "properties" in part:
+        return _object(part)
+    if part["type"] == "array":
+        if "prefixItems" in part:
+            return "[" + ", ".join(_type(one) for one in part["prefixItems"]) + "]"
+        inner = _type(part["items"])
+        return f"({inner})[]" if "|" in inner else f"{inner}[]"
+    return _plain(part)
+
+
+def _plain(part: Json) -> str:
+    name = "int" if part["type"] == "integer" else str(part["type"])
+    low, high, over = part.get("minimum"), part.get("maximum"), part.get("exclusiveMinimum")
+    if over is not None:
+        return f"{name} >{over}"
+    if low is None:
+        return name
+    return f"{name} {low}..{high}" if high is not None else f"{name} >={low}"
