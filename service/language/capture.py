@@ -22,6 +22,7 @@ FORGETS = "forgets"
 TEACH = "teach"
 MEANS = "means"
 STARTS_AFTER = "separator"
+COLON = "colon"
 
 
 QUOTE = '"'
@@ -40,14 +41,15 @@ def names(tokens: Sequence[Token], lexicon: Lexicon, said: str, phrases: Phrases
         start, end = begun
         quoted = _quoted(tokens, start, said)
         return {start: quoted or Name(end, said[tokens[start].start : tokens[end - 1].end])}
-    at = 0
+    at, meaning = 0, 0
     while at < len(tokens):
         after = _longest(lexicon, tokens, at, TEACH)
         if after and not found and (name := _taught(tokens, after, lexicon, said)) is not None:
             found[after] = name
-            break
+            meaning = at = _past_means(tokens, name.end, lexicon)
+            continue
         after = _longest(lexicon, tokens, at, CAPTURE)
-        if not after or not _begins(tokens, at, lexicon):
+        if not after or not (at == meaning or _begins(tokens, at, lexicon)):
             at += 1
             continue
         name = _quoted(tokens, after, said) or _open(tokens, after, lexicon, said)
@@ -109,6 +111,14 @@ def _taught(tokens: Sequence[Token], at: int, lexicon: Lexicon, said: str) -> Na
     return None
 
 
+def _past_means(tokens: Sequence[Token], at: int, lexicon: Lexicon) -> int:
+    """Where what a taught phrase means begins, the phrase ending at `at`."""
+    for start in range(at, len(tokens)):
+        if end := _longest(lexicon, tokens, start, MEANS):
+            return end
+    return len(tokens)
+
+
 def _longest(lexicon: Lexicon, tokens: Sequence[Token], at: int, concept: str) -> int:
     """The end of the longest phrase at `at` with this concept; 0 when there is none."""
     matches = lexicon.matches(tokens, at, {}, {})
@@ -121,7 +131,7 @@ def _any_is(senses: Sequence[Sense], concept: str) -> bool:
 
 def _begins(tokens: Sequence[Token], at: int, lexicon: Lexicon) -> bool:
     """Whether a request can begin at this token: after a separator, or after nothing but glue."""
-    return at == 0 or _is(lexicon, tokens[at - 1], STARTS_AFTER) or _is(lexicon, tokens[at - 1], GLUE)
+    return at == 0 or any(_is(lexicon, tokens[at - 1], each) for each in (STARTS_AFTER, GLUE, COLON))
 
 
 def _names_a_thing(lexicon: Lexicon, token: Token) -> bool:

@@ -24,7 +24,8 @@ MAX_JOINED = 16
 _LENIENT = ("counted", "the_many", "bare_many")
 _TOGETHER = frozenset({"pause", "stop", "and", "but"})
 """Separators inside a listing clause; any other ends it."""
-_MARKS = frozenset({"pause", "stop"})
+STOP = "stop"
+_MARKS = frozenset({"pause", STOP})
 """Separators that are punctuation."""
 _OR = "or"
 _BUT = "but"
@@ -34,11 +35,14 @@ _WHOLE = (".all", ".the_many", ".bare_many", ".those")
 """Amounts that hold again in another place: "the cones in lane 3 and in lane 5"."""
 
 _FURTHER = ("more", "another")
+_PLACED = ("place", "side", "length")
+_PAUSE = "pause"
 
 _NEGATED = frozenset({"ing", "negated"})
 """Forms in place in a negated part: "don't go adding anything"."""
 
 INTERJECTION = "interjection"
+TAG = "tag"
 REPEATED = "repeated"
 """What was done before, said again: "again"."""
 
@@ -99,7 +103,7 @@ class Matcher(Protocol):
 def fragments(lattice: Lattice, start: int, end: int) -> list[Fragment]:
     """Tokens `[start, end)` cut at separators; parts with nothing but glue are dropped."""
     found: list[Fragment] = []
-    start = _past_interjection(lattice, start, end)
+    start, end = _past_interjection(lattice, start, end), _before_tag(lattice, start, end)
     after, begin, at, inside = "pause", start, start, start
     while at < end:
         separator = max(
@@ -130,18 +134,33 @@ def _past_interjection(lattice: Lattice, start: int, end: int) -> int:
     for edge in lattice.edges[start] if start < end else ():
         if edge.end == longest and edge.concept == INTERJECTION and edge.end < end:
             marks = [
-                e for e in lattice.edges[edge.end] if e.concept == SEPARATOR and e.sense.value in _MARKS
+                e
+                for e in lattice.edges[edge.end]
+                if e.concept == SEPARATOR and (e.sense.value in _MARKS or e.sense.value == _BUT)
             ]
             if marks and _says_something(lattice, marks[0].end, end):
-                return marks[0].end
+                return max(mark.end for mark in marks)
     return start
 
 
-def _says_something(lattice: Lattice, start: int, end: int) -> bool:
-    """Whether the tokens are not all glue."""
+def _before_tag(lattice: Lattice, start: int, end: int) -> int:
+    """Before a last part that only asks for consent: "…, won't you?"."""
+    for edge in lattice.between(start, end):
+        if edge.concept == TAG and edge.start > start and not _says_something(lattice, edge.end, end, marks=True):
+            return edge.start
+    return end
+
+
+def _says_something(lattice: Lattice, start: int, end: int, *, marks: bool = False) -> bool:
+    """Whether the tokens are not all glue; with `marks`, or punctuation."""
     at = start
     while at < end:
-        glue = [e.end for e in lattice.edges[at] if e.concept == GLUE and not e.sense.form and e.end <= end]
+        glue = [
+            e.end
+            for e in lattice.edges[at]
+            if e.end <= end
+            and ((e.concept == GLUE and not e.sense.form) or (marks and e.concept == SEPARATOR))
+        ]
         if not glue or any(e.concept == REPEATED and e.end <= end for e in lattice.edges[at]):
             return True
         at = max(glue)
@@ -191,9 +210,18 @@ class Divider:
             start, stop = parts[at].start, parts[end - 1].end
             stretch = self._stretch(start, stop, joined=True)
             found = self._matcher.match(stretch, verbless=None if context.verbless else False)
-            if found is not None:
+            if found is not None and not self._each_whole(parts[at:end]):
                 return Clause(start, stop, *found), end - at
         return None, 0
+
+    def _each_whole(self, parts: Sequence[Fragment]) -> bool:
+        """Whether each sentence in it is a request by itself: then they are several."""
+        begins = [0, *(at for at, part in enumerate(parts) if at and part.after == STOP)]
+        if len(begins) == 1:
+            return False
+        whole = (parts[a:b] for a, b in zip(begins, [*begins[1:], len(parts)], strict=True))
+        stretches = (self._stretch(s[0].start, s[-1].end, joined=len(s) > 1) for s in whole)
+        return all(self._matcher.match(stretch, verbless=False) is not None for stretch in stretches)
 
     def _single(self, part: Fragment, context: Context) -> Clause | None:
         """One fragment as a clause: by itself, leaning on the clause before, or without a verb."""
@@ -220,7 +248,7 @@ class Divider:
             found = self._matcher.match(plain, verbless=True)
             if found is not None:
                 return Clause(start, end, *found)
-            if context.noun is not None and (not context.distant or self._says_more(start, end)):
+            if context.noun is not None and self._may_lean(part, context):
                 noun = Context(noun=context.noun)
                 if context.distant:
                     found = self._matcher.match(self._stretch(start, end, noun), verbless=False)
@@ -230,6 +258,17 @@ class Divider:
                 if found is not None:
                     return Clause(start, end, *found, leans=context.distant)
         return None
+
+    def _may_lean(self, part: Fragment, context: Context) -> bool:
+        """Whether an amount without a noun may be of what was spoken of: not in "a pothole, just one"."""
+        if context.distant or part.after == _PAUSE:
+            return self._says_more(part.start, part.end) or (
+                not context.distant and self._says_where(part.start, part.end)
+            )
+        return True
+
+    def _says_where(self, start: int, end: int) -> bool:
+        return any(edge.concept in _PLACED for edge in self._lattice.between(start, end))
 
     def _says_more(self, start: int, end: int) -> bool:
         """Whether an amount in the tokens is one more of something."""

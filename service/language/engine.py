@@ -32,7 +32,7 @@ from service.language.suggestions import Suggestions
 from service.language.tokens import Token, as_said, normalise, renamed, tokenise
 from service.language.topic import ALONE, Phrases, Topic
 from service.language.typos import Typos
-from service.language.wrappers import sentences, wrapped
+from service.language.wrappers import read_all
 from service.resources import prompts_folder
 from sim.actions import Add, Remove
 
@@ -225,7 +225,7 @@ class _Reading:
             return self._refused(self._stretches(unknown), ())
         add_noun_phrases(self._lattice, self._language.data.vague)
         self._unclear = add_referents(self._lattice, self._topic)
-        divided = self._all_sentences()
+        divided = read_all(self._lattice, 0, self._lattice.size, self._divide)
         if isinstance(divided, Fragment):
             return self._refused([self._written(divided.start, divided.end)], (), asking=asking)
         clauses = divided.clauses
@@ -246,20 +246,6 @@ class _Reading:
         if self._topic.removed and clauses[0].leans:
             return self._more_of_what(actions) if asking else self._refused([self._plain], ())
         return Understood(self._text, actions, self._corrections)
-
-    def _all_sentences(self) -> Divided | Fragment:
-        """The clauses of all sentences, or the part of a wrapped one that nothing fits."""
-        whole = Divided()
-        for start, end in sentences(self._lattice):
-            result = wrapped(self._lattice, start, end, self._divide)
-            if isinstance(result, Fragment):
-                return result
-            divided = Divided([result]) if result else self._divide(start, end, frozenset())
-            whole.clauses += divided.clauses
-            if divided.failed is not None:
-                whole.failed = divided.failed
-                break
-        return whole
 
     def _divide(self, start: int, end: int, moods: frozenset[str]) -> Divided:
         """The clauses of tokens `[start, end)`, with these forms in place."""

@@ -38,6 +38,8 @@ class Frame:
     joins: bool = False
     leaves_out: bool = False
     """Whether it says what there shall not be, and so does nothing: "but no cars"."""
+    only_negated: bool = False
+    """Whether it says too little to be done, and enough to be left out: "don't change the weather"."""
     verbless: bool = False
     rank: int = 0
     ask: Ask | None = None
@@ -79,7 +81,7 @@ def read_frames(data: Mapping[str, Any]) -> list[Frame]:
 
 def _frame(name: str, data: Mapping[str, Any], sets: Mapping[str, str], agree: Mapping[str, str]) -> Frame:
     known = {"say", "needs", "takes", "do", "per", "forms", "inherits", "joins", "verbless", "rank", "ask"}
-    known |= {"speaker", "leaves_out"}
+    known |= {"speaker", "leaves_out", "only_negated"}
     if odd := set(data) - known:
         raise FrameError(f"frame {name}: no such fields: {', '.join(sorted(odd))}")
     many: set[str] = set()
@@ -101,6 +103,7 @@ def _frame(name: str, data: Mapping[str, Any], sets: Mapping[str, str], agree: M
         speaker=bool(data.get("speaker", True)),
         agree=agree,
         leaves_out=bool(data.get("leaves_out", False)),
+        only_negated=bool(data.get("only_negated", False)),
         joins=bool(data.get("joins", False)),
         verbless=bool(data.get("verbless", False)),
         rank=int(data.get("rank", 0)),

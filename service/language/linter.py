@@ -19,7 +19,7 @@ from service.language.paths import ALLOWS, NEGATION, SEPARATOR, SPEAKER
 
 ENGINE_CONCEPTS = frozenset(
     {GLUE, NAME, NUMBER, UNIT, SECOND, COLON, QUANTITY, ALLOWS, NEGATION, SEPARATOR, SPEAKER}
-    | {"interjection", "name_end", "name_tail", "quotes", "unsupported", "captures"}
+    | {"interjection", "tag", "name_end", "name_tail", "quotes", "unsupported", "captures"}
     | {"what_if", "if", "then_what", "what_if_tail", "teach", "means"}
     | {"refers", "taught", "repeated"}
 )
@@ -82,7 +82,7 @@ def _sayings(frame: Frame, parse: Callable[[str], Parse]) -> Iterator[str]:
 
 def _empty(frame: Frame) -> Iterator[str]:
     """Frames that do nothing, or ask without a choice."""
-    if not frame.actions and frame.ask is None and not frame.leaves_out:
+    if not frame.actions and frame.ask is None and not (frame.leaves_out or frame.only_negated):
         yield f"frame {frame.name} has neither actions nor a question"
     if frame.ask is not None and len(frame.ask.choices) < 2:
         yield f"frame {frame.name} asks, but offers fewer than two choices"

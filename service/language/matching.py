@@ -37,7 +37,7 @@ class Frames:
         for frame, needs in self._eligible[stretch.joined, verbless]:
             if best is not None and frame.rank < best[0].frame.rank:
                 break
-            if not _within_reach(needs, concepts):
+            if not _within_reach(needs, concepts) or (frame.only_negated and not stretch.lenient):
                 continue
             filled = fill(frame, stretch)
             if filled is None:

@@ -17,6 +17,9 @@ from typing import Any
 from service.language.tokens import Token
 
 Value = int | float
+MAX_DIGITS = 15
+MAX_DECIMALS = 40
+"""Longer ones are no numbers anyone says; a float written out exactly is shorter."""
 LONGEST_WORD = 60
 """Letters of the longest word that is read as a number in one word."""
 
@@ -220,7 +223,7 @@ class NumberWords:
                 return None
             return Found(int(over) / int(under), end)
         plain = self._without_marks(text)
-        if plain is None or len(plain) > 15:
+        if plain is None or len(plain) > (MAX_DECIMALS if "." in plain else MAX_DIGITS):
             return None
         if plain.isdigit():
             value = int(plain)

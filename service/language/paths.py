@@ -112,7 +112,7 @@ def _walk(search: _Search, at: int, needs: list[frozenset[str]], used: set[str],
         complete = (
             not needs
             and _parts_match(search.slots, search.parts)
-            and _agrees(frame, used)
+            and (frame.only_negated or _agrees(frame, used))
             and _forms_in_place(search)
         )
         return pieces if complete else None

@@ -173,7 +173,12 @@ class Sentences:
 
     def _set(self, action: Set) -> str:
         value = action.value
-        told = self._value(action.parameter, value) if isinstance(value, str) else number(value)
+        if not isinstance(value, str):
+            told = number(value)
+        elif action.parameter == "traffic":
+            told = value
+        else:
+            told = self._value(action.parameter, value)
         return self._say("set", parameter=self._word("parameters", action.parameter), value=told)
 
     def _adjust(self, action: Adjust) -> str:

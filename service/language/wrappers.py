@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from service.language.clauses import Clause, Divided, Fragment
+from service.language.clauses import STOP, Clause, Divided, Fragment
 from service.language.frames import Filled, Frame
 from service.language.lattice import GLUE, NAME, Edge, Lattice
 from service.language.paths import SEPARATOR
@@ -13,7 +13,6 @@ from service.language.paths import SEPARATOR
 WHAT_IF = "what_if"
 IF = "if"
 THEN_WHAT = "then_what"
-STOP = "stop"
 TEACH = "teach"
 MEANS = "means"
 
@@ -30,31 +29,45 @@ Divide = Callable[[int, int, frozenset[str]], Divided]
 _FRAME = Frame("wrapper", (), frozenset(), frozenset())
 
 
-def sentences(lattice: Lattice) -> list[tuple[int, int]]:
+def read_all(lattice: Lattice, start: int, end: int, divide: Divide) -> Divided | Fragment:
+    """The clauses of all sentences in `[start, end)`, or the part of a wrapped one that nothing fits."""
+    whole = Divided()
+    for first, last in _sentences(lattice, start, end):
+        result = _wrapped(lattice, first, last, divide)
+        if isinstance(result, Fragment):
+            return result
+        divided = Divided([result]) if result else divide(first, last, frozenset())
+        whole.clauses += divided.clauses
+        if divided.failed is not None:
+            whole.failed = divided.failed
+            break
+    return whole
+
+
+def _sentences(lattice: Lattice, start: int, end: int) -> list[tuple[int, int]]:
     """Where the sentences of a text begin and end, if one of them is a what-if question; else all as one.
 
     A phrase is taught to the end of the text, full stops and all.
     """
-    cuts = [0]
-    for starting in lattice.edges:
-        cuts += [edge.end for edge in starting if edge.concept == SEPARATOR and edge.sense.value == STOP]
-    parts = [(a, b) for a, b in zip(cuts, [*cuts[1:], lattice.size], strict=True) if a < b]
-    starts = [_past_glue(lattice, start, end) for start, end in parts]
-    taught = any(_longest(lattice, at, TEACH) for at in starts if at < lattice.size)
-    asked = any(_longest(lattice, at, WHAT_IF) for at in starts if at < lattice.size)
-    return parts if asked and not taught else [(0, lattice.size)]
+    stops = (e for e in lattice.between(start, end) if e.concept == SEPARATOR and e.sense.value == STOP)
+    cuts = [start, *sorted(edge.end for edge in stops)]
+    parts = [(a, b) for a, b in zip(cuts, [*cuts[1:], end], strict=True) if a < b]
+    begun = [at for at in (_past_glue(lattice, *part) for part in parts) if at < end]
+    taught = any(_longest(lattice, at, TEACH) for at in begun)
+    asked = any(_longest(lattice, at, WHAT_IF) for at in begun)
+    return parts if asked and not taught else [(start, end)]
 
 
-def wrapped(lattice: Lattice, start: int, end: int, divide: Divide) -> Clause | Fragment | None:
+def _wrapped(lattice: Lattice, start: int, end: int, divide: Divide) -> Clause | Fragment | None:
     """The clause a wrapped sentence is, the part of it that nothing fits, or None when it is not wrapped."""
     begin, start = start, _past_glue(lattice, start, end)
     if start == end:
         return None
     if (taught := _longest(lattice, start, TEACH)) is not None:
-        return _taught(lattice, taught, divide)
+        return _taught(lattice, taught, end, divide)
     failed: Fragment | None = None
     for first, last in _conditions(lattice, start, end):
-        found = _inside(divide, first, last, CONDITIONAL, NO_CHANGE)
+        found = _inside(divide, first, last)
         if isinstance(found, Fragment):
             failed = failed or found
         else:
@@ -102,37 +115,40 @@ def _only_marks(lattice: Lattice, at: int, end: int) -> bool:
     return True
 
 
-def _inside(
-    divide: Divide, start: int, end: int, forms: frozenset[str], never: frozenset[str]
+def _inside(divide: Divide, start: int, end: int) -> list[dict[str, Any]] | Fragment:
+    """The actions of a condition, or the part that nothing fits."""
+    divided = divide(start, end, CONDITIONAL)
+    return divided.failed or _actions(divided, start, end, NO_CHANGE)
+
+
+def _actions(
+    divided: Divided, start: int, end: int, never: frozenset[str]
 ) -> list[dict[str, Any]] | Fragment:
-    """The actions of the inner sentence, or the part that nothing fits; `never`: what may not be in it."""
-    whole = Fragment("pause", start, max(end, start + 1))
-    divided = divide(start, end, forms)
-    if divided.failed is not None:
-        return divided.failed
+    """The actions of clauses; the whole as not fitting if there are none, or one that may `never` be there."""
     values = [value for clause in divided.clauses for value in clause.actions]
     asks = any(clause.filled.frame.ask for clause in divided.clauses)
     if asks or not values or any(value["do"] in never for value in values):
-        return whole
+        return Fragment("pause", start, max(end, start + 1))
     return values
 
 
-def _taught(lattice: Lattice, opened: Edge, divide: Divide) -> Clause | Fragment | None:
+def _taught(lattice: Lattice, opened: Edge, end: int, divide: Divide) -> Clause | Fragment | None:
     """ "when I say <phrase>, I mean <actions>"."""
-    if opened.end >= lattice.size:
+    if opened.end >= end:
         return None
     name = _longest(lattice, opened.end, NAME)
     if name is None:
         return None
     at = name.end
-    while at < lattice.size and _longest(lattice, at, MEANS) is None:
+    while at < end and _longest(lattice, at, MEANS) is None:
         at += 1
-    if at == lattice.size:
+    means = _longest(lattice, at, MEANS) if at < end else None
+    if means is None or means.end >= end:
         return None
-    means = _longest(lattice, at, MEANS)
-    if means is None or means.end >= lattice.size:
-        return None
-    found = _inside(divide, means.end, lattice.size, frozenset(), TEACHING)
+    meaning = read_all(lattice, means.end, end, divide)
+    if isinstance(meaning, Fragment) or meaning.failed is not None:
+        return meaning if isinstance(meaning, Fragment) else meaning.failed
+    found = _actions(meaning, means.end, end, TEACHING)
     if isinstance(found, Fragment):
         return found
     taught = {"do": "teach", "phrase": str(name.sense.value), "meaning": found}
