@@ -3,8 +3,9 @@
 A model may change how an explanation sounds and nothing it says. So both are read down to their claims
 in order: ids, numbers, moves, negations, and every other word that carries a fact (`claims.yaml` names
 them). A faithful text has the same claims in the same order; the order keeps "vehicle-1 was left of me
-and pothole-2 right" from becoming the reverse. Much that is faithful is thrown away: that costs a nicer
-sentence, and keeping one that is wrong would cost the truth of an explanation.
+and pothole-2 right" from becoming the reverse. Every other word must be neutral, or the first text's.
+Much that is faithful is thrown away: that costs a nicer sentence, and keeping one that is wrong would
+cost the truth of an explanation.
 """
 
 from __future__ import annotations
@@ -41,17 +42,19 @@ class Claims:
     groups: dict[str, str]
     """Word → what it says; words that say the same have one name."""
     numbers: dict[str, str]
+    neutral: frozenset[str]
 
     @classmethod
     def load(cls) -> Claims:
         """From `prompts/llm`. Raises `PromptError`."""
         values = load_claims()
         groups = {word: name for name, words in values["groups"].items() for word in words}
-        return cls(groups, {str(word): str(number) for word, number in values["numbers"].items()})
+        numbers = {str(word): str(number) for word, number in values["numbers"].items()}
+        return cls(groups, numbers, frozenset(values["neutral"]))
 
     def of(self, text: str) -> tuple[Claim, ...]:
         """The claims of a text, in order."""
-        return tuple(self._claims(text.lower().replace("’", "'")))
+        return tuple(self._claims(text))
 
     def faithful(self, answer: str, text: str, facts: Facts) -> bool:
         """Whether an answer may stand for a text that was made from these facts."""
@@ -63,10 +66,15 @@ class Claims:
             and all(_plain(char) or char in text for char in answer)
             and _ADDRESS.search(answer.lower()) is None
             and self.of(answer) == claims
+            and self._foreign(answer, text) == set()
         )
 
+    def _foreign(self, answer: str, text: str) -> set[str]:
+        """The words of an answer that are neither the text's, nor claims, nor neutral."""
+        return _words(answer) - _words(text) - self.groups.keys() - self.numbers.keys() - self.neutral
+
     def _claims(self, text: str) -> Iterator[Claim]:
-        for match in _TOKEN.finditer(text):
+        for match in _tokens(text):
             token = match.group()
             if match.lastgroup == "id":
                 yield "id", token
@@ -75,9 +83,21 @@ class Claims:
             elif token in self.numbers:
                 yield "number", self.numbers[token]
             else:
-                for word in (token.removesuffix("n't"), "not") if token.endswith("n't") else (token,):
+                for word in _split(token):
                     if word in self.groups:
                         yield "word", self.groups[word]
+
+
+def _tokens(text: str) -> Iterator[re.Match[str]]:
+    return _TOKEN.finditer(text.lower().replace("’", "'"))
+
+
+def _split(word: str) -> tuple[str, ...]:
+    return (word.removesuffix("n't"), "not") if word.endswith("n't") else (word,)
+
+
+def _words(text: str) -> set[str]:
+    return {part for match in _tokens(text) if match.lastgroup == "word" for part in _split(match.group())}
 
 
 def _plain(char: str) -> bool:

@@ -1,4 +1,4 @@
-"""A language model without a model: answers written down beforehand, for tests and for trying the page."""
+"""A language model without a model: answers written down beforehand, for tests and for trials."""
 
 from __future__ import annotations
 

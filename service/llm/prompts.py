@@ -72,12 +72,13 @@ def load_told(folder: Path | None = None) -> Told:
     return Told(sentences)
 
 
-def load_claims(folder: Path | None = None) -> dict[str, dict[str, list[str]]]:
-    """The words that make a claim, group by group. Raises `PromptError`."""
+def load_claims(folder: Path | None = None) -> dict[str, Any]:
+    """The words of an explanation: `numbers`, `groups` that claim, `neutral`. Raises `PromptError`."""
     path = (folder or llm_folder()) / "claims.yaml"
     values = _values(_text(path), path)
-    if set(values) != {"numbers", "groups"} or not all(isinstance(part, dict) for part in values.values()):
-        raise PromptError(f"{path} must have numbers and groups")
+    kinds = {name: type(part) for name, part in values.items()}
+    if kinds != {"numbers": dict, "groups": dict, "neutral": list}:
+        raise PromptError(f"{path} must have numbers, groups and neutral words")
     return values
 
 

@@ -130,5 +130,5 @@ def test_missing_files_and_sentences_are_named(tmp_path: Path) -> None:
     with pytest.raises(PromptError, match=r"more, .*timeout"):
         load_told(tmp_path)
     (tmp_path / "claims.yaml").write_text("groups: {}\n")
-    with pytest.raises(PromptError, match="numbers and groups"):
+    with pytest.raises(PromptError, match="numbers, groups"):
         load_claims(tmp_path)

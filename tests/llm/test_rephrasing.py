@@ -5,8 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+import yaml
 
 from service.llm.claims import Claims
+from service.llm.prompts import load_claims
+from service.resources import prompts_folder
 from tests.llm.conftest import Making
 from tests.llm.server import HELD, Endpoint, Reply, reply, says
 
@@ -54,13 +57,15 @@ UNFAITHFUL = {
     "a thing more": FAITHFUL + " A child ran by.",
     "an opinion": FAITHFUL + " That was the safest way.",
     "the weather": FAITHFUL.replace(": vehicle-3", " in the rain: vehicle-3"),
+    "a word of its own": FAITHFUL.replace(": vehicle-3", " amid aliens: vehicle-3"),
     "an address": FAITHFUL + " See http://evil.example/x",
     "a bare address": FAITHFUL + " See evil.example",
+    "an address of harmless words": FAITHFUL.replace("of me,", "of me.it,"),
     "markup": FAITHFUL.replace("vehicle-3 was", "<b>vehicle-3</b> was"),
     "markdown": FAITHFUL.replace("vehicle-3 was", "**vehicle-3** was"),
     "letters that look alike": FAITHFUL.replace("I drive", "I n\u043et drive"),
     "a hidden mark": FAITHFUL.replace("without", "with\u200bout"),
-    "far too long": FAITHFUL + " Indeed" * 100,
+    "far too long": FAITHFUL + " and so it was" * 50,
     "nothing": " \n",
     "a refusal": "I cannot help with that.",
 }
@@ -118,10 +123,16 @@ def test_what_is_claimed(text: str, claims: list[str]) -> None:
 
 
 def test_no_word_makes_two_claims() -> None:
-    from service.llm.prompts import load_claims
-
     values = load_claims()
-    words = [word for group in values["groups"].values() for word in group]
-    assert all(isinstance(word, str) and word.isalpha() and word.islower() for word in words)
-    assert len(words) == len(set(words))
-    assert not set(words) & set(values["numbers"])
+    claiming = [word for group in values["groups"].values() for word in group]
+    words = [*claiming, *values["numbers"], *values["neutral"]]
+    assert all(isinstance(word, str) and word.replace("'", "").isalpha() and word.islower() for word in words)
+    assert {word for word in words if words.count(word) > 1} == set()
+
+
+@pytest.mark.parametrize(
+    "saying", yaml.safe_load((prompts_folder() / "sayings/en/answers.yaml").read_text()).values()
+)
+def test_every_explanation_may_stand_as_it_is(saying: object) -> None:
+    text = str(saying)
+    assert Claims.load().faithful(text, text, {})

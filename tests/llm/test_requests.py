@@ -10,7 +10,8 @@ import pytest
 import structlog
 from structlog.testing import capture_logs
 
-from service.llm.openai import OpenAIModel
+from service.llm.failure import ModelFailure
+from service.llm.openai import OpenAIModel, _failure_in
 from service.llm.prompts import load_prompt
 from tests.llm.conftest import KEY, Making, Seconds
 from tests.llm.server import Endpoint, acts, reply, says
@@ -100,6 +101,7 @@ async def test_the_key_shows_nowhere(
     model = making()
     with capture_logs() as logs:
         await model.interpret("a private word")
+    assert model._model.client.api_key == "none"
     shown = [repr(model), model.name, repr(vars(model)), repr(vars(model._model)), repr(model._settings)]
     assert [line for line in (*shown, caplog.text, repr(logs)) if KEY in line] == []
     assert [log["reason"] for log in logs] == ["key_refused"]
@@ -144,3 +146,15 @@ def test_logs_are_captured_at_all() -> None:
     with capture_logs() as logs:
         structlog.get_logger().info("heard")
     assert [log["event"] for log in logs] == ["heard"]
+
+
+def test_what_the_transport_said_is_found_under_the_errors_of_libraries() -> None:
+    failure = ModelFailure("server_busy")
+    try:
+        try:
+            raise failure
+        except ModelFailure as inner:
+            raise ConnectionError("wrapped") from inner
+    except ConnectionError as outer:
+        assert _failure_in(outer) is failure
+    assert _failure_in(ValueError()).reason == "no_answer"
