@@ -149,12 +149,8 @@ def test_logs_are_captured_at_all() -> None:
 
 
 def test_what_the_transport_said_is_found_under_the_errors_of_libraries() -> None:
-    failure = ModelFailure("server_busy")
-    try:
-        try:
-            raise failure
-        except ModelFailure as inner:
-            raise ConnectionError("wrapped") from inner
-    except ConnectionError as outer:
-        assert _failure_in(outer) is failure
+    failure, outer = ModelFailure("server_busy"), ConnectionError("wrapped")
+    outer.__cause__ = ValueError()
+    outer.__cause__.__context__ = failure
+    assert _failure_in(outer) is failure
     assert _failure_in(ValueError()).reason == "no_answer"
