@@ -160,7 +160,7 @@ class Ask:
                 raise ValueError(f"'{key}' does not belong to a question about {self.about}")
             if not said and key in must:
                 raise ValueError(f"a question about {self.about} needs '{key}'")
-        _no_such("what if nothing changes: it cannot be asked about to", self.change or (), (Ask, Teach, Forget))
+        _no_such("it cannot be asked what if to", self.change or (), (Ask, Teach, Forget))
 
 
 _ASKED_WITH: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {

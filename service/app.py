@@ -27,17 +27,22 @@ from service.api import (
     stream,
     watching,
 )
-from service.api.context import Context, Language
+from service.api import (
+    language as language_route,
+)
+from service.api.context import Context
 from service.api.views import PREFIX
-from service.language import Language as Grammar
+from service.llm import LanguageModel, configured
 from service.narrate import Narrator
-from service.sessions.availability import refusal
 from service.sessions.clock import Clock, WheelClock
 from service.sessions.manager import SessionManager
 from service.sessions.session import Surroundings
 from service.sessions.words import Words
 from service.settings import Settings
 from service.store import Store, open_store
+from service.talk.languages import DEFAULT, Language, Languages
+from service.talk.listener import Listener
+from service.talk.phrasebook import Phrasebook
 from service.version import VERSION
 
 _DESCRIPTION = """
@@ -50,13 +55,6 @@ a stream: open a WebSocket on `/api/v1/sessions/{id}/stream`; it sends `hello`, 
 """
 
 
-def _grammar() -> Grammar:
-    """English, suggesting only what this version does; ready before anyone is refused."""
-    grammar = Grammar.load(offered=lambda action: refusal(action) is None)
-    grammar.suggestions.nearest("", frozenset())
-    return grammar
-
-
 def create_app(
     settings: Settings | None = None,
     *,
@@ -64,27 +62,43 @@ def create_app(
     language: Language | None = None,
     words: Words | None = None,
     clock: Clock | None = None,
+    model: LanguageModel | None = None,
 ) -> FastAPI:
     """The service. Whatever is not given is what the settings name, or the default.
 
-    Raises `StoreError` for a database URL of no known kind, `LanguageDataError` for broken words.
+    Raises `StoreError` for a database URL of no known kind, `LanguageDataError` for broken words,
+    `MissingExtraError` where a language model is named and the extra for it is missing.
     """
     settings = settings or Settings()
     store = store or open_store(settings.database)
     clock = clock or WheelClock()
     words = words or Narrator.load()
+    model = model or configured(settings)
     manager = SessionManager(Surroundings(store, clock, words, settings))
-    context = Context(settings, store, clock, language or _grammar(), words, manager, CapacityLimiter(1))
+    languages = Languages.load() if language is None else Languages({DEFAULT: language})
+    phrasebook = Phrasebook(store, languages)
+    listener = Listener(
+        languages,
+        phrasebook,
+        words,
+        most_chars=settings.max_text_chars,
+        model=model,
+        confirm=settings.llm_confirm,
+    )
+    context = Context(settings, store, clock, listener, words, manager, CapacityLimiter(1))
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
         await store.open()
+        await phrasebook.open()
         clock.start()
         try:
             yield
         finally:
             clock.stop()
             await manager.close()
+            if model is not None:
+                await model.aclose()
             await store.close()
 
     app = FastAPI(
@@ -101,7 +115,7 @@ def create_app(
     app.add_middleware(edges.BodyLimit, most=partial(_body_bytes, settings))
     app.add_middleware(edges.SecurityHeaders)
     errors.install(app)
-    for resource in (sessions, commands, watching, frames, parse, stream):
+    for resource in (sessions, commands, watching, frames, parse, language_route, stream):
         app.include_router(resource.router, prefix=PREFIX)
     app.include_router(health.router)
     openapi.install(app)

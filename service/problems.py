@@ -17,6 +17,7 @@
     │   ├── NothingToUndo
     │   ├── NotUnderstood       `unparsed`, `understood`, `suggestions`
     │   ├── NotAQuestion        understood, but `ask` only answers
+    │   ├── NotTeachable        a phrase that cannot be taught, or forgotten
     │   └── RecordingMismatch   replayed to another digest than it says
     ├── TooManySessions    429  the limit of live sessions is reached
     ├── Internal           500  a defect here; says nothing of its inside
@@ -172,6 +173,12 @@ class NotAQuestion(Invalid):
     slug, title = "not-a-question", "Not a question"
 
 
+class NotTeachable(Invalid):
+    """A phrase that cannot be taught, or forgotten."""
+
+    slug, title = "not-teachable", "Cannot be taught"
+
+
 class RecordingMismatch(Invalid):
     """A recording that does not replay to the digest it names."""
 
@@ -230,6 +237,7 @@ KINDS: tuple[type[ProblemError], ...] = (
     NothingToUndo,
     NotUnderstood,
     NotAQuestion,
+    NotTeachable,
     RecordingMismatch,
     TooManySessions,
     Internal,

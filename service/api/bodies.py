@@ -74,6 +74,7 @@ class Said(Sent):
 
     text: str = Field(description="At most 500 characters, unless the service is set otherwise.")
     dry_run: bool = Field(False, description="Say what would be done, and do nothing.")
+    language: str = Field("en", max_length=16, description="In which language; `GET /language` names them.")
 
 
 class TypedActions(Sent):
@@ -93,9 +94,11 @@ class Question(Sent):
     """A question, and nothing but one."""
 
     question: str
+    language: str = Field("en", max_length=16, description="In which language; `GET /language` names them.")
 
 
 class Text(Sent):
     """A sentence to be understood."""
 
     text: str
+    language: str = Field("en", max_length=16, description="In which language; `GET /language` names them.")

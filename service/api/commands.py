@@ -11,7 +11,7 @@ from service.api import bodies, examples, schemas
 from service.api.context import JSON_ONLY, Here, TheSession
 from service.api.errors import documented
 from service.api.respond import StrictRoute, etag, json_response
-from service.api.speech import result_json, understand, understand_question, utterance_of
+from service.api.speech import result_json
 from service.api.views import told_runs
 from service.problems import (
     Ambiguous,
@@ -24,6 +24,7 @@ from service.problems import (
     NotJson,
     NotRestorable,
     NotSaved,
+    NotTeachable,
     NotUnderstood,
     TooLarge,
     UnknownSession,
@@ -33,7 +34,7 @@ from service.sessions.utterance import Utterance
 router = APIRouter(tags=["talking"], route_class=StrictRoute, dependencies=[JSON_ONLY])
 
 _ALWAYS = (Malformed, UnknownSession, TooLarge, NotJson, Invalid, NotRestorable)
-_CHANGING = (*_ALWAYS, DoesNotFit, NotAvailable, NothingToUndo, NotSaved)
+_CHANGING = (*_ALWAYS, DoesNotFit, NotAvailable, NothingToUndo, NotTeachable, NotSaved)
 
 
 @router.post(
@@ -49,9 +50,9 @@ async def say(
 
     A word that is not understood refuses it all, and says which.
     """
-    parse = understand(here, body.text)
-    outcome = await session.change(utterance_of(parse), dry_run=body.dry_run)
-    return json_response(result_json(outcome, parse, body.dry_run), headers=etag(outcome.sequence))
+    heard = await here.listener.hear(body.text, session, body.language)
+    outcome = await here.listener.do(session, heard.utterance, dry_run=body.dry_run, code=body.language)
+    return json_response(result_json(outcome, heard, body.dry_run), headers=etag(outcome.sequence))
 
 
 @router.post(
@@ -61,10 +62,13 @@ async def say(
     responses=documented(*_CHANGING),
 )
 async def act(
-    body: Annotated[bodies.TypedActions, Body(openapi_examples=examples.ACTIONS)], session: TheSession
+    body: Annotated[bodies.TypedActions, Body(openapi_examples=examples.ACTIONS)],
+    session: TheSession,
+    here: Here,
 ) -> Response:
     """The same as saying it, without language."""
-    outcome = await session.change(Utterance(actions=tuple(body.actions)), dry_run=body.dry_run)
+    utterance = Utterance(actions=tuple(body.actions))
+    outcome = await here.listener.do(session, utterance, dry_run=body.dry_run)
     return json_response(result_json(outcome, None, body.dry_run), headers=etag(outcome.sequence))
 
 
@@ -99,6 +103,6 @@ async def ask(
     here: Here,
 ) -> Response:
     """Answers, and changes nothing."""
-    parse = understand_question(here, body.question)
-    outcome = await session.change(utterance_of(parse))
+    heard = await here.listener.hear_question(body.question, session, body.language)
+    outcome = await session.change(heard.utterance)
     return json_response(outcome.answer, headers=etag(outcome.sequence))

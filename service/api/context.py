@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Protocol, cast
+from typing import Annotated, cast
 
 from anyio import CapacityLimiter
 from fastapi import Depends
 from starlette.requests import HTTPConnection
 
-from service.language.parse_types import Parse
 from service.problems import NotJson
 from service.sessions.clock import Clock
 from service.sessions.manager import SessionManager
@@ -17,13 +16,7 @@ from service.sessions.session import Session
 from service.sessions.words import Words
 from service.settings import Settings
 from service.store import Store
-
-
-class Language(Protocol):
-    """What is needed of a language: text in, actions or a refusal out."""
-
-    def parse(self, text: str) -> Parse:
-        """What a sentence means; never raises for anything said."""
+from service.talk.listener import Listener
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +26,7 @@ class Context:
     settings: Settings
     store: Store
     clock: Clock
-    language: Language
+    listener: Listener
     words: Words
     manager: SessionManager
     drawing: CapacityLimiter

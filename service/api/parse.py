@@ -11,7 +11,7 @@ from service.api import bodies, examples, schemas
 from service.api.context import JSON_ONLY, Here
 from service.api.errors import documented
 from service.api.respond import StrictRoute, json_response
-from service.api.speech import corrections_json, understand
+from service.api.speech import corrections_json
 from service.problems import Ambiguous, Invalid, Malformed, NotJson, NotUnderstood, TooLarge
 
 router = APIRouter(tags=["talking"], route_class=StrictRoute)
@@ -26,11 +26,12 @@ router = APIRouter(tags=["talking"], route_class=StrictRoute)
 )
 async def parse(body: Annotated[bodies.Text, Body(openapi_examples=examples.TEXT)], here: Here) -> Response:
     """The actions a sentence means, whether or not this version does them."""
-    understood = understand(here, body.text)
+    heard = await here.listener.hear(body.text, code=body.language)
     return json_response(
         {
-            "text": understood.text,
-            "actions": contract.dump(understood.actions),
-            "corrections": corrections_json(understood),
+            "text": heard.text,
+            "actions": contract.dump(heard.actions),
+            "source": heard.source,
+            "corrections": corrections_json(heard),
         }
     )

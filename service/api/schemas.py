@@ -219,10 +219,47 @@ class CommandResult(Answered):
     changes: list[Change]
     reply: str = Field(description="What was done, in a sentence or two.")
     answer: dict[str, Any] | None = Field(description="The answer, if something was asked.")
-    source: Literal["grammar", "typed"]
+    source: Literal["grammar", "llm", "typed"] = Field(
+        description="What understood it: the grammar, or a language model, which interprets."
+    )
     sequence: int
     corrections: list[Correction]
     dry_run: bool
+
+
+class Saying(Answered):
+    """A sentence and what it means."""
+
+    text: str
+    actions: list[Action]
+
+
+class IntentGuide(Answered):
+    """One kind of thing that can be said."""
+
+    intent: str = Field(description="The action's `do`; for a question also what it is about.")
+    available: bool = Field(description="Whether this version does it.")
+    why_not: str | None
+    examples: list[Saying]
+
+
+class TaughtPhrase(Answered):
+    """A phrase that was taught, and what it means."""
+
+    phrase: str
+    meaning: list[Action]
+    sentence: str = Field(description="The sentence that says the same.")
+
+
+class LanguageGuide(Answered):
+    """What can be said."""
+
+    language: str
+    languages: list[str]
+    prefix: str | None
+    intents: list[IntentGuide] = Field(description="Empty when a prefix was given.")
+    taught: list[TaughtPhrase] = Field(description="Empty when a prefix was given.")
+    completions: list[str] = Field(description="Whole sentences that begin with the prefix.")
 
 
 class StepResult(Answered):
@@ -238,6 +275,7 @@ class Parsed(Answered):
 
     text: str
     actions: list[Action]
+    source: Literal["grammar", "llm"]
     corrections: list[Correction]
 
 

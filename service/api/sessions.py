@@ -12,7 +12,6 @@ from service.api import bodies, examples, schemas
 from service.api.context import JSON_ONLY, Context, Here, TheSession
 from service.api.errors import documented, invalid
 from service.api.respond import StrictRoute, etag, json_response
-from service.api.speech import understand
 from service.api.views import links_json, session_json, summary_json
 from service.problems import (
     Ambiguous,
@@ -70,7 +69,7 @@ async def make(
     replayed to the digest it names.
     """
     if body.recording is None:
-        config = _config(here, body)
+        config = await _config(here, body)
         try:
             session = await here.manager.create(body.name, config, paused=bool(body.paused))
         except GenerationError as error:
@@ -135,7 +134,7 @@ async def end(session_id: str, here: Here) -> Response:
     return Response(status_code=204)
 
 
-def _config(here: Context, body: bodies.NewSession) -> Config:
+async def _config(here: Context, body: bodies.NewSession) -> Config:
     """The configuration that was asked for, in figures and in words."""
     parts = dict(body.config or {})
     for name in ("seed", "planner"):
@@ -148,7 +147,7 @@ def _config(here: Context, body: bodies.NewSession) -> Config:
     try:
         config = Config().with_parts(**parts)
         if body.scenario is not None:
-            scenario = _scenario(here, body.scenario)
+            scenario = await _scenario(here, body.scenario)
             planner = scenario.planner or config.planner
             config = configured(config, scenario).with_parts(planner=planner)
     except ConfigError as error:
@@ -161,9 +160,9 @@ def _config(here: Context, body: bodies.NewSession) -> Config:
     return config
 
 
-def _scenario(here: Context, text: str) -> Scenario:
+async def _scenario(here: Context, text: str) -> Scenario:
     """The one scenario a sentence describes; a planner named beside it stands unless it names one."""
-    parse = understand(here, text, "scenario")
+    parse = await here.listener.hear(text, field="scenario")
     if len(parse.actions) != 1 or not isinstance(parse.actions[0], Scenario):
         sentence = "does not describe a road; say for instance: a highway with 10 potholes"
         raise NotUnderstood(

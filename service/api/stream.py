@@ -28,13 +28,14 @@ from service.api.bodies import MAX_ACTIONS, Sent, Strictly
 from service.api.context import Context, context_of
 from service.api.errors import field_problems, invalid
 from service.api.respond import problem_response
-from service.api.speech import result_json, understand, utterance_of
+from service.api.speech import result_json
 from service.api.views import session_json, told_decision
 from service.problems import CrossSite, Internal, Malformed, ProblemError
 from service.sessions.messages import hello_message, state_message
 from service.sessions.session import Session
 from service.sessions.utterance import Utterance
 from service.sessions.watchers import Gone, Missed, Watcher
+from service.talk.languages import DEFAULT
 from service.wire.encode import encoded
 
 _LOG = structlog.get_logger(__name__)
@@ -54,6 +55,7 @@ class Command(Sent):
     id: Id
     text: str
     dry_run: bool = False
+    language: str = Field(DEFAULT, max_length=16)
 
 
 class Actions(Sent):
@@ -171,14 +173,15 @@ async def _answer(context: Context, session: Session, message: Command | Actions
 
 
 async def _done(context: Context, session: Session, message: Command | Actions) -> dict[str, Any]:
-    parse = None
+    heard, code = None, DEFAULT
     if isinstance(message, Command):
-        parse = understand(context, message.text)
-        utterance = utterance_of(parse)
+        code = message.language
+        heard = await context.listener.hear(message.text, session, code)
+        utterance = heard.utterance
     else:
         utterance = Utterance(actions=tuple(message.actions))
-    outcome = await session.change(utterance, dry_run=message.dry_run)
-    return result_json(outcome, parse, message.dry_run)
+    outcome = await context.listener.do(session, utterance, dry_run=message.dry_run, code=code)
+    return result_json(outcome, heard, message.dry_run)
 
 
 def _hello(context: Context, session: Session) -> bytes:

@@ -21,6 +21,9 @@ TRAILING = "name_tail"
 FORGETS = "forgets"
 TEACH = "teach"
 MEANS = "means"
+SHORT = "short"
+MAX_SHORT = 3
+"""Words a name may have after a bare verb, unless it is in quotation marks."""
 STARTS_AFTER = "separator"
 COLON = "colon"
 
@@ -52,7 +55,11 @@ def names(tokens: Sequence[Token], lexicon: Lexicon, said: str, phrases: Phrases
         if not after or not (at == meaning or _begins(tokens, at, lexicon)):
             at += 1
             continue
-        name = _quoted(tokens, after, said) or _open(tokens, after, lexicon, said)
+        name = _quoted(tokens, after, said)
+        if name is None:
+            name = _open(tokens, after, lexicon, said)
+            if name is not None and name.end - after > MAX_SHORT and _only_short(lexicon, tokens, at, after):
+                name = None
         if name is not None:
             found[after] = name
         at = name.end if name else after
@@ -123,6 +130,12 @@ def _longest(lexicon: Lexicon, tokens: Sequence[Token], at: int, concept: str) -
     """The end of the longest phrase at `at` with this concept; 0 when there is none."""
     matches = lexicon.matches(tokens, at, {}, {})
     return max((end for end, senses, _ in matches if _any_is(senses, concept)), default=0)
+
+
+def _only_short(lexicon: Lexicon, tokens: Sequence[Token], at: int, end: int) -> bool:
+    """Whether what brings the name is a bare verb: "load the dishwasher before you go" names no session."""
+    senses = [s for stop, found, _ in lexicon.matches(tokens, at, {}, {}) if stop == end for s in found]
+    return all(sense.form == SHORT for sense in senses if sense.concept == CAPTURE)
 
 
 def _any_is(senses: Sequence[Sense], concept: str) -> bool:

@@ -146,7 +146,11 @@ def _past_interjection(lattice: Lattice, start: int, end: int) -> int:
 def _before_tag(lattice: Lattice, start: int, end: int) -> int:
     """Before a last part that only asks for consent: "…, won't you?"."""
     for edge in lattice.between(start, end):
-        if edge.concept == TAG and edge.start > start and not _says_something(lattice, edge.end, end, marks=True):
+        if (
+            edge.concept == TAG
+            and edge.start > start
+            and not _says_something(lattice, edge.end, end, marks=True)
+        ):
             return edge.start
     return end
 

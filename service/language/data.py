@@ -17,6 +17,21 @@ from service.language.patterns import PatternError, read_macros
 from service.language.tokens import Contractions
 from service.language.typos import TypoRules
 
+MESSAGES = frozenset(
+    (
+        "empty",
+        "too_long",
+        "not_understood",
+        "and",
+        "impossible",
+        "negation",
+        "no_referent",
+        "which",
+        "more_of_what",
+    )
+)
+"""What the engine itself says."""
+
 TEST_SUFFIX = ".test.yaml"
 
 
@@ -66,6 +81,8 @@ def read_yaml(path: Path) -> Any:
 
 def _read(folder: Path) -> LanguageData:
     words = read_yaml(folder / "words.yaml")
+    if missing := MESSAGES - words["messages"].keys():
+        raise KeyError(f"words.yaml has no message {', '.join(sorted(missing))}")
     lexicon = Lexicon(read_macros(read_yaml(folder / "macros.yaml")))
     for path in sorted((folder / "lexicon").glob("*.yaml")):
         if not path.name.endswith(TEST_SUFFIX):

@@ -106,6 +106,26 @@ class Language:
                 by_first.setdefault(words[0], []).append((words, dump(tuple(actions))))
         return Phrases(by_first)
 
+    @cached_property
+    def joiners(self) -> frozenset[str]:
+        """The words that stand between one request and the next."""
+        joining = (w for w, senses in self._lexicon.phrases() if any(s.concept == SEPARATOR for s in senses))
+        return frozenset(words[0] for words in joining if len(words) == 1 and words[0].isalpha())
+
+    def ways_to_say(self, concept: str) -> list[str]:
+        """The best ways to say each value of a concept."""
+        return [" ".join(words) for (name, _), words in self._lexicon.typical.items() if name == concept]
+
+    def means_the_same(self, words: tuple[str, ...]) -> list[tuple[str, ...]]:
+        """The best ways to say what these words mean: for "put" it is "add"."""
+        senses = self._lexicon.senses_of(words)
+        told = (
+            self._lexicon.typical.get((sense.concept, repr(sense.value)))
+            for sense in senses
+            if not sense.form
+        )
+        return list(dict.fromkeys(typical for typical in told if typical))
+
     def words_of(self, text: str) -> tuple[str, ...]:
         """The words and marks of a text, as they are compared."""
         return tuple(token.text for token in tokenise(normalise(text), self.data.contractions))
@@ -259,8 +279,7 @@ class _Reading:
             return self._refused([self._plain], ())
         away = Remove(kind=first.kind, count=first.count, where=first.where)
         choices = tuple(
-            Choice(self._language.sentence(each), each)
-            for each in ((away, *actions[1:]), actions)
+            Choice(self._language.sentence(each), each) for each in ((away, *actions[1:]), actions)
         )
         return Ambiguous(self._text, self._messages["more_of_what"], choices)
 
@@ -338,9 +357,7 @@ class _Reading:
             return self._refusal("impossible", self._messages["impossible"].format(phrase=failed), (failed,))
         return self._refused([failed], understood, asking=asking)
 
-    def _refused(
-        self, unparsed: list[str], understood: tuple[str, ...], *, asking: bool = False
-    ) -> Parse:
+    def _refused(self, unparsed: list[str], understood: tuple[str, ...], *, asking: bool = False) -> Parse:
         if asking and (which := self._which()) is not None:
             return which
         shown = unparsed[:MAX_UNPARSED]

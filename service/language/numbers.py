@@ -144,7 +144,7 @@ class NumberWords:
             begins = last in ("nothing", "power", "join")
             small = self._in_one_word(word)
             if small is not None and (begins or (last == "tens" and self._ends_tens(small))):
-                part, last = part + small, "ones"
+                part, last = part + small, "power" if self._ends_in_power(word) else "ones"
             elif word in self.tens and begins:
                 part, last = part + self.tens[word], "tens"
             elif word in self.powers and last in ("ones", "tens", "article", "power"):
@@ -178,6 +178,10 @@ class NumberWords:
         """Whether a word may follow one for tens: "twenty five", where that is how it is said."""
         return self.together is None and value in range(1, 10)
 
+    def _ends_in_power(self, word: str) -> bool:
+        """Whether more may be joined to a word: "hundert und fünf"."""
+        return self.together is not None and word.endswith(tuple(self.powers))
+
     def _in_one_word(self, word: str) -> int | None:
         """The number that is one word: "seven", and "einundzwanzig" where words are put together."""
         plain = self.ones.get(word)
@@ -207,10 +211,7 @@ class NumberWords:
         if word in small or word in self.tens:
             return small.get(word, self.tens.get(word))
         for ten, value in self.tens.items():
-            if how.ones_first:
-                one = word.removesuffix(how.link + ten)
-            else:
-                one = word.removeprefix(ten + how.link)
+            one = word.removesuffix(how.link + ten) if how.ones_first else word.removeprefix(ten + how.link)
             if one != word and small.get(one, 0) in range(1, 10):
                 return value + small[one]
         return None

@@ -56,6 +56,7 @@ def add_referents(lattice: Lattice, topic: Topic) -> list[Unclear]:
     """Edges for all that words refer to; what stays unclear. After noun phrases were found."""
     unclear: list[Unclear] = []
     for edge in list(lattice.all()):
+        found: Edge | Unclear | None
         if edge.concept == REFERS:
             found = _pronoun(edge, lattice, topic)
         elif edge.concept.startswith("thing.") and edge.concept.partition(".")[2] in _POINTING:
@@ -113,7 +114,7 @@ def _lane_before(lattice: Lattice, start: int, where: Where | None) -> str | int
 
 
 def _pointed(edge: Edge, topic: Topic) -> Edge | Unclear | None:
-    """What "that pothole", "those cars", "the cone", "the last two cones" point at; None where at nothing said."""
+    """What "that pothole", "those cars", "the last two cones" point at; None where at nothing said."""
     amount: Amount = edge.sense.value
     form = edge.concept.partition(".")[2]
     spoken_of = topic.added if form.startswith("last") else topic.things

@@ -42,7 +42,13 @@ from sim.actions import (
     Where,
 )
 
-_EXCLUSIVE = (("cell", "lane"), ("cell", "row"), ("cells", "distance_m"), ("nearest", "cell"), ("nearest", "lane"))
+_EXCLUSIVE = (
+    ("cell", "lane"),
+    ("cell", "row"),
+    ("cells", "distance_m"),
+    ("nearest", "cell"),
+    ("nearest", "lane"),
+)
 """Parts of a place that contradict each other when said together."""
 
 _KEPT_APART = (Teach, Forget)
@@ -77,7 +83,9 @@ class Sentences:
     def _request(self, action: Action) -> str:
         match action:
             case Add():
-                return self._say("add", **self._counted(action.kind, action.count), where=self._where(action.where))
+                return self._say(
+                    "add", **self._counted(action.kind, action.count), where=self._where(action.where)
+                )
             case Remove():
                 return self._remove(action)
             case SetCount():
@@ -105,12 +113,16 @@ class Sentences:
             case Evaluate():
                 return self._evaluate(action)
             case FindWorst():
-                planner = action.planner and self._say("find_worst_planner", planner=self._value("planner", action.planner))
+                planner = action.planner and self._say(
+                    "find_worst_planner", planner=self._value("planner", action.planner)
+                )
                 runs = action.runs and self._say("find_worst_runs", runs=action.runs)
                 return self._say("find_worst", planner=planner or "", runs=runs or "")
             case Advise():
-                thing = self._word("things", action.hazard)[0]
-                return self._say("advise", thing=thing, metres=number(action.distance_m), speed=number(action.speed_kmh))
+                thing = self._entry("things", action.hazard)[0]
+                return self._say(
+                    "advise", thing=thing, metres=number(action.distance_m), speed=number(action.speed_kmh)
+                )
             case Save() | Load():
                 return self._say(action.do, name=quoted(action.name))
             case Record():
@@ -129,9 +141,9 @@ class Sentences:
                 raise Unsayable("everything is all there is")
             return self._say("remove_everything", where=self._where(where))
         if count == "all":
-            return self._say("remove_all", things=self._word("things", kind)[1], where=self._where(where))
+            return self._say("remove_all", things=self._entry("things", kind)[1], where=self._where(where))
         if count == 1 and where == Where(nearest=True):
-            return self._say("remove_nearest", thing=self._word("things", kind)[0])
+            return self._say("remove_nearest", thing=self._entry("things", kind)[0])
         if count == 1 and where is not None and where.id is not None and where == Where(id=where.id):
             if where.id.rpartition("-")[0] != kind:
                 raise Unsayable(f"{where.id} is no {kind}")
@@ -193,7 +205,7 @@ class Sentences:
     def _question(self, ask: Ask) -> str:
         match ask.about:
             case "why" | "why_not":
-                key = ask.about
+                key: str = ask.about
                 if ask.move is not None and ask.about == "why":
                     key += "_move"
                 if ask.tick is not None:
@@ -203,7 +215,7 @@ class Sentences:
             case "what_if":
                 return self._say("what_if", change=self.sentence(ask.change or ()))
             case "scene" if ask.kind is not None:
-                return self._say("scene_kind", things=self._word("things", ask.kind)[1])
+                return self._say("scene_kind", things=self._entry("things", ask.kind)[1])
             case "metrics" if ask.metric is not None:
                 return self._word("metric", ask.metric)
             case about:
@@ -233,12 +245,15 @@ class Sentences:
         return str(self._words["listed"].join(said))
 
     def _counted(self, kind: str, count: int) -> dict[str, Any]:
-        return {"count": count, "things": self._word("things", kind)[0 if count == 1 else 1]}
+        return {"count": count, "things": self._entry("things", kind)[0 if count == 1 else 1]}
 
     def _value(self, key: str, value: str) -> str:
         return str(self._words["values"].get(key, {}).get(value, value))
 
-    def _word(self, section: str, key: Any) -> Any:
+    def _word(self, section: str, key: Any) -> str:
+        return str(self._entry(section, key))
+
+    def _entry(self, section: str, key: Any) -> Any:
         try:
             return self._words[section][key]
         except KeyError:

@@ -124,7 +124,7 @@ def _inside(divide: Divide, start: int, end: int) -> list[dict[str, Any]] | Frag
 def _actions(
     divided: Divided, start: int, end: int, never: frozenset[str]
 ) -> list[dict[str, Any]] | Fragment:
-    """The actions of clauses; the whole as not fitting if there are none, or one that may `never` be there."""
+    """The actions of clauses; the whole as not fitting where there are none, or one of `never`."""
     values = [value for clause in divided.clauses for value in clause.actions]
     asks = any(clause.filled.frame.ask for clause in divided.clauses)
     if asks or not values or any(value["do"] in never for value in values):

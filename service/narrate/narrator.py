@@ -8,7 +8,7 @@ from typing import Any
 from service.narrate.answers import Answers
 from service.narrate.replies import Replies
 from service.narrate.sayings import Sayings
-from service.sessions.facts import Asked, Fact
+from service.sessions.facts import Asked, Fact, Lesson
 from sim.events import Event, EventType
 from sim.kinds import Move
 from sim.plan import Decision, Measure
@@ -46,6 +46,10 @@ class Narrator:
         if chosen.verdict == "free":
             return self._say("no_way")
         return self._say("no_safe_way", reason=self._sayings.reason(chosen, "now"))
+
+    def lesson(self, lesson: Lesson) -> str:
+        """The reply to a phrase that was taught or forgotten."""
+        return self._replies.lesson(lesson)
 
     def event(self, event: Event, run: Run) -> str:
         """One line of the log."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from service.narrate.sayings import Sayings
-from service.sessions.facts import Asked, Fact, PauseSet, Stepped, Undone
+from service.sessions.facts import Asked, Fact, Lesson, PauseSet, Stepped, Undone
 from sim.actions import Add, Adjust, Drive, Prefer, Remove, Reset, Scenario, Set, SetCount, SetMode
 from sim.edit import Applied, Change
 from sim.events import EventType
@@ -25,6 +25,14 @@ class Replies:
     def done(self, facts: tuple[Fact, ...]) -> str:
         """A sentence for each fact; questions are answered elsewhere."""
         return " ".join(sentence for fact in facts if (sentence := self._done(fact)))
+
+    def lesson(self, lesson: Lesson) -> str:
+        """What was taught or forgotten, as the sentence that says the same."""
+        key = "taught" if lesson.taught else "forgotten"
+        said = self._say(key, phrase=lesson.phrase, sentence=lesson.sentence)
+        if lesson.taught and lesson.before not in (None, lesson.sentence):
+            said = f"{said} {self._say('taught_before', sentence=lesson.before)}"
+        return said
 
     def _done(self, fact: Fact) -> str:
         match fact:

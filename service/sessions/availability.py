@@ -29,6 +29,8 @@ _OFFERED = frozenset(
         "step",
         "undo",
         "redo",
+        "teach",
+        "forget",
     )
 )
 _ANSWERED = frozenset(("why", "why_not", "status", "help"))
@@ -43,7 +45,6 @@ _NAMES = {
     "save": "Saving under a name",
     "load": "Loading what was saved",
     "record": "Recording pictures",
-    "teach": "Learning phrases",
 }
 _QUESTIONS = {
     "what_if": "Asking what if",

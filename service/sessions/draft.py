@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from service.actions import Action, Ask, Pause, Redo, Resume, Undo
+from service.actions import Action, Ask, Forget, Pause, Redo, Resume, Teach, Undo
 from service.actions import Step as StepTicks
 from service.problems import DoesNotFit, FieldProblem, Invalid, NotAvailable, NothingToUndo, ProblemError
 from service.sessions import availability
@@ -95,6 +95,9 @@ class Draft:
                 | Prefer()
             ):
                 return self._apply(sequence, position, action)
+            case Teach() | Forget():
+                sentence = "A phrase is taught or forgotten by itself, outside of any session."
+                raise Invalid(sentence, errors=[FieldProblem(f"actions.{position}", sentence)])
             case _:
                 raise AssertionError(f"{action.do} is offered but nobody does it")
 

@@ -44,6 +44,17 @@ class Asked:
     timeline: Timeline
 
 
+@dataclass(frozen=True, slots=True)
+class Lesson:
+    """A phrase that was taught or forgotten, and the sentence that says the same."""
+
+    phrase: str
+    sentence: str
+    taught: bool
+    before: str | None = None
+    """what it meant before, as a sentence"""
+
+
 Fact: TypeAlias = Applied | PauseSet | Stepped | Undone | Asked
 
 

@@ -17,9 +17,11 @@ from anyio import to_thread
 from pydantic import ValidationError
 
 from service import actions as contract
-from service.actions import Ask
+from service.actions import Action, Ask, Pause, Redo, Resume, Undo
 from service.problems import Invalid, NotSaved, ProblemError, UnknownSession
+from service.sessions.availability import refusal
 from service.sessions.clock import Clock
+from service.sessions.conversation import Conversation
 from service.sessions.draft import Draft, check_ticks
 from service.sessions.facts import Asked, Fact, changes_of, happened_in
 from service.sessions.history import History
@@ -31,7 +33,7 @@ from service.sessions.words import Words
 from service.settings import Settings
 from service.store import EntryRecord, SessionRecord, Store, StoreError
 from service.wire.state import Standing, state_json
-from sim.actions import SetMode
+from sim.actions import Add, Remove, SetCount, SetMode
 from sim.edit import Applied, Change
 from sim.kinds import Mode
 from sim.plan import Decision
@@ -39,6 +41,9 @@ from sim.run import Run, Tick
 from sim.timeline import PlannerSilentError, Timeline
 
 _LOG = structlog.get_logger(__name__)
+
+TRIED = (Add, Remove, SetCount, SetMode, Undo, Redo, Pause, Resume)
+"""Actions that are tried on a copy at once, to know whether they are possible."""
 
 QUICK_PLANNERS = frozenset(("priority",))
 """Planners that decide in so little time that an answer from hundreds of decisions is at once."""
@@ -77,6 +82,7 @@ class Session:
         self.paused = record.paused
         self.sequence = 0
         self.history = History()
+        self.conversation = Conversation()
         self.log = Log(around.settings.log_events)
         self.watchers = Watchers()
         self._around = around
@@ -174,7 +180,21 @@ class Session:
             self._ended = True
             self.set_paused(True)
 
+    def tell(self, kind: str, text: str | None, reply: str) -> None:
+        """Tell watchers of something that changed nothing in the session itself."""
+        self._publish_changed(text, reply, (), [self._line(self.timeline.tick, kind, reply)])
+
     # Change
+
+    def possible(self, actions: tuple[Action, ...]) -> bool:
+        """Whether these would be done, and change something; long work is taken to be possible."""
+        if any(not isinstance(action, TRIED) for action in actions):
+            return all(refusal(action) is None for action in actions)
+        try:
+            facts = Draft(self.timeline, self.paused, self.history).perform(self.sequence + 1, actions)
+        except ProblemError:
+            return False
+        return any(changes_of((fact,)) or not isinstance(fact, Applied) for fact in facts)
 
     async def change(self, utterance: Utterance, *, dry_run: bool = False) -> Outcome:
         """Do an utterance, all or nothing. Raises a `ProblemError`; the session is then as it was."""
@@ -192,8 +212,12 @@ class Session:
             try:
                 draft = Draft(self.timeline, self.paused, self.history)
                 facts = await self._perform(draft, utterance)
-                if dry_run or all(isinstance(action, Ask) for action in utterance.actions):
+                if dry_run:
                     return await self._told(utterance, facts, self.sequence)
+                if all(isinstance(action, Ask) for action in utterance.actions):
+                    outcome = await self._told(utterance, facts, self.sequence)
+                    self.conversation.note(outcome)
+                    return outcome
                 outcome = await self._told(utterance, facts, self.sequence + 1)
                 await self._save(outcome)
                 self._become(draft, outcome)
@@ -248,6 +272,7 @@ class Session:
         before, began = self.run, self.timeline.tick
         self._adopt(draft, outcome.sequence)
         self.set_paused(draft.paused)
+        self.conversation.note(outcome)
         lines = [self._line(began, "changed", outcome.reply)]
         playing = outcome.only_steps and len(outcome.ticks) <= PLAYED_TICKS
         for run, part in happened_in(outcome.facts):
@@ -292,6 +317,7 @@ class Session:
         draft = Draft(self.timeline, self.paused, self.history)
         outcome = self._outcome(utterance, draft.perform(entry.sequence, utterance.actions), entry.sequence)
         self._adopt(draft, entry.sequence)
+        self.conversation.note(outcome)
         self._line(entry.tick, "changed", outcome.reply)
         for run, part in happened_in(outcome.facts):
             self._note(run, part)

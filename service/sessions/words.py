@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Protocol
 
-from service.sessions.facts import Asked, Fact
+from service.sessions.facts import Asked, Fact, Lesson
 from sim.events import Event
 from sim.plan import Decision
 from sim.run import Run
@@ -24,6 +24,9 @@ class Words(Protocol):
 
     def done(self, facts: tuple[Fact, ...]) -> str:
         """The reply: what was done, in a sentence or two."""
+
+    def lesson(self, lesson: Lesson) -> str:
+        """The reply to a phrase that was taught or forgotten."""
 
     def answer(self, asked: Asked) -> dict[str, Any]:
         """The answer to a question, as JSON values."""

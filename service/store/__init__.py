@@ -5,11 +5,20 @@
 
 from __future__ import annotations
 
-from service.store.base import EntryRecord, SessionRecord, Store, StoreError
+from service.store.base import EntryRecord, PhraseRecord, SessionRecord, Store, StoreError
 from service.store.memory import MemoryStore
 from service.store.sql import SqlStore
 
-__all__ = ["EntryRecord", "MemoryStore", "SessionRecord", "SqlStore", "Store", "StoreError", "open_store"]
+__all__ = [
+    "EntryRecord",
+    "MemoryStore",
+    "PhraseRecord",
+    "SessionRecord",
+    "SqlStore",
+    "Store",
+    "StoreError",
+    "open_store",
+]
 
 
 def open_store(url: str) -> Store:

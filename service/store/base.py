@@ -52,6 +52,17 @@ class EntryRecord:
     actions: Sequence[Mapping[str, Any]]
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PhraseRecord:
+    """A taught phrase: as it was said, its words as they are compared, and the actions it means."""
+
+    owner: str
+    language: str
+    key: str
+    phrase: str
+    meaning: Sequence[Mapping[str, Any]]
+
+
 class Store(Protocol):
     """A place where sessions outlive the process. Every method may raise `StoreError`.
 
@@ -84,3 +95,12 @@ class Store(Protocol):
 
     async def delete(self, session_id: str) -> bool:
         """Forget a session and its changes; whether there was one."""
+
+    async def teach(self, record: PhraseRecord) -> None:
+        """Keep a phrase, in place of the one of that owner, language and key if there is one."""
+
+    async def forget(self, owner: str, language: str, key: str) -> bool:
+        """Forget a phrase; whether there was one."""
+
+    async def phrases(self, owner: str) -> Sequence[PhraseRecord]:
+        """All phrases of an owner, by language and key."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from service.store.base import EntryRecord, SessionRecord, StoreError
+from service.store.base import EntryRecord, PhraseRecord, SessionRecord, StoreError
 
 
 class MemoryStore:
@@ -17,6 +17,7 @@ class MemoryStore:
     def __init__(self) -> None:
         self._sessions: dict[str, SessionRecord] = {}
         self._entries: dict[str, list[EntryRecord]] = {}
+        self._phrases: dict[tuple[str, str, str], PhraseRecord] = {}
         self._last_number = 0
 
     async def open(self) -> None:
@@ -67,3 +68,15 @@ class MemoryStore:
         """See `Store.delete`."""
         self._entries.pop(session_id, None)
         return self._sessions.pop(session_id, None) is not None
+
+    async def teach(self, record: PhraseRecord) -> None:
+        """See `Store.teach`."""
+        self._phrases[record.owner, record.language, record.key] = record
+
+    async def forget(self, owner: str, language: str, key: str) -> bool:
+        """See `Store.forget`."""
+        return self._phrases.pop((owner, language, key), None) is not None
+
+    async def phrases(self, owner: str) -> Sequence[PhraseRecord]:
+        """See `Store.phrases`."""
+        return [each for key, each in sorted(self._phrases.items()) if each.owner == owner]

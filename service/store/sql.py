@@ -24,6 +24,7 @@ from sqlalchemy import (
     Boolean,
     Column,
     DateTime,
+    Delete,
     ForeignKey,
     Integer,
     MetaData,
@@ -43,7 +44,7 @@ from sqlalchemy.exc import SQLAlchemyError
 from sqlalchemy.ext.asyncio import AsyncConnection, AsyncEngine, create_async_engine
 from sqlalchemy.pool import AsyncAdaptedQueuePool
 
-from service.store.base import EntryRecord, SessionRecord, StoreError
+from service.store.base import EntryRecord, PhraseRecord, SessionRecord, StoreError
 
 METADATA = MetaData()
 
@@ -68,6 +69,16 @@ ENTRIES = Table(
     Column("tick", Integer, nullable=False),
     Column("text", Text),
     Column("actions", JSON, nullable=False),
+)
+
+PHRASES = Table(
+    "phrases",
+    METADATA,
+    Column("owner", String(64), primary_key=True),
+    Column("language", String(16), primary_key=True),
+    Column("key", String(200), primary_key=True, comment="its words, as they are compared"),
+    Column("phrase", String(80), nullable=False),
+    Column("meaning", JSON, nullable=False),
 )
 
 _BUSY_S = 1.0
@@ -192,6 +203,37 @@ class SqlStore:
             result = await connection.execute(delete(SESSIONS).where(SESSIONS.c.id == session_id))
         return result.rowcount > 0
 
+    async def teach(self, record: PhraseRecord) -> None:
+        """See `Store.teach`."""
+        values = {
+            "owner": record.owner,
+            "language": record.language,
+            "key": record.key,
+            "phrase": record.phrase,
+            "meaning": [dict(action) for action in record.meaning],
+        }
+        async with self._transaction() as connection:
+            await connection.execute(_one_phrase(record.owner, record.language, record.key))
+            await connection.execute(insert(PHRASES), values)
+
+    async def forget(self, owner: str, language: str, key: str) -> bool:
+        """See `Store.forget`."""
+        async with self._transaction() as connection:
+            result = await connection.execute(_one_phrase(owner, language, key))
+        return result.rowcount > 0
+
+    async def phrases(self, owner: str) -> Sequence[PhraseRecord]:
+        """See `Store.phrases`."""
+        query = select(PHRASES).where(PHRASES.c.owner == owner).order_by(PHRASES.c.language, PHRASES.c.key)
+        async with self._transaction() as connection:
+            rows = (await connection.execute(query)).all()
+        return [
+            PhraseRecord(
+                owner=row.owner, language=row.language, key=row.key, phrase=row.phrase, meaning=row.meaning
+            )
+            for row in rows
+        ]
+
     async def _write(self) -> None:
         """Commit what is pending, batch by batch, until nothing is."""
         try:
@@ -226,6 +268,11 @@ class SqlStore:
                 yield connection
         except (SQLAlchemyError, OSError) as error:
             raise StoreError(_reason(error)) from error
+
+
+def _one_phrase(owner: str, language: str, key: str) -> Delete:
+    found = (PHRASES.c.owner == owner, PHRASES.c.language == language, PHRASES.c.key == key)
+    return delete(PHRASES).where(*found)
 
 
 def _check(path: str) -> None:

@@ -48,6 +48,7 @@ ROUTES = {
     "GET /api/v1/sessions/{session_id}/recording",
     "GET /api/v1/sessions/{session_id}/frame",
     "POST /api/v1/parse",
+    "GET /api/v1/language",
     "GET /healthz",
     "GET /readyz",
 }
@@ -60,6 +61,7 @@ MODELS: dict[str, type] = {
     "talking_step": schemas.StepResult,
     "talking_ask": schemas.Answer,
     "talking_parse": schemas.Parsed,
+    "talking_language": schemas.LanguageGuide,
     "watching_state": schemas.State,
     "watching_decisions": schemas.DecisionPage,
     "watching_decision": schemas.Decision,

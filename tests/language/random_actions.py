@@ -1,6 +1,6 @@
 """Random action lists, anything that the contract allows: what the way back through the grammar is tried on.
 
-    python -m tests.language.random_actions 10000
+python -m tests.language.random_actions 10000
 """
 
 from __future__ import annotations
@@ -37,6 +37,10 @@ NUMBERS = (
     "false_positive_rate",
     "sensor_range_m",
 )
+PLAIN = (
+    *("pause", "resume", "reset", "undo", "redo", "step", "rewind", "mode", "drive", "show", "hide"),
+    *("prefer", "save", "load", "record"),
+)
 VIEWS = ("road", "schematic", "occupancy", "plan", "log", "potholes", "sensors", "path", "metrics")
 METRICS = ("crashes", "successes", "success_rate", "steps", "moves", "distance")
 NAMES = (
@@ -69,7 +73,11 @@ class Maker:
         phrase = self.random.choice(NAMES)
         if self.chance(0.3):
             return {"do": "forget", "phrase": phrase}
-        return {"do": "teach", "phrase": phrase, "meaning": [self.action() for _ in range(self.random.randint(1, 3))]}
+        return {
+            "do": "teach",
+            "phrase": phrase,
+            "meaning": [self.action() for _ in range(self.random.randint(1, 3))],
+        }
 
     def action(self, *, questions: bool = True) -> dict[str, Any]:
         makers = [
@@ -139,10 +147,7 @@ class Maker:
         return action
 
     def plain(self) -> dict[str, Any]:
-        do = self.pick(
-            ("pause", "resume", "reset", "undo", "redo", "step", "rewind", "mode", "drive", "show", "hide")
-            + ("prefer", "save", "load", "record")
-        )
+        do = self.pick(PLAIN)
         keys: dict[str, Any] = {}
         match do:
             case "step" | "rewind":
@@ -154,7 +159,9 @@ class Maker:
             case "show" | "hide":
                 keys["view"] = self.pick(VIEWS)
             case "prefer":
-                keys["preference"] = self.pick(("avoid_potholes", "smooth_ride", "fastest", "cautious", "balanced"))
+                keys["preference"] = self.pick(
+                    ("avoid_potholes", "smooth_ride", "fastest", "cautious", "balanced")
+                )
             case "save" | "load":
                 keys["name"] = self.random.choice(NAMES)
             case "record":
@@ -163,7 +170,18 @@ class Maker:
 
     def ask(self) -> dict[str, Any]:
         about = self.pick(
-            ("why", "why_not", "what_if", "next", "scene", "status", "metrics", "confidence", "maintenance", "help")
+            (
+                "why",
+                "why_not",
+                "what_if",
+                "next",
+                "scene",
+                "status",
+                "metrics",
+                "confidence",
+                "maintenance",
+                "help",
+            )
         )
         action: dict[str, Any] = {"do": "ask", "about": about}
         match about:
@@ -201,7 +219,12 @@ class Maker:
                 )
             case _:
                 distance, speed = self.number() or 1, self.number()
-                return {"do": "advise", "hazard": self.pick(KINDS), "distance_m": distance, "speed_kmh": speed}
+                return {
+                    "do": "advise",
+                    "hazard": self.pick(KINDS),
+                    "distance_m": distance,
+                    "speed_kmh": speed,
+                }
 
     def where(self) -> dict[str, Any]:
         """A place whose parts do not contradict each other."""
@@ -230,7 +253,9 @@ class Maker:
 
     def number(self) -> float:
         scale = self.random.choice((1, 10, 1000))
-        value = self.random.choice((self.random.random() * scale, float(self.random.randint(0, 200)), 0.5, 1e-05))
+        value = self.random.choice(
+            (self.random.random() * scale, float(self.random.randint(0, 200)), 0.5, 1e-05)
+        )
         return value
 
     def count(self) -> int:
@@ -260,7 +285,13 @@ def failures(language: Language, seeds: range) -> list[str]:
             continue
         heard = language.parse(said)
         if not isinstance(heard, Understood) or heard.actions != actions:
-            got = dump(heard.actions) if isinstance(heard, Understood) else heard.message if hasattr(heard, "message") else heard
+            got = (
+                dump(heard.actions)
+                if isinstance(heard, Understood)
+                else heard.message
+                if hasattr(heard, "message")
+                else heard
+            )
             lines.append(f"seed {seed}: {said!r}\n  meant {dump(actions)}\n  heard {got}")
     return lines
 

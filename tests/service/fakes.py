@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+
 from service import actions as contract
 from service.language.parse_types import Ambiguous, Choice, Parse, Refused, Understood
+from service.language.topic import ALONE, Phrases, Topic
 from service.sessions.clock import Lateness, Ticker
 
 SENTENCES: dict[str, list[dict[str, object]]] = {
@@ -33,7 +36,16 @@ SENTENCES: dict[str, list[dict[str, object]]] = {
 class FewSentences:
     """A language that knows `SENTENCES` and refuses the rest."""
 
-    def parse(self, text: str) -> Parse:
+    def sentence(self, actions: Sequence[contract.Action]) -> str:
+        return " and ".join(action.do for action in actions)
+
+    def phrases(self, taught: Mapping[str, Sequence[contract.Action]]) -> Phrases:  # noqa: ARG002
+        return Phrases()
+
+    def words_of(self, text: str) -> tuple[str, ...]:
+        return tuple(text.lower().split())
+
+    def parse(self, text: str, topic: Topic = ALONE) -> Parse:  # noqa: ARG002
         if text == "slow down":
             choices = [
                 Choice(phrase, contract.load([{"do": "adjust", "parameter": parameter, "direction": "down"}]))

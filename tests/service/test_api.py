@@ -263,6 +263,7 @@ async def test_understanding_needs_no_session(service: Service) -> None:
     assert answer.json() == {
         "text": "go back five steps",
         "actions": [{"do": "rewind", "ticks": 5}],
+        "source": "grammar",
         "corrections": [],
     }
 

@@ -1,0 +1,71 @@
+"""`/language`: what can be said, and how a sentence that has been begun could go on."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from anyio import to_thread
+from fastapi import APIRouter, Query, Response
+
+from service import actions as contract
+from service.api import schemas
+from service.api.context import Here
+from service.api.errors import documented
+from service.api.respond import StrictRoute, json_response
+from service.problems import Invalid, NotRestorable, UnknownSession
+from service.talk.guide import Intent
+from service.talk.languages import DEFAULT
+
+router = APIRouter(tags=["talking"], route_class=StrictRoute)
+
+
+@router.get(
+    "/language",
+    response_model=schemas.LanguageGuide,
+    summary="What can be said",
+    responses=documented(UnknownSession, Invalid, NotRestorable),
+)
+async def language(
+    here: Here,
+    prefix: Annotated[
+        str | None,
+        Query(max_length=500, description="What has been typed so far: answers completions alone."),
+    ] = None,
+    session: Annotated[
+        str | None, Query(max_length=64, description="Complete with what would work in this session now.")
+    ] = None,
+    language: Annotated[str, Query(max_length=16, description="The language's code.")] = DEFAULT,
+) -> Response:
+    """Every intent with examples; or with `prefix`, whole sentences that begin with it and would work."""
+    listener = here.listener
+    guide = listener.languages.guide(language)
+    live = None if session is None else await here.manager.get(session)
+    taught = listener.phrasebook.listed(language)
+    told: dict[str, Any] = {"language": language, "languages": listener.languages.codes, "prefix": prefix}
+    if prefix is None:
+        intents = () if guide is None else await to_thread.run_sync(lambda: guide.intents)
+        told["intents"] = [_intent_json(intent) for intent in intents]
+        told["taught"] = [
+            {
+                "phrase": each.phrase,
+                "meaning": each.meaning,
+                "sentence": listener.phrasebook.told(contract.load(each.meaning), language),
+            }
+            for each in taught
+        ]
+        told["completions"] = []
+    else:
+        topic = listener.topic(live, language)
+        told["intents"], told["taught"] = [], []
+        phrases = [each.phrase for each in taught]
+        told["completions"] = [] if guide is None else guide.completions(prefix, live, topic, phrases)
+    return json_response(told)
+
+
+def _intent_json(intent: Intent) -> dict[str, Any]:
+    return {
+        "intent": intent.name,
+        "available": intent.available,
+        "why_not": intent.why_not,
+        "examples": [{"text": each.text, "actions": contract.dump(each.actions)} for each in intent.examples],
+    }

@@ -1,0 +1,99 @@
+"""What can be said: every intent with examples, and how a sentence that was begun could go on.
+
+Made from the language's own data, so it cannot say what the grammar does not understand.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+from service.actions import Action, Ask
+from service.language import Language as Grammar
+from service.language.complete import Completer
+from service.language.corpus import sentences
+from service.language.parse_types import Understood
+from service.language.topic import Topic
+from service.sessions.availability import refusal
+from service.sessions.session import Session
+
+EXAMPLES = 6
+"""How many examples an intent is shown with."""
+
+
+@dataclass(frozen=True, slots=True)
+class Example:
+    """A sentence and what it means."""
+
+    text: str
+    actions: tuple[Action, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Intent:
+    """One kind of thing that can be said."""
+
+    name: str
+    available: bool
+    why_not: str | None
+    examples: tuple[Example, ...]
+
+
+class Guide:
+    """The guide to one language."""
+
+    def __init__(self, grammar: Grammar) -> None:
+        self._grammar = grammar
+
+    @cached_property
+    def intents(self) -> tuple[Intent, ...]:
+        """Every intent that has an example, those that work first. Takes a tenth of a second, once."""
+        by_name: dict[str, list[Example]] = {}
+        for text in self._sayings:
+            parsed = self._grammar.parse(text)
+            if isinstance(parsed, Understood) and len({_name(action) for action in parsed.actions}) == 1:
+                by_name.setdefault(_name(parsed.actions[0]), []).append(Example(text, parsed.actions))
+        found = [_intent(name, examples) for name, examples in by_name.items()]
+        return tuple(sorted(found, key=lambda intent: not intent.available))
+
+    def completions(self, prefix: str, session: Session | None, topic: Topic, taught: list[str]) -> list[str]:
+        """Whole sentences that begin with `prefix` and would work, in the session if one is given."""
+
+        def possible(actions: tuple[Action, ...]) -> bool:
+            if session is not None:
+                return session.possible(actions)
+            return all(refusal(action) is None for action in actions)
+
+        extra = [*taught, *self._by_id(topic)]
+        return self._completer.complete(prefix, topic, extra=extra, possible=possible)
+
+    def _by_id(self, topic: Topic) -> Iterator[str]:
+        """What may be said of the things that were spoken of."""
+        for typical in self._grammar.ways_to_say("v.remove")[:1]:
+            for name in reversed(topic.things):
+                yield f"{typical} {name}"
+
+    @cached_property
+    def _sayings(self) -> tuple[str, ...]:
+        grammar = self._grammar
+        said = [say for frame in grammar.data.frames for say in frame.says]
+        made = sentences(grammar.sentences) if grammar.data.sentences else ()
+        return tuple(dict.fromkeys([*said, *made]))
+
+    @cached_property
+    def _completer(self) -> Completer:
+        grammar = self._grammar
+        made = list(sentences(grammar.sentences)) if grammar.data.sentences else []
+        return Completer(grammar, [*made, *self._sayings])
+
+
+def _name(action: Action) -> str:
+    return f"ask {action.about}" if isinstance(action, Ask) else action.do
+
+
+def _intent(name: str, examples: list[Example]) -> Intent:
+    working = [each for each in examples if all(refusal(action) is None for action in each.actions)]
+    shown = (working or examples)[:EXAMPLES]
+    why_not = None if working else next(filter(None, map(refusal, examples[0].actions)), None)
+    return Intent(name, bool(working), why_not, tuple(shown))

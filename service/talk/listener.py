@@ -1,0 +1,164 @@
+"""From what was said to what is done: grammar first, then (if there is one) a language model, then refusal.
+
+A model is asked only where the grammar refuses. What it makes of a sentence is an interpretation: a
+question of it is answered and marked, a change is offered as a choice to be said, and nothing is done
+before that is said.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from service import actions as contract
+from service.actions import Action, Ask, Forget, Hide, Show, Teach
+from service.language.parse_types import Ambiguous as AmbiguousParse
+from service.language.parse_types import Correction, Refused, Understood
+from service.language.sentences import Unsayable
+from service.language.topic import ALONE, Topic
+from service.llm.protocol import LanguageModel
+from service.problems import Ambiguous, FieldProblem, Invalid, NotAQuestion, NotUnderstood
+from service.sessions.session import Session
+from service.sessions.utterance import Outcome, Utterance
+from service.sessions.words import Words
+from service.talk.languages import DEFAULT, Languages
+from service.talk.phrasebook import Phrasebook
+
+HARMLESS = (Ask, Show, Hide)
+"""Actions that change no session: an interpretation that is only these needs no confirmation."""
+
+MOST_SUGGESTED = 3
+
+Source = Literal["grammar", "llm", "typed"]
+
+
+@dataclass(frozen=True, slots=True)
+class Heard:
+    """What was understood, and by whom."""
+
+    text: str
+    actions: tuple[Action, ...]
+    corrections: tuple[Correction, ...] = ()
+    source: Source = "grammar"
+    language: str = DEFAULT
+
+    @property
+    def utterance(self) -> Utterance:
+        """Ready to be done."""
+        return Utterance(actions=self.actions, text=self.text)
+
+
+class Listener:
+    """Understands and does what is said to sessions."""
+
+    def __init__(
+        self,
+        languages: Languages,
+        phrasebook: Phrasebook,
+        words: Words,
+        *,
+        most_chars: int,
+        model: LanguageModel | None = None,
+        confirm: bool = True,
+    ) -> None:
+        """`confirm`: whether a change that a model made out is asked about before it is done."""
+        self.languages = languages
+        self.phrasebook = phrasebook
+        self._words = words
+        self._most_chars = most_chars
+        self._model = model
+        self._confirm = confirm
+
+    def topic(self, session: Session | None, code: str = DEFAULT) -> Topic:
+        """What a sentence may refer to: what the session was told, and what was taught."""
+        phrases = self.phrasebook.phrases(code)
+        if session is None:
+            return Topic(phrases=phrases)
+        return session.conversation.topic(session.run.world, phrases)
+
+    async def hear(
+        self, text: str, session: Session | None = None, code: str = DEFAULT, field: str = "text"
+    ) -> Heard:
+        """What a sentence means. Raises `Invalid`, `NotUnderstood` or `Ambiguous`, naming `field`."""
+        if len(text) > self._most_chars:
+            message = f"has {len(text)} characters; at most {self._most_chars} are read"
+            raise Invalid("The text is too long.", errors=[FieldProblem(field, message)])
+        parse = self.languages[code].parse(text, self.topic(session, code))
+        match parse:
+            case Understood():
+                return Heard(text, parse.actions, parse.corrections, language=code)
+            case AmbiguousParse():
+                choices = [(choice.text, choice.actions) for choice in parse.choices]
+                raise _asked(parse.question, choices, "grammar")
+            case Refused():
+                refusal = self._refusal(parse, session, field)
+                if self._model is None or parse.reason != "not_understood":
+                    raise refusal
+                return await self._interpreted(self._model, text, refusal, code)
+
+    async def hear_question(self, text: str, session: Session | None, code: str = DEFAULT) -> Heard:
+        """What a question means. Raises also `NotAQuestion` where something else was said."""
+        heard = await self.hear(text, session, code, "question")
+        if not all(isinstance(action, Ask) for action in heard.actions):
+            raise NotAQuestion(
+                "This is understood, but it is not a question. Send it to `commands` to have it done."
+            )
+        return heard
+
+    async def do(
+        self, session: Session, utterance: Utterance, *, dry_run: bool = False, code: str = DEFAULT
+    ) -> Outcome:
+        """Do an utterance, all or nothing; a taught phrase is kept with its owner. Raises a problem."""
+        if not any(isinstance(action, Teach | Forget) for action in utterance.actions):
+            return await session.change(utterance, dry_run=dry_run)
+        if len(utterance.actions) > 1:
+            sentence = "A phrase is taught or forgotten by itself, with nothing else in the same breath."
+            raise Invalid(sentence, errors=[FieldProblem("actions", sentence)])
+        (action,) = utterance.actions
+        assert isinstance(action, Teach | Forget)
+        lesson = await self.phrasebook.learn(action, code, dry_run=dry_run)
+        reply = self._words.lesson(lesson)
+        if not dry_run:
+            session.tell("taught" if lesson.taught else "forgotten", utterance.text, reply)
+        return Outcome(
+            utterance=utterance, facts=(), reply=reply, answer=None, sequence=session.sequence, changes=()
+        )
+
+    def _refusal(self, parse: Refused, session: Session | None, field: str) -> NotUnderstood:
+        suggestions = [say for say in parse.suggestions if self._would_work(say, session)]
+        return NotUnderstood(
+            parse.message,
+            errors=[FieldProblem(field, parse.message)],
+            reason=parse.reason,
+            unparsed=parse.unparsed,
+            understood=parse.understood,
+            suggestions=tuple(suggestions[:MOST_SUGGESTED]),
+        )
+
+    def _would_work(self, say: str, session: Session | None) -> bool:
+        if session is None:
+            return True
+        heard = self.languages[DEFAULT].parse(say, ALONE)
+        return not isinstance(heard, Understood) or session.possible(heard.actions)
+
+    async def _interpreted(self, model: LanguageModel, text: str, refusal: NotUnderstood, code: str) -> Heard:
+        """What a model makes of a sentence the grammar refused. Raises the refusal, or asks."""
+        reading = await model.interpret(text)
+        if not reading.actions:
+            refusal.detail = f"{refusal.detail} {reading.told}".strip()
+            raise refusal
+        harmless = all(isinstance(action, HARMLESS) for action in reading.actions)
+        if harmless or not self._confirm:
+            return Heard(text, reading.actions, source="llm", language=code)
+        try:
+            said = self.languages[DEFAULT].sentence(reading.actions)
+        except Unsayable:
+            raise refusal from None
+        raise _asked(
+            "A language model read this as follows. Is that what you mean?", [(said, reading.actions)], "llm"
+        )
+
+
+def _asked(question: str, choices: list[tuple[str, tuple[Action, ...]]], source: Source) -> Ambiguous:
+    told = [{"text": text, "actions": contract.dump(actions)} for text, actions in choices]
+    return Ambiguous(question, choices=told, source=source)
