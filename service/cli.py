@@ -8,6 +8,7 @@ import logging
 import socket
 import sys
 from collections.abc import Callable
+from pathlib import Path
 from typing import Annotated, Any, NoReturn
 
 import httpx
@@ -19,6 +20,8 @@ from pydantic import ValidationError
 
 from service.app import create_app
 from service.language import LanguageDataError
+from service.llm import MissingExtraError
+from service.llm.prompts import PromptError
 from service.settings import Settings
 from service.store import Store, StoreError, open_store
 from service.version import VERSION
@@ -77,7 +80,7 @@ def serve(
         config = server_config(create_app(settings, store=store), settings)
         with asyncio.Runner(loop_factory=config.get_loop_factory()) as runner:
             runner.run(_serve(config, store, listener))
-    except (StoreError, LanguageDataError) as error:
+    except (StoreError, LanguageDataError, MissingExtraError, PromptError) as error:
         _fail(str(error))
     except KeyboardInterrupt:
         pass
@@ -103,6 +106,28 @@ def check_planner(
     broken = len({defect.promise for defect in report.defects})
     typer.echo(f"{name}: {report.decisions} decisions, {broken} promises broken")
     if report.defects:
+        raise typer.Exit(1)
+
+
+@cli.command("language-eval")
+def language_eval(
+    file: Annotated[Path, typer.Argument(help="JSON lines of {text, actions, clarify?}.", exists=True)],
+    language: Annotated[str, typer.Option(help="The language's code.")] = "en",
+    failures: Annotated[bool, typer.Option(help="Also list what was not read as labelled.")] = True,
+) -> None:
+    """Measure how well sentences are understood. Exits with 1 when one was understood wrongly."""
+    from service.language import Language
+    from service.language.evaluate import evaluate_all, read_labelled, render
+
+    try:
+        grammar = Language.load(language)
+        rows = read_labelled(file)
+    except (LanguageDataError, ValueError) as error:
+        _fail(str(error))
+    with typer.progressbar(rows, label="Reading", file=sys.stderr) as reading:
+        report = evaluate_all(grammar, reading)
+    typer.echo(render(report, failures=failures))
+    if report.total("wrong"):
         raise typer.Exit(1)
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
@@ -79,7 +79,7 @@ def evaluate(language: Language, path: Path) -> Report:
     return evaluate_all(language, read_labelled(path))
 
 
-def evaluate_all(language: Language, rows: Sequence[Labelled]) -> Report:
+def evaluate_all(language: Language, rows: Iterable[Labelled]) -> Report:
     """Reads every sentence and compares."""
     report = Report()
     for row in rows:
@@ -116,8 +116,8 @@ def same(a: Any, b: Any) -> bool:
     return bool(a == b)
 
 
-def render(report: Report) -> str:
-    """The report as a table and a list of failures."""
+def render(report: Report, *, failures: bool = True) -> str:
+    """The report as a table, and a list of failures."""
     columns = ("exact", "wrong", "refused", "clarified")
     lines = [f"{'intent':<24}{'sentences':>10}" + "".join(f"{name:>11}" for name in columns)]
     for intent in sorted(report.counts):
@@ -125,7 +125,7 @@ def render(report: Report) -> str:
         lines.append(f"{intent:<24}{counts.total():>10}" + "".join(f"{counts[name]:>11}" for name in columns))
     totals = "".join(f"{sum(c[name] for c in report.counts.values()):>11}" for name in columns)
     lines.append(f"{'all':<24}{report.total():>10}{totals}")
-    for failure in report.failures:
+    for failure in report.failures if failures else ():
         lines += ["", f"{failure.verdict}: {failure.labelled.text}"]
         lines.append(f"  meant {json.dumps(failure.labelled.actions)}")
         if failure.got:

@@ -14,7 +14,14 @@ from tests.language.beside import HERE
 
 
 @pytest.mark.parametrize(
-    ("file", "least_exact"), [("dev.jsonl", 0.99), ("fresh_a.jsonl", 0.98), ("fresh_b.jsonl", 0.88)]
+    ("file", "least_exact"),
+    [
+        ("dev.jsonl", 0.99),
+        ("fresh_a.jsonl", 0.98),
+        ("fresh_b.jsonl", 0.88),
+        ("fresh_c.jsonl", 0.98),
+        ("fresh_d.jsonl", 0.98),
+    ],
 )
 def test_no_wrong_action_and_nearly_all_exact(language: Language, file: str, least_exact: float) -> None:
     report = evaluate(language, HERE / file)
@@ -22,7 +29,7 @@ def test_no_wrong_action_and_nearly_all_exact(language: Language, file: str, lea
     assert report.total("exact") >= least_exact * report.total(), render(report)
 
 
-@pytest.mark.parametrize("file", ["dev.jsonl", "fresh_a.jsonl", "fresh_b.jsonl"])
+@pytest.mark.parametrize("file", sorted(path.name for path in HERE.glob("*.jsonl")))
 def test_what_must_be_refused_or_asked_about_is(language: Language, file: str) -> None:
     counts = evaluate(language, HERE / file).counts
     for intent in ("(refuse)", "(clarify)"):

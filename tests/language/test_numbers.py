@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from text_to_num import text2num
 
 from service.language import Language
 from service.language.data import read_yaml
@@ -66,6 +67,12 @@ def read(text: str) -> tuple[float, bool] | None:
 @given(st.integers(0, 999_999), st.booleans())
 def test_spelt_numbers_are_read_back(number: int, british: bool) -> None:
     assert read(spell(number, british=british)) == (number, True)
+
+
+@pytest.mark.parametrize("number", [*range(0, 2_000, 7), *range(2_000, 1_000_000, 4_999)])
+def test_another_reader_agrees(number: int) -> None:
+    said = spell(number, british=False).replace("-", " ")
+    assert read(said) == (text2num(said, "en"), True)
 
 
 @given(st.integers(0, 10**9))
