@@ -20,7 +20,7 @@ Value = int | float
 MAX_DIGITS = 15
 MAX_DECIMALS = 40
 """Longer ones are no numbers anyone says; a float written out exactly is shorter."""
-LONGEST_WORD = 60
+LONGEST_WORD = 80
 """Letters of the longest word that is read as a number in one word."""
 
 OPENING = ("(", "[")
