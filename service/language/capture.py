@@ -69,7 +69,8 @@ def names(tokens: Sequence[Token], lexicon: Lexicon, said: str, phrases: Phrases
 def _forgets(tokens: Sequence[Token], lexicon: Lexicon, phrases: Phrases) -> tuple[int, int] | None:
     """Where the phrase to be forgotten is: one in quotation marks, or one that was taught."""
     words = [token.text for token in tokens]
-    for at in range(len(tokens)):
+    begins = lexicon.begins.get(FORGETS, set())
+    for at in (at for at, word in enumerate(words) if word in begins):
         ends = {end for end, senses, _ in lexicon.matches(tokens, at, {}, {}) if _any_is(senses, FORGETS)}
         for start in sorted(ends, reverse=True):
             if start < len(tokens) and words[start] == QUOTE:
@@ -128,6 +129,8 @@ def _past_means(tokens: Sequence[Token], at: int, lexicon: Lexicon) -> int:
 
 def _longest(lexicon: Lexicon, tokens: Sequence[Token], at: int, concept: str) -> int:
     """The end of the longest phrase at `at` with this concept; 0 when there is none."""
+    if tokens[at].text not in lexicon.begins.get(concept, ()):
+        return 0
     matches = lexicon.matches(tokens, at, {}, {})
     return max((end for end, senses, _ in matches if _any_is(senses, concept)), default=0)
 

@@ -145,6 +145,8 @@ def _past_interjection(lattice: Lattice, start: int, end: int) -> int:
 
 def _before_tag(lattice: Lattice, start: int, end: int) -> int:
     """Before a last part that only asks for consent: "…, won't you?"."""
+    if TAG not in lattice.concepts:
+        return end
     for edge in lattice.between(start, end):
         if (
             edge.concept == TAG

@@ -50,6 +50,8 @@ class Lattice:
 
     size: int
     edges: list[list[Edge]] = field(default_factory=list)
+    concepts: set[str] = field(default_factory=set)
+    """Every concept that was found in the sentence, before nouns were given their quantities."""
 
     def all(self) -> Iterator[Edge]:
         """Every edge."""
@@ -109,7 +111,8 @@ class Scanner:
             matches = self._lexicon.matches(tokens, at, numbers, ordinals)
             for end, senses, part in matches:
                 if not any(end > start > at for start in names):
-                    lattice.edges[at].extend(Edge(at, end, sense, part) for sense in senses)
+                    lattice.edges[at].extend([Edge(at, end, sense, part) for sense in senses])
+                    lattice.concepts.update([sense.concept for sense in senses])
             if (number := numbers.get(at)) is not None and not _inside_number(numbers, at):
                 lattice.edges[at].extend(self._measures(tokens, at, number, numbers, ordinals))
             at += 1

@@ -52,6 +52,8 @@ class Lexicon:
         self.concepts: dict[str, set[str]] = {}
         """Concept → its forms."""
         self.collisions: list[str] = []
+        self.begins: dict[str, set[str]] = {}
+        """Concept → the first words of its phrases."""
         self.typical: dict[tuple[str, str], Words] = {}
         """Concept and value → its first phrase without a slot: how it is best said."""
 
@@ -71,6 +73,7 @@ class Lexicon:
 
     def _add_phrases(self, pattern: str, sense: Sense) -> None:
         for words in expand(pattern, self._macros):
+            self.begins.setdefault(sense.concept, set()).add(words[0])
             if GAP in words:
                 cut = words.index(GAP)
                 for half, halfsense in ((words[:cut], sense), (words[cut + 1 :], Sense(SECOND))):

@@ -27,7 +27,9 @@ BY_ID = "thing.id"
 TAUGHT = "taught"
 MAX_CANDIDATES = 5
 
-_POINTING = ("that", "those", "the_one", "last", "last_counted")
+_REFERRING = frozenset(
+    (REFERS, "thing.that", "thing.those", "thing.the_one", "thing.last", "thing.last_counted")
+)
 _OPPOSITE = {"left": "right", "right": "left"}
 
 
@@ -55,14 +57,12 @@ def add_known(lattice: Lattice, tokens: Sequence[Token], topic: Topic) -> None:
 def add_referents(lattice: Lattice, topic: Topic) -> list[Unclear]:
     """Edges for all that words refer to; what stays unclear. After noun phrases were found."""
     unclear: list[Unclear] = []
-    for edge in list(lattice.all()):
+    for edge in [edge for starting in lattice.edges for edge in starting if edge.sense.concept in _REFERRING]:
         found: Edge | Unclear | None
         if edge.concept == REFERS:
             found = _pronoun(edge, lattice, topic)
-        elif edge.concept.startswith("thing.") and edge.concept.partition(".")[2] in _POINTING:
-            found = _pointed(edge, topic)
         else:
-            continue
+            found = _pointed(edge, topic)
         if isinstance(found, Unclear):
             unclear.append(found)
             if edge.concept != REFERS and found.candidates:

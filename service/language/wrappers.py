@@ -49,6 +49,8 @@ def _sentences(lattice: Lattice, start: int, end: int) -> list[tuple[int, int]]:
 
     A phrase is taught to the end of the text, full stops and all.
     """
+    if WHAT_IF not in lattice.concepts:
+        return [(start, end)]
     stops = (e for e in lattice.between(start, end) if e.concept == SEPARATOR and e.sense.value == STOP)
     cuts = [start, *sorted(edge.end for edge in stops)]
     parts = [(a, b) for a, b in zip(cuts, [*cuts[1:], end], strict=True) if a < b]
