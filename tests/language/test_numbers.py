@@ -116,6 +116,41 @@ def test_other_shapes(text: str, value: float) -> None:
     assert found[0] == pytest.approx(value)
 
 
+TENS_FIRST = NumberWords.from_data(
+    {
+        **read_yaml(FOLDER / "numbers.yaml"),
+        "ones": {"uno": 1, "due": 2, "sette": 7, "dieci": 10},
+        "tens": {"venti": 20, "trenta": 30},
+        "powers": {"cento": 100, "mila": 1000},
+        "together": {"link": ""},
+    }
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("due", 2),
+        ("trentadue", 32),
+        ("cento", 100),
+        ("duecentoventisette", 227),
+        ("trentaduemiladuecentodieci", 32_210),
+        ("trentaventi", None),
+        ("centouno due", 101),
+        ("duetrenta", None),
+        ("centocento", None),
+    ],
+)
+def test_numbers_in_one_word_with_the_tens_before_the_ones(text: str, value: int | None) -> None:
+    found = TENS_FIRST.read(tokenise(text, NONE), 0)
+    assert (found.value if found else None) == value
+
+
+def test_numbers_in_one_word_are_read_only_where_the_data_say_so() -> None:
+    assert read("twentyone") is None
+    assert read("two hundredfive") == (2, False)
+
+
 @pytest.mark.parametrize("text", ["a car", "and", "cars", "few", "hundred cars of", ""])
 def test_what_is_no_number(text: str) -> None:
     assert read(text) is None
