@@ -84,6 +84,7 @@ def create_app(
         most_chars=settings.max_text_chars,
         model=model,
         confirm=settings.llm_confirm,
+        rephrase=settings.llm_rephrase,
     )
     context = Context(settings, store, clock, listener, words, manager, CapacityLimiter(1))
 

@@ -104,5 +104,5 @@ async def ask(
 ) -> Response:
     """Answers, and changes nothing."""
     heard = await here.listener.hear_question(body.question, session, body.language)
-    outcome = await session.change(heard.utterance)
+    outcome = await here.listener.do(session, heard.utterance, code=body.language)
     return json_response(outcome.answer, headers=etag(outcome.sequence))

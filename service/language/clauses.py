@@ -250,7 +250,7 @@ class Divider:
                 found = self._matcher.match(self._stretch(start, end, again), verbless=False)
             if found is not None:
                 return Clause(start, end, found[0], [] if context.negated else found[1], context.negated)
-        if context.verbless:
+        if context.verbless and not context.negated:
             found = self._matcher.match(plain, verbless=True)
             if found is not None:
                 return Clause(start, end, *found)

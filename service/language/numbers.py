@@ -100,9 +100,8 @@ class NumberWords:
 
     def ordinal(self, token: Token) -> int | None:
         """The place in a row a token names: "second" and "2nd" are 2."""
-        if token.digits:
-            head = token.text.rstrip("stndrh")
-            return int(head) if head != token.text and len(head) <= 9 else None
+        if token.ordinal:
+            return int(token.text) if len(token.text) <= 9 else None
         return self.ordinals.get(token.text)
 
     def read(self, tokens: Sequence[Token], at: int) -> Found | None:

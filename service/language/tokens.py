@@ -34,7 +34,6 @@ _VARIANTS = str.maketrans(
 
 _TOKEN = re.compile(
     rf"""(?P<id>\b(?:{"|".join(Kind)})-[0-9]{{1,9}}\b)
-      | (?P<ordinal>[0-9]+(?:st|nd|rd|th)\b)
       | (?P<fraction>[0-9]+/[0-9]+)
       | (?P<number>[0-9]{{1,3}}(?:,[0-9]{{3}})+(?:\.[0-9]+)?(?![0-9]) | [0-9]*\.[0-9]+ | [0-9]+)
       | (?P<word>[^\W\d_]+/[^\W\d_]+ | [^\W\d_]+(?:'[^\W\d_]+)*\*?)
@@ -51,6 +50,8 @@ class Token:
     start: int
     end: int
     digits: bool = False
+    ordinal: bool = False
+    """Whether it is a place in a row in digits: "3rd"."""
     id: bool = False
     """Whether it is the id of a thing: "pothole-3"."""
 
@@ -61,13 +62,15 @@ class Contractions:
 
     words: Mapping[str, tuple[str, ...]]
     endings: tuple[tuple[str, tuple[str, ...]], ...]
+    ordinals: frozenset[str] = frozenset()
+    """what makes a number in digits a place in a row: "rd" """
 
     @classmethod
     def from_data(cls, data: Mapping[str, Any]) -> Contractions:
         """From `{"words": {"gimme": "give me"}, "endings": {"n't": "not"}}`."""
         words = {short: tuple(str(full).split()) for short, full in data["words"].items()}
         endings = tuple((end, tuple(str(full).split())) for end, full in data["endings"].items())
-        return cls(words, endings)
+        return cls(words, endings, frozenset(str(data.get("ordinals", "")).split()))
 
     def expand(self, word: str) -> tuple[str, ...]:
         """The words a written word stands for; itself when it is no short form."""
@@ -102,7 +105,10 @@ def tokenise(text: str, contractions: Contractions) -> list[Token]:
         start, end = match.span()
         written = match.group().lower()
         kind = match.lastgroup
-        if kind == "word":
+        if kind == "word" and written in contractions.ordinals and _ends_number(tokens, start):
+            number = tokens.pop()
+            tokens.append(Token(number.text, number.start, end, ordinal=True))
+        elif kind == "word":
             tokens.extend(Token(part, start, end) for part in contractions.expand(written))
         elif kind == "mark":
             if written == "-":
@@ -116,6 +122,11 @@ def tokenise(text: str, contractions: Contractions) -> list[Token]:
         else:
             tokens.append(Token(written, start, end, digits=True))
     return tokens
+
+
+def _ends_number(tokens: Sequence[Token], start: int) -> bool:
+    """Whether what begins here follows a whole number without a space."""
+    return bool(tokens) and tokens[-1].digits and tokens[-1].text.isdigit() and tokens[-1].end == start
 
 
 def _dash(text: str, at: int) -> str:

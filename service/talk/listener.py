@@ -7,7 +7,7 @@ before that is said.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from service import actions as contract
@@ -60,6 +60,7 @@ class Listener:
         most_chars: int,
         model: LanguageModel | None = None,
         confirm: bool = True,
+        rephrase: bool = False,
     ) -> None:
         """`confirm`: whether a change that a model made out is asked about before it is done."""
         self.languages = languages
@@ -68,6 +69,7 @@ class Listener:
         self._most_chars = most_chars
         self._model = model
         self._confirm = confirm
+        self._rephrase = rephrase
 
     def topic(self, session: Session | None, code: str = DEFAULT) -> Topic:
         """What a sentence may refer to: what the session was told, and what was taught."""
@@ -110,7 +112,7 @@ class Listener:
     ) -> Outcome:
         """Do an utterance, all or nothing; a taught phrase is kept with its owner. Raises a problem."""
         if not any(isinstance(action, Teach | Forget) for action in utterance.actions):
-            return await session.change(utterance, dry_run=dry_run)
+            return await self._reworded(await session.change(utterance, dry_run=dry_run))
         if len(utterance.actions) > 1:
             sentence = "A phrase is taught or forgotten by itself, with nothing else in the same breath."
             raise Invalid(sentence, errors=[FieldProblem("actions", sentence)])
@@ -123,6 +125,15 @@ class Listener:
         return Outcome(
             utterance=utterance, facts=(), reply=reply, answer=None, sequence=session.sequence, changes=()
         )
+
+    async def _reworded(self, outcome: Outcome) -> Outcome:
+        """The answer in a model's words, where one may reword and its words are true to the facts."""
+        if self._model is None or not self._rephrase or outcome.answer is None:
+            return outcome
+        text = outcome.answer["text"]
+        other = await self._model.rephrase(text, outcome.answer)
+        answer = {**outcome.answer, "text": other}
+        return replace(outcome, answer=answer, reply=outcome.reply.replace(text, other))
 
     def _refusal(self, parse: Refused, session: Session | None, field: str) -> NotUnderstood:
         suggestions = [say for say in parse.suggestions if self._would_work(say, session)]

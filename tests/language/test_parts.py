@@ -10,7 +10,7 @@ from service.language.lexicon import Lexicon, Sense
 from service.language.patterns import PatternError, expand, read_macros
 from service.language.tokens import Contractions, normalise, tokenise
 
-SHORT = Contractions({"let's": ("let", "us")}, (("n't", ("not",)), ("'s", ())))
+SHORT = Contractions({"let's": ("let", "us")}, (("n't", ("not",)), ("'s", ())), frozenset({"nd"}))
 
 
 def words(text: str) -> list[str]:
@@ -31,7 +31,7 @@ def words(text: str) -> list[str]:
         ("add -3", ["add", "-", "3"]),
         ("5-10 cars", ["5", "-", "10", "cars"]),
         ("fog – now", ["fog", ",", "now"]),
-        ("the 2nd lane", ["the", "2nd", "lane"]),
+        ("the 2nd lane", ["the", "2", "lane"]),
         ("４ cars", ["4", "cars"]),
     ],
 )
