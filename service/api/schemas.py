@@ -154,6 +154,7 @@ class Session(Answered):
     sequence: int
     seed: int
     config: dict[str, Any]
+    sentence: str | None = Field(description="What to say for a road like this one; null where nothing does.")
     links: dict[str, str]
 
 

@@ -82,7 +82,7 @@ async def make(
             body.name or body.recording.name, config, paused=body.paused is not False, recorded=recorded
         )
     headers = {"Location": links_json(session.id)["self"], **etag(session.sequence)}
-    return json_response(session_json(session), 201, headers)
+    return json_response(session_json(session, here.listener.sentence(session.run.config)), 201, headers)
 
 
 @router.get(
@@ -116,9 +116,10 @@ async def newest(
     summary="Look at a session",
     responses=documented(UnknownSession, NotRestorable),
 )
-async def look(session: TheSession) -> Response:
+async def look(session: TheSession, here: Here) -> Response:
     """A session as it stands. One that is kept but not live is brought back, paused."""
-    return json_response(session_json(session), headers=etag(session.sequence))
+    told = session_json(session, here.listener.sentence(session.run.config))
+    return json_response(told, headers=etag(session.sequence))
 
 
 @router.delete(

@@ -188,7 +188,8 @@ def _hello(context: Context, session: Session) -> bytes:
     latest = session.latest_decision()
     decision = told_decision(context.words, latest[1], latest[0]) if latest else None
     log = session.log.latest(HELLO_EVENTS)
-    return hello_message(session_json(session), session.state(), log, decision, session.sequence)
+    sentence = context.listener.sentence(session.run.config)
+    return hello_message(session_json(session, sentence), session.state(), log, decision, session.sequence)
 
 
 def _same_site(socket: WebSocket) -> bool:

@@ -33,8 +33,8 @@ def links_json(session_id: str) -> dict[str, str]:
     return {"self": own, **{part: f"{own}/{part}" for part in parts}, "page": f"/#/s/{session_id}"}
 
 
-def session_json(session: Session) -> dict[str, Any]:
-    """A session as it stands."""
+def session_json(session: Session, sentence: str | None) -> dict[str, Any]:
+    """A session as it stands; `sentence` is what makes a road like its own."""
     run, record = session.run, session.record
     return {
         "id": session.id,
@@ -48,6 +48,7 @@ def session_json(session: Session) -> dict[str, Any]:
         "sequence": session.sequence,
         "seed": run.config.seed,
         "config": asdict(run.config),
+        "sentence": sentence,
         "links": links_json(session.id),
     }
 

@@ -16,6 +16,7 @@ from itertools import chain, islice
 from service.actions import Action
 from service.language.engine import Language
 from service.language.parse_types import Understood
+from service.language.references import heard
 from service.language.topic import ALONE, Topic
 
 MOST = 8
@@ -67,7 +68,7 @@ class Completer:
         found: list[str] = []
         for candidate in self._candidates(tail, extra):
             whole = head + candidate
-            parsed = self._language.parse(whole, topic)
+            parsed = heard(self._language.parse, whole, topic)
             if isinstance(parsed, Understood) and not parsed.corrections and possible(parsed.actions):
                 found.append(whole)
             if len(found) == MOST:

@@ -7,16 +7,17 @@ about. "That pothole" with no pothole spoken of is the nearest one, which is for
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass, replace
 
 from service.actions import dump
 from service.language.clauses import REPEATED
 from service.language.lattice import Edge, Lattice
 from service.language.lexicon import Sense
 from service.language.noun_phrases import Amount
+from service.language.parse_types import Parse, Refused, Understood
 from service.language.tokens import Token
-from service.language.topic import Topic
+from service.language.topic import Phrases, Topic
 from sim.actions import Where
 from sim.kinds import kind_of
 
@@ -43,6 +44,19 @@ class Unclear:
     lane: bool = False
 
 
+def heard(parse: Callable[[str, Topic], Parse], text: str, topic: Topic) -> Parse:
+    """What a text means; a taught phrase counts only where the language has no meaning of its own for it.
+
+    So "carry on" stays what it is when "carry" was taught.
+    """
+    if topic.phrases.by_first:
+        alone = parse(text, replace(topic, phrases=Phrases()))
+        repaired = isinstance(alone, Understood) and alone.corrections
+        if not repaired and not (isinstance(alone, Refused) and alone.reason == "not_understood"):
+            return alone
+    return parse(text, topic)
+
+
 def add_known(lattice: Lattice, tokens: Sequence[Token], topic: Topic) -> None:
     """Edges for ids, and for phrases that were taught."""
     words = [token.text for token in tokens]
@@ -58,11 +72,7 @@ def add_referents(lattice: Lattice, topic: Topic) -> list[Unclear]:
     """Edges for all that words refer to; what stays unclear. After noun phrases were found."""
     unclear: list[Unclear] = []
     for edge in [edge for starting in lattice.edges for edge in starting if edge.sense.concept in _REFERRING]:
-        found: Edge | Unclear | None
-        if edge.concept == REFERS:
-            found = _pronoun(edge, lattice, topic)
-        else:
-            found = _pointed(edge, topic)
+        found = _pronoun(edge, lattice, topic) if edge.concept == REFERS else _pointed(edge, topic)
         if isinstance(found, Unclear):
             unclear.append(found)
             if edge.concept != REFERS and found.candidates:
@@ -71,7 +81,8 @@ def add_referents(lattice: Lattice, topic: Topic) -> list[Unclear]:
             if edge.concept != REFERS:
                 lattice.edges[edge.start].remove(edge)
             lattice.edges[edge.start].append(found)
-    return unclear
+    # Of "in the other lane" and "the other lane" the shorter first: what is put in its place keeps the "in".
+    return sorted(unclear, key=lambda each: (each.end, -each.start) if each.lane else (0, 0))
 
 
 def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear:

@@ -2,23 +2,28 @@
 
 Made from outcomes, so a replayed session remembers what was done to it; what was merely asked is not
 stored, and after a restart "it" is no longer what was last explained. Things that have left the
-road are not spoken of any more.
+road are not spoken of any more, nor are those of an earlier episode: after an undo ids are given again.
 """
 
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Mapping
+from typing import Any, TypeAlias
 
 from service.actions import Action, Redo, Undo
 from service.language.topic import Phrases, Topic
-from service.sessions.facts import Fact, Undone
+from service.sessions.facts import Asked, Fact, Undone
 from service.sessions.utterance import Outcome
-from sim.actions import Add, Remove, SetCount, Where
+from sim.actions import Add, Remove, Reset, SetCount, Where
 from sim.edit import Applied
 from sim.world import World
 
 REMEMBERED = 200
 """How many added things are remembered by the order they came in."""
+
+Episode: TypeAlias = tuple[int, int]
+"""An episode's number and the tick it began at."""
 
 
 class Conversation:
@@ -32,36 +37,63 @@ class Conversation:
         self._kind: str | None = None
         self._removed = False
         self._where: Where | None = None
+        self._episode: Episode | None = None
 
     def note(self, outcome: Outcome) -> None:
         """Remember what was done, or told about."""
-        actions = outcome.utterance.actions
+        actions, facts = outcome.utterance.actions, outcome.facts
         if not any(isinstance(action, Undo | Redo) for action in actions):
             self._actions = actions
-        changing = [fact for fact in outcome.facts if isinstance(fact, Applied | Undone)]
+        changing = [fact for fact in facts if isinstance(fact, Applied | Undone)]
         if changing:
             last = changing[-1]
             self._undone = isinstance(last, Undone) and not last.again
-        for fact in outcome.facts:
-            self._note_things(fact)
+        elif any(not isinstance(fact, Asked) for fact in facts):
+            self._undone = False  # time has passed, or stands still: "again" is about that
+        amounts = [fact for fact in facts if isinstance(fact, Applied) and _moves_things(fact)]
+        if amounts:
+            self._things = ()  # "them" are all that the utterance added, not what its last part did
+        for fact in amounts:
+            self._note_amount(fact)
         if outcome.answer is not None:
-            told = tuple(cause["id"] for cause in outcome.answer.get("causes", ()) if cause.get("id"))
-            self._things = told or self._things
+            self._note_told(outcome.answer, facts)
 
-    def _note_things(self, fact: Fact) -> None:
-        if not isinstance(fact, Applied) or not isinstance(fact.action, Add | Remove | SetCount):
+    def _note_amount(self, fact: Applied) -> None:
+        action = fact.action
+        if not isinstance(action, Add | Remove | SetCount):
+            self._forget_things()
             return
-        ids = tuple(thing.id for thing in fact.added)
-        self._things = ids
-        self._added.extend(ids)
-        self._removed = isinstance(fact.action, Remove) or bool(fact.removed)
-        if fact.action.kind != "everything":
-            self._kind = fact.action.kind
-        self._where = None if isinstance(fact.action, SetCount) else fact.action.where
+        self._enter(fact.run.world)
+        self._things += tuple(thing.id for thing in fact.added)
+        for thing in fact.added:
+            if thing.id in self._added:
+                self._added.remove(thing.id)  # undone, and given again
+            self._added.append(thing.id)
+        self._removed = isinstance(action, Remove) or bool(fact.removed)
+        if action.kind != "everything":
+            self._kind = action.kind
+        self._where = None if isinstance(action, SetCount) else _spot(action.where, fact)
+
+    def _note_told(self, answer: Mapping[str, Any], facts: tuple[Fact, ...]) -> None:
+        told = tuple(cause["id"] for cause in answer.get("causes", ()) if cause.get("id"))
+        asked = [fact for fact in facts if isinstance(fact, Asked)]
+        if told and asked:
+            self._enter(asked[-1].timeline.run.world)
+            self._things = told
+
+    def _enter(self, world: World) -> None:
+        """What follows is about the episode of this world."""
+        if self._episode != _episode(world):
+            self._forget_things()
+            self._episode = _episode(world)
+
+    def _forget_things(self) -> None:
+        self._things = ()
+        self._added.clear()
 
     def topic(self, world: World, phrases: Phrases) -> Topic:
         """What a sentence said now may refer to."""
-        there = {*world.movers.values(), *world.hazards.values()}
+        there = {*world.movers.values(), *world.hazards.values()} if self._episode == _episode(world) else ()
         return Topic(
             things=tuple(name for name in self._things if name in there),
             added=tuple(name for name in self._added if name in there),
@@ -72,3 +104,22 @@ class Conversation:
             where=self._where,
             phrases=phrases,
         )
+
+
+def _episode(world: World) -> Episode:
+    return world.episode, world.episode_start
+
+
+def _moves_things(fact: Applied) -> bool:
+    return isinstance(fact.action, Add | Remove | SetCount | Reset)
+
+
+def _spot(where: Where | None, fact: Applied) -> Where | None:
+    """The place of an action in terms that mean the same when the vehicle has moved on."""
+    if where is None or (where.distance_m, where.cells, where.nearest, where.id) == (None,) * 4:
+        return where
+    cells = {thing.cell for thing in (*fact.added, *fact.removed)}
+    rows = {row for _, row in cells}
+    if len(cells) == 1:
+        return Where(lane=where.lane, cell=cells.pop())
+    return Where(lane=where.lane, row=rows.pop()) if len(rows) == 1 else None

@@ -14,6 +14,7 @@ from service import actions as contract
 from service.actions import Action, Ask, Forget, Hide, Show, Teach
 from service.language.parse_types import Ambiguous as AmbiguousParse
 from service.language.parse_types import Correction, Refused, Understood
+from service.language.references import heard
 from service.language.sentences import Unsayable
 from service.language.topic import ALONE, Topic
 from service.llm.protocol import LanguageModel
@@ -23,6 +24,9 @@ from service.sessions.utterance import Outcome, Utterance
 from service.sessions.words import Words
 from service.talk.languages import DEFAULT, Languages
 from service.talk.phrasebook import Phrasebook
+from sim.actions import Scenario
+from sim.config import Config
+from sim.described import UndescribableError, actions_for
 
 HARMLESS = (Ask, Show, Hide)
 """Actions that change no session: an interpretation that is only these needs no confirmation."""
@@ -78,6 +82,13 @@ class Listener:
             return Topic(phrases=phrases)
         return session.conversation.topic(session.run.world, phrases)
 
+    def sentence(self, config: Config) -> str | None:
+        """The sentence that makes such a road; None where nothing that can be said does."""
+        try:
+            return self.languages[DEFAULT].sentence(actions_for(config) or (Scenario(),))
+        except (UndescribableError, Unsayable):
+            return None
+
     async def hear(
         self, text: str, session: Session | None = None, code: str = DEFAULT, field: str = "text"
     ) -> Heard:
@@ -85,7 +96,7 @@ class Listener:
         if len(text) > self._most_chars:
             message = f"has {len(text)} characters; at most {self._most_chars} are read"
             raise Invalid("The text is too long.", errors=[FieldProblem(field, message)])
-        parse = self.languages[code].parse(text, self.topic(session, code))
+        parse = heard(self.languages[code].parse, text, self.topic(session, code))
         match parse:
             case Understood():
                 return Heard(text, parse.actions, parse.corrections, language=code)
@@ -93,19 +104,19 @@ class Listener:
                 choices = [(choice.text, choice.actions) for choice in parse.choices]
                 raise _asked(parse.question, choices, "grammar")
             case Refused():
-                refusal = self._refusal(parse, session, field)
+                refusal = self._refusal(parse, session, field, code)
                 if self._model is None or parse.reason != "not_understood":
                     raise refusal
                 return await self._interpreted(self._model, text, refusal, code)
 
     async def hear_question(self, text: str, session: Session | None, code: str = DEFAULT) -> Heard:
         """What a question means. Raises also `NotAQuestion` where something else was said."""
-        heard = await self.hear(text, session, code, "question")
-        if not all(isinstance(action, Ask) for action in heard.actions):
+        found = await self.hear(text, session, code, "question")
+        if not all(isinstance(action, Ask) for action in found.actions):
             raise NotAQuestion(
                 "This is understood, but it is not a question. Send it to `commands` to have it done."
             )
-        return heard
+        return found
 
     async def do(
         self, session: Session, utterance: Utterance, *, dry_run: bool = False, code: str = DEFAULT
@@ -135,8 +146,8 @@ class Listener:
         answer = {**outcome.answer, "text": other}
         return replace(outcome, answer=answer, reply=outcome.reply.replace(text, other))
 
-    def _refusal(self, parse: Refused, session: Session | None, field: str) -> NotUnderstood:
-        suggestions = [say for say in parse.suggestions if self._would_work(say, session)]
+    def _refusal(self, parse: Refused, session: Session | None, field: str, code: str) -> NotUnderstood:
+        suggestions = [say for say in parse.suggestions if self._would_work(say, session, code)]
         return NotUnderstood(
             parse.message,
             errors=[FieldProblem(field, parse.message)],
@@ -146,11 +157,11 @@ class Listener:
             suggestions=tuple(suggestions[:MOST_SUGGESTED]),
         )
 
-    def _would_work(self, say: str, session: Session | None) -> bool:
+    def _would_work(self, say: str, session: Session | None, code: str) -> bool:
         if session is None:
             return True
-        heard = self.languages[DEFAULT].parse(say, ALONE)
-        return not isinstance(heard, Understood) or session.possible(heard.actions)
+        parse = self.languages[code].parse(say, ALONE)
+        return not isinstance(parse, Understood) or session.possible(parse.actions)
 
     async def _interpreted(self, model: LanguageModel, text: str, refusal: NotUnderstood, code: str) -> Heard:
         """What a model makes of a sentence the grammar refused. Raises the refusal, or asks."""

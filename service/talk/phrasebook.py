@@ -8,19 +8,30 @@ There is one owner as long as the service does not tell its users apart.
 from __future__ import annotations
 
 from service import actions as contract
-from service.actions import Action, Forget, Teach
+from service.actions import Action, Forget, Pause, Teach
 from service.language.parse_types import Refused
 from service.language.sentences import Unsayable
-from service.language.topic import Phrases
+from service.language.topic import Phrases, Topic
 from service.problems import FieldProblem, NotAvailable, NotSaved, NotTeachable
 from service.sessions.availability import refusal
 from service.sessions.facts import Lesson
 from service.store import PhraseRecord, Store, StoreError
 from service.talk.languages import DEFAULT, Languages
+from sim.actions import Where
+from sim.kinds import PLACEABLE, Kind
 
 OWNER = "everyone"
 MAX_PHRASES = 200
 MAX_WORDS = 8
+
+AMID_TALK = Topic(
+    things=tuple(f"{kind}-1" for kind in PLACEABLE),
+    added=tuple(f"{kind}-{number}" for kind in PLACEABLE for number in range(1, 11)),
+    actions=(Pause(),),
+    kind=Kind.POTHOLE.value,
+    where=Where(lane="left"),
+)
+"""A talk in which "again", "two more" or "remove them" mean something: they cannot be taught either."""
 
 
 class Phrasebook:
@@ -82,7 +93,7 @@ class Phrasebook:
             raise _not_teachable(f"A phrase may have at most {MAX_WORDS} words.")
         if new and len(self._kept) >= MAX_PHRASES:
             raise _not_teachable(f"{MAX_PHRASES} phrases are taught, which is the limit: forget one first.")
-        alone = self._languages[code].parse(action.phrase)
+        alone = self._languages[code].parse(action.phrase, AMID_TALK)
         if not isinstance(alone, Refused) or alone.reason == "negation":
             raise _not_teachable(f"“{action.phrase}” means something already, and that stays.")
         for meant in action.meaning:
