@@ -23,6 +23,10 @@ MOST = 8
 TRIED = 40
 """How many candidates are looked at for one prefix."""
 
+GAPS = 40
+"""How many gaps between words are looked at, from the end, for where the last request begins."""
+
+_GAP = re.compile(r"(?:[,;.]|\s)\s*")
 _WORD = re.compile(r"\S+")
 _NUMBER = re.compile(r"\d+(?:\.\d+)?")
 _ANY = "#"
@@ -68,6 +72,8 @@ class Completer:
         found: list[str] = []
         for candidate in self._candidates(tail, extra):
             whole = head + candidate
+            if whole in found:
+                continue
             parsed = heard(self._language.parse, whole, topic)
             if isinstance(parsed, Understood) and not parsed.corrections and possible(parsed.actions):
                 found.append(whole)
@@ -84,7 +90,7 @@ class Completer:
 
     def _last_request(self, prefix: str, topic: Topic) -> tuple[str, str]:
         """What stands before the last request of a compound, and that request's beginning."""
-        for match in reversed(list(re.finditer(r"(?:[,;.]|\s)\s*", prefix))):
+        for match in islice(reversed(list(_GAP.finditer(prefix))), GAPS):
             head = prefix[: match.end()]
             words = head.split()
             if not words:
@@ -96,8 +102,8 @@ class Completer:
         return "", prefix.lstrip()
 
     def _candidates(self, prefix: str, extra: Sequence[str]) -> Iterator[str]:
-        typed = prefix.lower()
-        given = (each for each in extra if each.lower().startswith(typed) and each.lower() != typed)
+        typed, end = prefix.lower(), len(prefix)
+        given = (prefix + each[end:] for each in extra if each[:end].lower() == typed and each[end:])
         yield from islice(chain(given, self._from_tree(prefix)), TRIED)
 
     def _from_tree(self, prefix: str) -> Iterator[str]:
@@ -105,7 +111,8 @@ class Completer:
         spans = [match.span() for match in _WORD.finditer(prefix)]
         words = [_slotted(prefix[start:end].lower()) for start, end in spans]
         open_word = words.pop() if words and not prefix[-1:].isspace() else ""
-        for node, depth, written in self._walks(prefix, spans, words):
+        start = spans[-1][0] if open_word else len(prefix)
+        for node, depth in self._walks(words):
             rest = [(word, below) for word, below in node.next.items() if word.startswith(open_word)]
             turns = [iter(below.sentences) for _, below in rest]
             while turns:
@@ -114,22 +121,20 @@ class Completer:
                     if sentence is None:
                         turns.remove(turn)
                         continue
-                    yield self._joined(written, sentence, depth, prefix, spans, bool(open_word))
+                    yield prefix[:start] + self._rest(sentence, depth, prefix[start:])
 
-    def _walks(
-        self, prefix: str, spans: Sequence[tuple[int, int]], words: Sequence[str]
-    ) -> Iterator[tuple[_Node, int, str]]:
+    def _walks(self, words: Sequence[str]) -> Iterator[tuple[_Node, int]]:
         """The places in the tree that whole words lead to, by the first verb or one that means the same."""
         node = self._follow(words)
         if node is not None:
-            yield node, len(words), prefix[: spans[len(words) - 1][1]] if words else ""
+            yield node, len(words)
         for length in range(min(3, len(words)), 0, -1):
             for typical in self._language.means_the_same(tuple(words[:length])):
                 if typical == tuple(words[:length]):
                     continue
                 node = self._follow((*typical, *words[length:]))
                 if node is not None:
-                    yield node, len(typical) + len(words) - length, prefix[: spans[len(words) - 1][1]]
+                    yield node, len(typical) + len(words) - length
 
     def _follow(self, words: Sequence[str]) -> _Node | None:
         node: _Node | None = self._root
@@ -138,14 +143,11 @@ class Completer:
         return node
 
     @staticmethod
-    def _joined(
-        written: str, sentence: str, depth: int, prefix: str, spans: Sequence[tuple[int, int]], opened: bool
-    ) -> str:
-        """What was written, and the sentence from there on; a number that is being typed stays."""
+    def _rest(sentence: str, depth: int, typed: str) -> str:
+        """The sentence from its `depth`-th word on; what is typed of that word stays as it was typed."""
         words = _WORD.findall(sentence)[depth:]
-        if opened and words:
-            start, end = spans[-1]
-            typed = prefix[start:end]
-            if _NUMBER.match(typed):
-                words[0] = _NUMBER.sub(_NUMBER.match(typed).group(), words[0])  # type: ignore[union-attr]
-        return " ".join([written, *words]) if written else " ".join(words)
+        if words and (number := _NUMBER.match(typed)):
+            words[0] = _NUMBER.sub(number.group(), words[0])
+        if words and words[0].lower().startswith(typed.lower()):
+            words[0] = typed + words[0][len(typed) :]
+        return " ".join(words)
