@@ -109,6 +109,8 @@ class _Maker:
                 return self._amount()
             case "down_amount":
                 return -self._amount()
+            case "down_speed":
+                return -self._slot("speed", None)
             case "parts":
                 return self.parts()
             case "planners":

@@ -218,6 +218,12 @@ class Divider:
             found = self._matcher.match(stretch, verbless=None if context.verbless else False)
             if found is not None and not self._each_whole(parts[at:end]):
                 return Clause(start, stop, *found), end - at
+            if found is None and context.verb and not context.negated:
+                leaning = self._matcher.match(
+                    self._stretch(start, stop, context, joined=True), verbless=False
+                )
+                if leaning is not None:
+                    return Clause(start, stop, *leaning), end - at
         return None, 0
 
     def _each_whole(self, parts: Sequence[Fragment]) -> bool:

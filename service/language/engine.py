@@ -140,9 +140,17 @@ class Language:
         words = self._lexicon.words | self.data.numbers.words()
 
         def same(a: str, b: str) -> bool:
-            return a.startswith(b) or b.startswith(a) or not self._nouns(a).isdisjoint(self._nouns(b))
+            if a.startswith(b) or b.startswith(a) or not self._nouns(a).isdisjoint(self._nouns(b)):
+                return True
+            meant = self._meant(a)
+            return bool(meant) and meant == self._meant(b)
 
         return Typos(self.data.typos, words, self.data.numbers.words(), same)
+
+    def _meant(self, word: str) -> frozenset[tuple[str, str]]:
+        """All that a word alone can mean."""
+        senses = self._lexicon.senses_of((word,))
+        return frozenset((sense.concept, repr(sense.value)) for sense in senses)
 
     def _nouns(self, word: str) -> frozenset[str]:
         """What a word alone is a noun for, singular and plural taken together."""

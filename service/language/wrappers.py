@@ -99,6 +99,12 @@ def _longest(lattice: Lattice, at: int, concept: str) -> Edge | None:
 def _conditions(lattice: Lattice, start: int, end: int) -> Iterator[tuple[int, int]]:
     """Where the condition of a what-if question may be, whichever end the question itself stands at."""
     opened = sorted((e for e in lattice.edges[start] if e.concept in (WHAT_IF, IF)), key=lambda e: -e.end)
+    for edge in lattice.edges[start]:
+        if edge.concept == THEN_WHAT:
+            at = _past_marks(lattice, edge.end, end)
+            opening = _longest(lattice, at, IF) if at < end else None
+            if opening is not None and opening.end < end:
+                yield opening.end, end
     for edge in opened:
         if edge.concept == WHAT_IF and edge.end < end:
             yield edge.end, end
@@ -109,12 +115,17 @@ def _conditions(lattice: Lattice, start: int, end: int) -> Iterator[tuple[int, i
 
 
 def _only_marks(lattice: Lattice, at: int, end: int) -> bool:
+    return _past_marks(lattice, at, end) >= end
+
+
+def _past_marks(lattice: Lattice, at: int, end: int) -> int:
+    """The first token from `at` that is neither glue nor a separator."""
     while at < end:
         passed = [edge.end for edge in lattice.edges[at] if edge.concept in (GLUE, SEPARATOR)]
         if not passed:
-            return False
+            return at
         at = max(passed)
-    return True
+    return at
 
 
 def _inside(divide: Divide, start: int, end: int) -> list[dict[str, Any]] | Fragment:
