@@ -107,7 +107,7 @@ def fragments(lattice: Lattice, start: int, end: int) -> list[Fragment]:
     after, begin, at, inside = "pause", start, start, start
     while at < end:
         separator = max(
-            (e for e in lattice.edges[at] if e.concept == SEPARATOR and e.end <= end),
+            (e for e in lattice.edges[at] if e.sense.concept == SEPARATOR and e.end <= end),
             key=lambda edge: edge.end,
             default=None,
         )
@@ -120,7 +120,7 @@ def fragments(lattice: Lattice, start: int, end: int) -> list[Fragment]:
             at = begin = inside = separator.end
             continue
         for edge in lattice.edges[at]:
-            if edge.end <= end and edge.concept not in (SEPARATOR, INTERJECTION):
+            if edge.end <= end and edge.sense.concept not in (SEPARATOR, INTERJECTION):
                 inside = max(inside, edge.end)
         at += 1
     if _says_something(lattice, begin, end):
@@ -132,11 +132,11 @@ def _past_interjection(lattice: Lattice, start: int, end: int) -> int:
     """Past a first part that only calls for attention: "right, …", "no, …", "car, …"."""
     longest = max((edge.end for edge in lattice.edges[start]), default=start) if start < end else start
     for edge in lattice.edges[start] if start < end else ():
-        if edge.end == longest and edge.concept == INTERJECTION and edge.end < end:
+        if edge.end == longest and edge.sense.concept == INTERJECTION and edge.end < end:
             marks = [
                 e
                 for e in lattice.edges[edge.end]
-                if e.concept == SEPARATOR and (e.sense.value in _MARKS or e.sense.value == _BUT)
+                if e.sense.concept == SEPARATOR and (e.sense.value in _MARKS or e.sense.value == _BUT)
             ]
             if marks and _says_something(lattice, marks[0].end, end):
                 return max(mark.end for mark in marks)
@@ -149,7 +149,7 @@ def _before_tag(lattice: Lattice, start: int, end: int) -> int:
         return end
     for edge in lattice.between(start, end):
         if (
-            edge.concept == TAG
+            edge.sense.concept == TAG
             and edge.start > start
             and not _says_something(lattice, edge.end, end, marks=True)
         ):
@@ -165,9 +165,9 @@ def _says_something(lattice: Lattice, start: int, end: int, *, marks: bool = Fal
             e.end
             for e in lattice.edges[at]
             if e.end <= end
-            and ((e.concept == GLUE and not e.sense.form) or (marks and e.concept == SEPARATOR))
+            and ((e.sense.concept == GLUE and not e.sense.form) or (marks and e.sense.concept == SEPARATOR))
         ]
-        if not glue or any(e.concept == REPEATED and e.end <= end for e in lattice.edges[at]):
+        if not glue or any(e.sense.concept == REPEATED and e.end <= end for e in lattice.edges[at]):
             return True
         at = max(glue)
     return False
@@ -280,12 +280,12 @@ class Divider:
         return True
 
     def _says_where(self, start: int, end: int) -> bool:
-        return any(edge.concept in _PLACED for edge in self._lattice.between(start, end))
+        return any(edge.sense.concept in _PLACED for edge in self._lattice.between(start, end))
 
     def _says_more(self, start: int, end: int) -> bool:
         """Whether an amount in the tokens is one more of something."""
         return any(
-            edge.concept == QUANTITY and edge.sense.value in _FURTHER
+            edge.sense.concept == QUANTITY and edge.sense.value in _FURTHER
             for edge in self._lattice.between(start, end)
         )
 
@@ -311,16 +311,16 @@ class Divider:
         context = context or Context()
         edges: dict[int, list[Edge]] = {}
         forms = set(self._moods)
-        concepts: set[str] = {edge.concept for edge in context.verb}
+        concepts: set[str] = {edge.sense.concept for edge in context.verb}
         for edge in self._lattice.between(start, end):
             edges.setdefault(edge.start, []).append(edge)
-            concepts.add(edge.concept)
-            if edge.concept == ALLOWS:
+            concepts.add(edge.sense.concept)
+            if edge.sense.concept == ALLOWS:
                 forms.add(str(edge.sense.value))
         if context.noun is not None:
             for edge in understood_nouns(self._lattice, start, end, context.noun, self._vague):
                 edges.setdefault(edge.start, []).append(edge)
-                concepts.add(edge.concept)
+                concepts.add(edge.sense.concept)
         moods = self._moods | (_NEGATED if context.negated else frozenset())
         forms |= moods
         if context.negated:
@@ -347,7 +347,7 @@ def _context(clause: Clause, before: Context) -> Context:
     verb = tuple(
         Edge(edge.start, edge.end, edge.sense)
         for edge in clause.filled.slots
-        if edge.concept in frame.inherits
+        if edge.sense.concept in frame.inherits
     )
     amounts = [edge for edge in clause.filled.slots if isinstance(edge.sense.value, Amount)]
     noun = amounts[-1] if amounts else before.noun
@@ -358,6 +358,6 @@ def _lenient(edge: Edge) -> list[Edge]:
     """Any amount may stand for any other in a negated part: "don't add any cars" is about adding."""
     if not isinstance(edge.sense.value, Amount):
         return []
-    name = edge.concept.partition(".")[0]
+    name = edge.sense.concept.partition(".")[0]
     amount = Amount(edge.sense.value.of, 1)
     return [Edge(edge.start, edge.end, Sense(f"{name}.{form}", amount)) for form in _LENIENT]

@@ -200,9 +200,11 @@ class Language:
 def _content(lattice: Lattice) -> frozenset[str]:
     """The concepts of a sentence that say what it is about."""
     return frozenset(
-        f"{edge.concept}={edge.sense.value}" if isinstance(edge.sense.value, str) else edge.concept
+        f"{edge.sense.concept}={edge.sense.value}"
+        if isinstance(edge.sense.value, str)
+        else edge.sense.concept
         for edge in lattice.all()
-        if edge.concept not in (GLUE, SEPARATOR, QUANTITY, ALLOWS)
+        if edge.sense.concept not in (GLUE, SEPARATOR, QUANTITY, ALLOWS)
     )
 
 
@@ -323,7 +325,7 @@ class _Reading:
         said: dict[str, str] = {}
         for edge in clause.filled.slots:
             written = self._written(edge.start, edge.end)
-            said[edge.concept.partition(".")[0]] = written
+            said[edge.sense.concept.partition(".")[0]] = written
             if isinstance(edge.sense.value, Amount):
                 noun = self._tokens[edge.end - 1]
                 said["noun"] = self._plain[noun.start : noun.end]
@@ -394,7 +396,9 @@ class _Reading:
         return [self._written(start, end) for start, end in stretches]
 
     def _only_glue(self, start: int, end: int) -> bool:
-        return all(any(edge.concept == GLUE for edge in self._lattice.edges[at]) for at in range(start, end))
+        return all(
+            any(edge.sense.concept == GLUE for edge in self._lattice.edges[at]) for at in range(start, end)
+        )
 
     def _written(self, start: int, end: int) -> str:
         """Tokens `[start, end)` as they stand in the text."""

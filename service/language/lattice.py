@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from service.language.lexicon import Lexicon, Sense
 from service.language.numbers import Found, NumberWords
@@ -29,8 +30,7 @@ class Name:
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class Edge:
+class Edge(NamedTuple):
     """Tokens `[start, end)` in one of their senses. `part` links the two halves of a split phrase."""
 
     start: int
@@ -70,10 +70,14 @@ class Lattice:
 
         `nouns` gives for each noun's concept that of its values.
         """
-        for outer in [edge for edge in self.all() if edge.concept in nouns and edge.end - edge.start > 1]:
+        for outer in [
+            edge for edge in self.all() if edge.sense.concept in nouns and edge.end - edge.start > 1
+        ]:
             for starting in self.edges[outer.start : outer.end]:
                 starting[:] = [
-                    edge for edge in starting if edge.concept != nouns[outer.concept] or edge.end > outer.end
+                    edge
+                    for edge in starting
+                    if edge.sense.concept != nouns[outer.concept] or edge.end > outer.end
                 ]
 
     def uncovered(self) -> list[int]:

@@ -9,15 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 from service.language.numbers import Found
 from service.language.patterns import GAP, ID, NUMBER, ORDINAL, Words, expand
 from service.language.tokens import Token
 
 
-@dataclass(frozen=True, slots=True)
-class Sense:
+class Sense(NamedTuple):
     """One thing a phrase can mean: a concept, its value (None when it needs none) and its form."""
 
     concept: str

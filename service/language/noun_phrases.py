@@ -48,10 +48,10 @@ def add_noun_phrases(lattice: Lattice, vague: int) -> None:
     """Give each noun its quantity; a bare noun's edge is replaced. `vague` is what "a few" counts as."""
     amounts: dict[int, list[Edge]] = {}
     for edge in lattice.all():
-        if edge.concept in _AMOUNTS:
+        if edge.sense.concept in _AMOUNTS:
             amounts.setdefault(edge.end, []).append(edge)
     for at in range(lattice.size):
-        nouns = [edge for edge in lattice.edges[at] if edge.concept.startswith(NOUN)]
+        nouns = [edge for edge in lattice.edges[at] if edge.sense.concept.startswith(NOUN)]
         if not nouns:
             continue
         gathered = _gather(amounts, at)
@@ -60,7 +60,7 @@ def add_noun_phrases(lattice: Lattice, vague: int) -> None:
             for edge in lattice.edges[at]
             if edge not in nouns and (edge.sense.form != DETERMINED or not edge.sense.form)
         ] + [
-            Edge(gathered.start, edge.end, Sense(edge.concept, edge.sense.value))
+            Edge(gathered.start, edge.end, Sense(edge.sense.concept, edge.sense.value))
             for edge in lattice.edges[at]
             if edge.sense.form == DETERMINED and gathered.said == {"the"} and gathered.number is None
         ]
@@ -76,7 +76,7 @@ def understood_nouns(lattice: Lattice, start: int, end: int, noun: Edge, vague: 
     """Edges in which an amount stands for the noun spoken of before: "and two in the right lane"."""
     amounts: dict[int, list[Edge]] = {}
     for edge in lattice.between(start, end):
-        if edge.concept in _AMOUNTS:
+        if edge.sense.concept in _AMOUNTS:
             amounts.setdefault(edge.end, []).append(edge)
     found: list[Edge] = []
     for at in sorted(amounts):
@@ -95,11 +95,11 @@ def _gather(amounts: dict[int, list[Edge]], noun: int) -> _Gathered:
     while gathered.start in amounts:
         before = amounts[gathered.start]
         if gathered.number is not None:
-            before = [edge for edge in before if edge.concept != NUMBER]
+            before = [edge for edge in before if edge.sense.concept != NUMBER]
         before = [edge for edge in before if edge.sense.value != OF_THE or edge.start in amounts]
         if not before:
             break
-        longest = min(before, key=lambda edge: (edge.start, edge.concept != NUMBER))
+        longest = min(before, key=lambda edge: (edge.start, edge.sense.concept != NUMBER))
         if longest.concept == NUMBER:
             gathered.number = longest.sense.value
         else:
@@ -167,12 +167,12 @@ def _number_after(lattice: Lattice, phrase: Edge) -> Edge | None:
     if form not in ("bare_many", "bare_one"):
         return None
     at = phrase.end
-    if at < lattice.size and any(edge.concept == COLON for edge in lattice.edges[at]):
+    if at < lattice.size and any(edge.sense.concept == COLON for edge in lattice.edges[at]):
         at += 1
     if at >= lattice.size:
         return None
     for edge in lattice.edges[at]:
-        if edge.concept == NUMBER:
+        if edge.sense.concept == NUMBER:
             amount = Amount(phrase.sense.value.of, edge.sense.value)
             more = next((e for e in _at(lattice, edge.end) if e.sense.value == "more"), None)
             if more is not None:

@@ -65,12 +65,14 @@ def fill(frame: Frame, stretch: Stretch) -> tuple[Filled, int] | None:
     open_needs = list(frame.needs)
     used: set[str] = set()
     for edge in stretch.given:
-        need = next((group for group in open_needs if edge.concept in group), None)
+        need = next((group for group in open_needs if edge.sense.concept in group), None)
         if need is not None:
             open_needs.remove(need)
-        elif edge.concept not in frame.accepted or (edge.concept in used and edge.concept not in frame.many):
+        elif edge.sense.concept not in frame.accepted or (
+            edge.sense.concept in used and edge.sense.concept not in frame.many
+        ):
             return None
-        used.add(edge.concept)
+        used.add(edge.sense.concept)
     pieces = _walk(search, stretch.start, open_needs, used, 0)
     return None if pieces is None else (Filled(frame, search.slots), pieces)
 
@@ -131,7 +133,7 @@ def _walk(search: _Search, at: int, needs: list[frozenset[str]], used: set[str],
             if edge.part:
                 search.parts.pop()
             continue
-        concept = edge.concept
+        concept = edge.sense.concept
         meets = next((group for group in needs if concept in group), None)
         if meets is None and concept in used and concept not in frame.many:
             continue
@@ -148,7 +150,7 @@ def _forms_in_place(search: _Search) -> bool:
     """Whether each form used is put in place by a phrase on the path, and each such phrase is needed."""
     free = search.frame.forms | search.stretch.moods
     used = {edge.sense.form for edge in search.slots if edge.sense.form} - free
-    only_for = {str(edge.sense.value) for edge in search.glue if edge.concept == ALLOWS}
+    only_for = {str(edge.sense.value) for edge in search.glue if edge.sense.concept == ALLOWS}
     said = {edge.sense.form for edge in search.slots}
     if not only_for <= said:
         return False
@@ -159,7 +161,7 @@ def _forms_in_place(search: _Search) -> bool:
         str(edge.sense.value)
         for starting in search.stretch.edges.values()
         for edge in starting
-        if edge.concept == ALLOWS and (edge.start, edge.end) in spans
+        if edge.sense.concept == ALLOWS and (edge.start, edge.end) in spans
     }
     return used <= allowed
 

@@ -72,13 +72,13 @@ def add_referents(lattice: Lattice, topic: Topic) -> list[Unclear]:
     """Edges for all that words refer to; what stays unclear. After noun phrases were found."""
     unclear: list[Unclear] = []
     for edge in [edge for starting in lattice.edges for edge in starting if edge.sense.concept in _REFERRING]:
-        found = _pronoun(edge, lattice, topic) if edge.concept == REFERS else _pointed(edge, topic)
+        found = _pronoun(edge, lattice, topic) if edge.sense.concept == REFERS else _pointed(edge, topic)
         if isinstance(found, Unclear):
             unclear.append(found)
-            if edge.concept != REFERS and found.candidates:
+            if edge.sense.concept != REFERS and found.candidates:
                 lattice.edges[edge.start].remove(edge)
         elif found is not None:
-            if edge.concept != REFERS:
+            if edge.sense.concept != REFERS:
                 lattice.edges[edge.start].remove(edge)
             lattice.edges[edge.start].append(found)
     # Of "in the other lane" and "the other lane" the shorter first: what is put in its place keeps the "in".
@@ -119,7 +119,11 @@ def _lane_before(lattice: Lattice, start: int, where: Where | None) -> str | int
     """The lane spoken of last: in this sentence, or before it."""
     lane = where.lane if where is not None else None
     for edge in lattice.between(0, start):
-        if edge.concept == "place" and isinstance(edge.sense.value, dict) and "lane" in edge.sense.value:
+        if (
+            edge.sense.concept == "place"
+            and isinstance(edge.sense.value, dict)
+            and "lane" in edge.sense.value
+        ):
             lane = edge.sense.value["lane"]
     return lane
 
@@ -127,7 +131,7 @@ def _lane_before(lattice: Lattice, start: int, where: Where | None) -> str | int
 def _pointed(edge: Edge, topic: Topic) -> Edge | Unclear | None:
     """What "that pothole", "those cars", "the last two cones" point at; None where at nothing said."""
     amount: Amount = edge.sense.value
-    form = edge.concept.partition(".")[2]
+    form = edge.sense.concept.partition(".")[2]
     spoken_of = topic.added if form.startswith("last") else topic.things
     ids = tuple(name for name in spoken_of if kind_of(name) == amount.of)
     if form.startswith("last"):

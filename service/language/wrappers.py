@@ -51,7 +51,7 @@ def _sentences(lattice: Lattice, start: int, end: int) -> list[tuple[int, int]]:
     """
     if WHAT_IF not in lattice.concepts:
         return [(start, end)]
-    stops = (e for e in lattice.between(start, end) if e.concept == SEPARATOR and e.sense.value == STOP)
+    stops = (e for e in lattice.between(start, end) if e.sense.concept == SEPARATOR and e.sense.value == STOP)
     cuts = [start, *sorted(edge.end for edge in stops)]
     parts = [(a, b) for a, b in zip(cuts, [*cuts[1:], end], strict=True) if a < b]
     begun = [at for at in (_past_glue(lattice, *part) for part in parts) if at < end]
@@ -83,7 +83,7 @@ def _past_glue(lattice: Lattice, at: int, end: int) -> int:
     while at < end:
         if any(_longest(lattice, at, concept) for concept in (WHAT_IF, IF, TEACH)):
             return at
-        passed = [edge.end for edge in lattice.edges[at] if edge.concept in (GLUE, SEPARATOR)]
+        passed = [edge.end for edge in lattice.edges[at] if edge.sense.concept in (GLUE, SEPARATOR)]
         if not passed:
             return at
         at = max(passed)
@@ -92,21 +92,23 @@ def _past_glue(lattice: Lattice, at: int, end: int) -> int:
 
 def _longest(lattice: Lattice, at: int, concept: str) -> Edge | None:
     """The longest edge with this concept that starts at a token."""
-    found = [edge for edge in lattice.edges[at] if edge.concept == concept]
+    found = [edge for edge in lattice.edges[at] if edge.sense.concept == concept]
     return max(found, key=lambda edge: edge.end, default=None)
 
 
 def _conditions(lattice: Lattice, start: int, end: int) -> Iterator[tuple[int, int]]:
     """Where the condition of a what-if question may be, whichever end the question itself stands at."""
-    opened = sorted((e for e in lattice.edges[start] if e.concept in (WHAT_IF, IF)), key=lambda e: -e.end)
+    opened = sorted(
+        (e for e in lattice.edges[start] if e.sense.concept in (WHAT_IF, IF)), key=lambda e: -e.end
+    )
     for edge in lattice.edges[start]:
-        if edge.concept == THEN_WHAT:
+        if edge.sense.concept == THEN_WHAT:
             at = _past_marks(lattice, edge.end, end)
             opening = _longest(lattice, at, IF) if at < end else None
             if opening is not None and opening.end < end:
                 yield opening.end, end
     for edge in opened:
-        if edge.concept == WHAT_IF and edge.end < end:
+        if edge.sense.concept == WHAT_IF and edge.end < end:
             yield edge.end, end
         for at in range(edge.end + 1, end):
             asked = _longest(lattice, at, THEN_WHAT)
@@ -121,7 +123,7 @@ def _only_marks(lattice: Lattice, at: int, end: int) -> bool:
 def _past_marks(lattice: Lattice, at: int, end: int) -> int:
     """The first token from `at` that is neither glue nor a separator."""
     while at < end:
-        passed = [edge.end for edge in lattice.edges[at] if edge.concept in (GLUE, SEPARATOR)]
+        passed = [edge.end for edge in lattice.edges[at] if edge.sense.concept in (GLUE, SEPARATOR)]
         if not passed:
             return at
         at = max(passed)

@@ -17,6 +17,10 @@ from service.language.parse_types import Understood
 from service.language.topic import Topic
 from service.sessions.availability import refusal
 from service.sessions.session import Session
+from sim.actions import Adjust, Set
+from sim.config import Config
+from sim.edit_error import EditError
+from sim.settings import setting
 
 EXAMPLES = 6
 """How many examples an intent is shown with."""
@@ -62,7 +66,7 @@ class Guide:
 
         def possible(actions: tuple[Action, ...]) -> bool:
             if session is not None:
-                return session.possible(actions)
+                return session.possible(actions) and _settable(actions, session.run.config)
             return all(refusal(action) is None for action in actions)
 
         extra = [*taught, *self._by_id(topic)]
@@ -90,6 +94,17 @@ class Guide:
 
 def _name(action: Action) -> str:
     return f"ask {action.about}" if isinstance(action, Ask) else action.do
+
+
+def _settable(actions: tuple[Action, ...], config: Config) -> bool:
+    """Whether settings can be set so, one after the other; cheap, where a new road would not be."""
+    try:
+        for action in actions:
+            if isinstance(action, Set | Adjust):
+                config = setting(config, action)
+    except EditError:
+        return False
+    return True
 
 
 def _intent(name: str, examples: list[Example]) -> Intent:
