@@ -37,6 +37,13 @@ class Sayings:
             found = found[key]
         return str(found).format(**parts)
 
+    def words(self, file: str, *keys: str) -> Any:
+        """What stands under keys as it is: a list or a table of words."""
+        found: Any = self._files[file]
+        for key in keys:
+            found = found[key]
+        return found
+
     def examples(self) -> list[str]:
         """Sentences that a newcomer may try."""
         return list(self._files["answers"]["help_examples"])

@@ -1,0 +1,85 @@
+"""Things as a person would point at them: "the pothole ahead", "the car two lanes to your left".
+
+Said from the vehicle's seat, by kind, lanes and metres; where two things would be called the same, the
+rows tell them apart. Ids belong in the structured part of an answer. Words are data (`naming.yaml`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from service.narrate.sayings import Sayings
+from sim.kinds import Cell, Kind
+from sim.road import Road
+from sim.run import Run
+
+
+class Naming:
+    """Names in one language, as seen in one moment."""
+
+    def __init__(self, sayings: Sayings, run: Run) -> None:
+        """`run`: the moment; the vehicle stands where it stood then."""
+        self._sayings = sayings
+        self._world = run.world
+        self._cell_m = run.config.cell_m
+
+    def thing(self, name: str) -> str:
+        """The thing with this id, with its article: "the pothole ahead". An id no longer there is itself."""
+        found = self._world.find(name)
+        if found is None:
+            return name
+        return self._named(found.kind, found.cell, ambiguous=self._ambiguous(name, found.kind, found.cell))
+
+    def things(self, names: Sequence[str]) -> str:
+        """Several things, each named: "the pothole ahead and the car on your left"."""
+        return self._sayings.joined([self.thing(name) for name in names])
+
+    def place(self, cell: Cell) -> str:
+        """A cell as seen from the vehicle: "ahead", "one lane to the left, 10 m ahead"."""
+        return self._place(cell)
+
+    def _named(self, kind: Kind, cell: Cell, *, ambiguous: bool) -> str:
+        noun = self._sayings.say("naming", "the", kind)
+        place = self._exactly(cell) if ambiguous else self._place(cell)
+        return self._sayings.say("naming", "thing", noun=noun, place=place)
+
+    def _ambiguous(self, name: str, kind: Kind, cell: Cell) -> bool:
+        """Whether another thing of the kind would be called the same."""
+        place = self._place(cell)
+        road = self._world.road
+        table = self._world.movers if kind.moves else self._world.hazards
+        return any(
+            other != name and other.startswith(f"{kind}-") and self._place(road.cell(index)) == place
+            for index, other in table.items()
+        )
+
+    def _place(self, cell: Cell) -> str:
+        column, row = self._seat(self._world.road)
+        across, along = cell[0] - column, row - cell[1]
+        parts = [self._lanes(across), self._metres(along, beside=across != 0)]
+        return self._sayings.say("naming", "apart").join(part for part in parts if part)
+
+    def _exactly(self, cell: Cell) -> str:
+        return self._sayings.say("naming", "exactly", lane=cell[0] + 1, row=cell[1])
+
+    def _lanes(self, across: int) -> str:
+        if across == 0:
+            return ""
+        side = "left" if across < 0 else "right"
+        count = abs(across)
+        return self._sayings.say("naming", side, "one" if count == 1 else "many", count=self._count(count))
+
+    def _metres(self, along: int, *, beside: bool) -> str:
+        if along == 0:
+            return "" if beside else self._sayings.say("naming", "here")
+        side = "ahead" if along > 0 else "behind"
+        if abs(along) == 1 and not beside:
+            return self._sayings.say("naming", side, "next")
+        return self._sayings.say("naming", side, "metres", metres=f"{abs(along) * self._cell_m:g}")
+
+    def _count(self, count: int) -> str:
+        words = self._sayings.words("naming", "counts")
+        return str(words[count]) if count < len(words) else str(count)
+
+    def _seat(self, road: Road) -> Cell:
+        return road.cell(self._world.av)

@@ -1,0 +1,32 @@
+"""Answers to why and why not: the explanation's facts as JSON values, and in words."""
+
+from __future__ import annotations
+
+from service.narrate.answering import Json, not_so, plain
+from service.narrate.explained import Explained
+from service.narrate.sayings import Sayings
+from service.sessions.facts import Asked
+from service.wire.explanation import explanation_json
+from sim.explain import QuestionError, why, why_not
+
+
+class Whys:
+    """Answers to "why did you …?" and "why didn't you …?"."""
+
+    def __init__(self, sayings: Sayings) -> None:
+        """`sayings`: the language's."""
+        self._sayings = sayings
+        self._explained = Explained(sayings)
+
+    def answer(self, asked: Asked) -> Json:
+        """See `Answerer.answer`. A question about what is not so is answered too, without causes."""
+        ask, timeline = asked.ask, asked.timeline
+        try:
+            if ask.move is not None and ask.about == "why_not":
+                explanation = why_not(timeline, ask.move, ask.tick)
+            else:
+                explanation = why(timeline, ask.tick, ask.move)
+        except QuestionError as error:
+            return plain(self._sayings, ask, timeline.run, not_so(self._sayings, error.code, error.facts))
+        text = self._explained.text(explanation)
+        return plain(self._sayings, ask, timeline.run, text) | explanation_json(explanation)
