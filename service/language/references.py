@@ -49,12 +49,16 @@ def heard(parse: Callable[[str, Topic], Parse], text: str, topic: Topic) -> Pars
 
     So "carry on" stays what it is when "carry" was taught.
     """
-    if topic.phrases.by_first:
-        alone = parse(text, replace(topic, phrases=Phrases()))
-        repaired = isinstance(alone, Understood) and alone.corrections
-        if not repaired and not (isinstance(alone, Refused) and alone.reason == "not_understood"):
-            return alone
-    return parse(text, topic)
+    if not topic.phrases.by_first:
+        return parse(text, topic)
+    alone = parse(text, replace(topic, phrases=Phrases()))
+    if isinstance(alone, Refused) and alone.reason == "not_understood":
+        return parse(text, topic)
+    if isinstance(alone, Understood) and alone.corrections:
+        # A word that looked mistyped may be a taught one.
+        known = parse(text, topic)
+        return alone if isinstance(known, Refused) else known
+    return alone
 
 
 def add_known(lattice: Lattice, tokens: Sequence[Token], topic: Topic) -> None:

@@ -7,6 +7,8 @@ There is one owner as long as the service does not tell its users apart.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from service import actions as contract
 from service.actions import Action, Forget, Pause, Teach
 from service.language.parse_types import Refused
@@ -93,8 +95,10 @@ class Phrasebook:
             raise _not_teachable(f"A phrase may have at most {MAX_WORDS} words.")
         if new and len(self._kept) >= MAX_PHRASES:
             raise _not_teachable(f"{MAX_PHRASES} phrases are taught, which is the limit: forget one first.")
-        alone = self._languages[code].parse(action.phrase, AMID_TALK)
-        if not isinstance(alone, Refused) or alone.reason == "negation":
+        others = {each.phrase: contract.load(each.meaning) for each in self.listed(code) if each.key != key}
+        amid = replace(AMID_TALK, phrases=self._languages[code].phrases(others))
+        alone = self._languages[code].parse(action.phrase, amid)
+        if not isinstance(alone, Refused) or alone.reason != "not_understood":
             raise _not_teachable(f"“{action.phrase}” means something already, and that stays.")
         for meant in action.meaning:
             if (sentence := refusal(meant)) is not None:

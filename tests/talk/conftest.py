@@ -31,16 +31,21 @@ def english() -> Language:
 class Talk:
     """A service, and one session of it that is talked to."""
 
-    def __init__(self, client: httpx.AsyncClient, app: Any, path: str = "") -> None:
+    def __init__(self, client: httpx.AsyncClient, app: Any, stack: AsyncExitStack, path: str = "") -> None:
         self.client = client
         self.app = app
         self.path = path
+        self._stack = stack
+
+    async def stop(self) -> None:
+        """End the service, as for a restart."""
+        await self._stack.aclose()
 
     async def begin(self, **config: Any) -> Talk:
         """Another session of the same service, the same road each time."""
         answer = await self.client.post("/api/v1/sessions", json={"seed": 7, "paused": True, **config})
         assert answer.status_code == 201, answer.text
-        return Talk(self.client, self.app, answer.headers["location"])
+        return Talk(self.client, self.app, self._stack, answer.headers["location"])
 
     async def post(self, text: str, **more: Any) -> httpx.Response:
         return await self.client.post(f"{self.path}/commands", json={"text": text, **more})
@@ -112,12 +117,13 @@ async def opening() -> AsyncIterator[Opening]:
                 clock=HandClock(),
                 model=model,
             )
-            await stack.enter_async_context(app.router.lifespan_context(app))
+            own = await stack.enter_async_context(AsyncExitStack())
+            await own.enter_async_context(app.router.lifespan_context(app))
             transport = httpx.ASGITransport(app)
-            client = await stack.enter_async_context(
+            client = await own.enter_async_context(
                 httpx.AsyncClient(transport=transport, base_url="http://service")
             )
-            return await Talk(client, app).begin(**config)
+            return await Talk(client, app, own).begin(**config)
 
         yield open_one
 
