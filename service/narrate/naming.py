@@ -1,7 +1,7 @@
-"""Things as a person would point at them: "the pothole ahead", "the car two lanes to your left".
+"""Things as the driver would point at them: "the pothole ahead", "the car two lanes to my left".
 
-Said from the vehicle's seat, by kind, lanes and metres; where two things would be called the same, the
-rows tell them apart. Ids belong in the structured part of an answer. Words are data (`naming.yaml`).
+Lanes and metres from the vehicle's seat name one cell each, so no two things of a kind have one name. Ids
+belong in the structured part of an answer. Words are data (`naming.yaml`).
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from service.narrate.sayings import Sayings
-from sim.kinds import Cell, Kind
+from sim.kinds import Cell
 from sim.road import Road
 from sim.run import Run
 
@@ -28,39 +28,22 @@ class Naming:
         found = self._world.find(name)
         if found is None:
             return name
-        return self._named(found.kind, found.cell, ambiguous=self._ambiguous(name, found.kind, found.cell))
+        noun = self._sayings.say("naming", "the", found.kind)
+        return self._sayings.say("naming", "thing", noun=noun, place=self._place(found.cell))
 
     def things(self, names: Sequence[str]) -> str:
-        """Several things, each named: "the pothole ahead and the car on your left"."""
+        """Several things, each named: "the pothole ahead and the car on my left"."""
         return self._sayings.joined([self.thing(name) for name in names])
 
     def place(self, cell: Cell) -> str:
         """A cell as seen from the vehicle: "ahead", "one lane to the left, 10 m ahead"."""
         return self._place(cell)
 
-    def _named(self, kind: Kind, cell: Cell, *, ambiguous: bool) -> str:
-        noun = self._sayings.say("naming", "the", kind)
-        place = self._exactly(cell) if ambiguous else self._place(cell)
-        return self._sayings.say("naming", "thing", noun=noun, place=place)
-
-    def _ambiguous(self, name: str, kind: Kind, cell: Cell) -> bool:
-        """Whether another thing of the kind would be called the same."""
-        place = self._place(cell)
-        road = self._world.road
-        table = self._world.movers if kind.moves else self._world.hazards
-        return any(
-            other != name and other.startswith(f"{kind}-") and self._place(road.cell(index)) == place
-            for index, other in table.items()
-        )
-
     def _place(self, cell: Cell) -> str:
         column, row = self._seat(self._world.road)
         across, along = cell[0] - column, row - cell[1]
         parts = [self._lanes(across), self._metres(along, beside=across != 0)]
         return self._sayings.say("naming", "apart").join(part for part in parts if part)
-
-    def _exactly(self, cell: Cell) -> str:
-        return self._sayings.say("naming", "exactly", lane=cell[0] + 1, row=cell[1])
 
     def _lanes(self, across: int) -> str:
         if across == 0:

@@ -6,7 +6,8 @@ from typing import Any
 
 from service import actions as contract
 from service.wire.decision import option_json
-from sim.explain import Cause, Counterfactual, Explanation
+from sim.explain import Cause, Counterfactual, Explanation, Future, Stakes
+from sim.run import Run
 
 Json = dict[str, Any]
 
@@ -14,12 +15,12 @@ Json = dict[str, Any]
 def explanation_json(explanation: Explanation) -> Json:
     """Causes, alternatives, proofs; every `change` is a list of actions to try it with at that tick."""
     decision, verified = explanation.decision, explanation.verified
-    flips = [_flip_json(flip) for flip in explanation.counterfactuals]
+    flips = [_flip_json(flip, decision.tick) for flip in explanation.counterfactuals]
     return {
         "tick": decision.tick,
         "move": decision.move,
         "foil": explanation.foil,
-        "causes": [_cause_json(cause) for cause in explanation.causes],
+        "causes": [_cause_json(cause, explanation.moment) for cause in explanation.causes],
         "alternatives": [option_json(option) for option in decision.options],
         "verified": {
             "necessary": verified.necessary,
@@ -27,21 +28,45 @@ def explanation_json(explanation: Explanation) -> Json:
             "minimal": verified.minimal,
         },
         "counterfactual": flips[0] if flips else None,
+        "stakes": None if explanation.stakes is None else _stakes_json(explanation.stakes),
         "evidence": {"counterfactuals": flips, "reruns": explanation.reruns},
     }
 
 
-def _cause_json(cause: Cause) -> Json:
+def _cause_json(cause: Cause, moment: Run) -> Json:
     return {
         "id": cause.id,
         "kind": cause.kind,
         "cell": cause.cell,
+        "distance_m": None if cause.cell is None else _distance(cause.cell, moment),
         "role": cause.role,
         "moves": cause.moves,
         "necessary": cause.necessary,
         "group": cause.group,
+        "each_enough": cause.each_enough,
     }
 
 
-def _flip_json(flip: Counterfactual) -> Json:
-    return {"change": contract.dump(flip.change), "decision": flip.move}
+def _distance(cell: tuple[int, int], moment: Run) -> float:
+    """Metres from the vehicle, lanes and rows alike."""
+    column, row = moment.world.road.cell(moment.world.av)
+    return max(abs(cell[0] - column), abs(cell[1] - row)) * moment.config.cell_m
+
+
+def _flip_json(flip: Counterfactual, tick: int) -> Json:
+    """A change that flips the decision; `at_tick` is where a fork must begin to see it."""
+    return {"at_tick": tick, "change": contract.dump(flip.change), "decision": flip.move}
+
+
+def _stakes_json(stakes: Stakes) -> Json:
+    return {
+        "foil": stakes.foil,
+        "would": None if stakes.would is None else _future_json(stakes.would),
+        "real": None if stakes.real is None else _future_json(stakes.real),
+        "ticks_lost": stakes.ticks_lost,
+        "dead_end": stakes.dead_end,
+    }
+
+
+def _future_json(future: Future) -> Json:
+    return {"outcome": future.outcome, "ticks": future.ticks, "ids": future.ids}

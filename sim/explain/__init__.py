@@ -6,13 +6,16 @@
 
 from sim.explain.facts import Cause, Counterfactual, Explanation, QuestionError, Role, Verified
 from sim.explain.query import why, why_not
+from sim.explain.stakes import Future, Stakes
 
 __all__ = [
     "Cause",
     "Counterfactual",
     "Explanation",
+    "Future",
     "QuestionError",
     "Role",
+    "Stakes",
     "Verified",
     "why",
     "why_not",

@@ -1,4 +1,4 @@
-"""The things a decision hangs on: a smallest set that brings it about, each one tried by removal.
+"""What a decision hangs on: a smallest set of things and wishes that brings it about, each tried by removal.
 
 A set is *enough* if, with nothing else on the road, the move is the same; the causes are such a set
 from which nothing can be spared. A cause is *necessary* if taking it away, and nothing else, changes
@@ -17,8 +17,9 @@ from __future__ import annotations
 
 from itertools import combinations
 
+from sim.explain.factors import is_factor, removal
 from sim.explain.facts import Cause, Counterfactual, Explanation, Role, Verified
-from sim.explain.rerun import Rerun, removal, wall
+from sim.explain.rerun import Rerun, wall
 from sim.kinds import Move
 from sim.optimum.thin import spared
 from sim.place import nearest_first
@@ -32,21 +33,23 @@ MAX_TRIED = 8
 
 def explain_why(run: Run, decision: Decision) -> Explanation:
     """Why `decision` was taken in `run`."""
-    rerun = Rerun(run)
+    rerun = Rerun(run, decision)
     fact = decision.move
-    names = _telling_first(run.world, decision)
+    names = [*rerun.factors, *_telling_first(run.world, decision)]
     enough = spared(names, lambda kept: rerun.keeping(kept) is fact)
     if any(rerun.without([name]) is fact for name in enough):  # some have a stand-in
         enough = _of_necessary(rerun, fact, names) or enough
     enough, minimal = _smallest(rerun, fact, enough)
     groups = {name: _group(rerun, fact, name, names, enough) for name in enough}
-    causes = _ranked(run, decision, enough, groups)
+    causes = _ranked(rerun, decision, enough, groups)
     told = dict.fromkeys(cause.group for cause in causes)
-    flips = [Counterfactual(removal(group), rerun.without(group)) for group in told]
+    flips = [Counterfactual(removal(group, run.config), rerun.without(group), group) for group in told]
+    foil = next((option.move for option in decision.preferred if option.cell is not None), None)
     return Explanation(
         about="why",
+        moment=run,
         decision=decision,
-        foil=None,
+        foil=foil,
         causes=causes,
         verified=Verified(
             necessary=all(cause.necessary for cause in causes),
@@ -54,6 +57,7 @@ def explain_why(run: Run, decision: Decision) -> Explanation:
             minimal=minimal,
         ),
         counterfactuals=tuple(flips or _had_it_been_blocked(rerun, decision)),
+        stakes=None,
         reruns=rerun.count,
     )
 
@@ -106,20 +110,30 @@ def _smallest(rerun: Rerun, fact: Move, enough: list[str]) -> tuple[list[str], b
 
 
 def _ranked(
-    run: Run, decision: Decision, enough: list[str], groups: dict[str, tuple[str, ...]]
+    rerun: Rerun, decision: Decision, enough: list[str], groups: dict[str, tuple[str, ...]]
 ) -> tuple[Cause, ...]:
-    """The causes, those that block the most preferred move first."""
+    """The causes: those that block the most preferred move first, then what sent them there, then wishes."""
     if decision.held_back:
         hindered = [option for option in decision.options if option.move is decision.asked]
     else:
         hindered = list(decision.preferred)
     causes = []
     for name in enough:
-        thing = run.world.find(name)
+        group = groups[name]
+        necessary = group == (name,)
+        each = not necessary and all(rerun.keeping([other]) is decision.move for other in group)
+        if is_factor(name):
+            kind = name.partition(":")[0]
+            causes.append(Cause(name, kind, None, Role.WEIGHS, (), necessary, group, each))  # type: ignore[arg-type]
+            continue
+        thing = rerun.run.world.find(name)
         if thing is not None:
             blocked = tuple(option.move for option in hindered if name in option.causes)
             role = Role.BLOCKS if blocked else Role.DRIVES
-            group = groups[name]
-            causes.append(Cause(name, thing.kind, thing.cell, role, blocked, group == (name,), group))
+            causes.append(Cause(name, thing.kind, thing.cell, role, blocked, necessary, group, each))
     order = [option.move for option in hindered]
-    return tuple(sorted(causes, key=lambda cause: order.index(cause.moves[0]) if cause.moves else len(order)))
+
+    def rank(cause: Cause) -> tuple[int, bool]:
+        return order.index(cause.moves[0]) if cause.moves else len(order), cause.role is Role.WEIGHS
+
+    return tuple(sorted(causes, key=rank))

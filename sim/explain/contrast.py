@@ -9,13 +9,16 @@ the decision, run again with it, is the move asked about.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import get_args
 
-from sim.actions import Add
+from sim.actions import Add, Prefer, Wish, WorldAction
+from sim.explain.factors import removal
 from sim.explain.facts import Cause, Counterfactual, Explanation, Role, Verified
-from sim.explain.rerun import Rerun, removal, wall
+from sim.explain.rerun import Rerun, wall
+from sim.explain.stakes import stakes
 from sim.kinds import Move
 from sim.optimum.thin import spared
-from sim.plan import Decision
+from sim.plan import Decision, Measure
 from sim.run import Run
 
 MAX_ROUNDS = 8
@@ -24,25 +27,29 @@ MAX_ROUNDS = 8
 
 def explain_why_not(run: Run, decision: Decision, foil: Move) -> Explanation:
     """Why `foil` was not the move of `decision` in `run`."""
-    rerun = Rerun(run)
+    rerun = Rerun(run, decision)
     cleared = _cleared(rerun, decision, foil)
     freed = rerun.without(cleared) is foil
     if freed:
         cleared = spared(cleared, lambda names: rerun.without(names) is foil)
-    walls = [] if freed else _walls(rerun, cleared, foil)
+    wished = [] if freed else _wished(rerun, cleared, foil)
+    walls = [] if freed or wished else _walls(rerun, cleared, foil)
     counterfactuals = []
-    if freed or walls:
-        counterfactuals.append(Counterfactual((*removal(cleared), *walls), foil))
+    away = removal(cleared, run.config)
+    if freed or walls or wished:
+        counterfactuals.append(Counterfactual((*away, *wished, *walls), foil, tuple(cleared)))
     elif cleared:
-        counterfactuals.append(Counterfactual(removal(cleared), rerun.without(cleared)))
+        counterfactuals.append(Counterfactual(away, rerun.without(cleared), tuple(cleared)))
     causes = _causes(run, decision, foil, cleared, freed)
     return Explanation(
         about="why_not",
+        moment=run,
         decision=decision,
         foil=foil,
         causes=causes,
         verified=_verified(rerun, foil, cleared, freed),
         counterfactuals=tuple(counterfactuals),
+        stakes=stakes(run, decision, foil),
         reruns=rerun.count,
     )
 
@@ -60,6 +67,18 @@ def _cleared(rerun: Rerun, decision: Decision, foil: Move) -> list[str]:
     return cleared
 
 
+def _wished(rerun: Rerun, cleared: Sequence[str], foil: Move) -> list[WorldAction]:
+    """The one other wish with which a planner that weighs costs makes the foil, if there is one."""
+    if rerun.decision.measure is not Measure.COST:
+        return []
+    away = removal(cleared, rerun.run.config)
+    for wish in get_args(Wish):
+        change = Prefer(preference=wish)
+        if rerun.after((*away, change)) is foil:
+            return [change]
+    return []
+
+
 def _walls(rerun: Rerun, cleared: Sequence[str], foil: Move) -> list[Add]:
     """What blocks the free moves that come before the foil, if with it the foil is the move taken."""
     seen = rerun.decision_without(cleared)
@@ -71,7 +90,7 @@ def _walls(rerun: Rerun, cleared: Sequence[str], foil: Move) -> list[Add]:
     if world.road.cell(world.av) in cells:
         return []  # nothing can be put where the vehicle stands, so staying cannot be taken away
     walls = [wall(world, cell) for cell in cells]
-    return walls if walls and rerun.after((*removal(cleared), *walls)) is foil else []
+    return walls if walls and rerun.after((*removal(cleared, rerun.run.config), *walls)) is foil else []
 
 
 def _causes(

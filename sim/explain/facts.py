@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import Literal
 
-from sim.actions import Add, Remove
+from sim.actions import Add, WorldAction
+from sim.explain.stakes import Stakes
 from sim.kinds import Cell, Kind, Move
 from sim.plan import Decision
+from sim.run import Run
 
 
 class QuestionError(ValueError):
@@ -31,40 +34,38 @@ class Role(StrEnum):
     """it made another cause go or stay where it blocks"""
     FOLLOWS = "follows"
     """it would stand in the way once the others were gone"""
+    WEIGHS = "weighs"
+    """a preference or setting: it made another way dearer"""
 
 
 @dataclass(frozen=True, slots=True)
 class Cause:
-    """One thing a decision hangs on."""
+    """One thing, preference or setting a decision hangs on."""
 
     id: str
-    kind: Kind
-    cell: Cell
-    """where it was when the decision was taken"""
+    """of a thing; `preference:cautious`, `setting:safety_buffer`"""
+    kind: Kind | Literal["preference", "setting"]
+    cell: Cell | None
+    """where it was when the decision was taken; None for what is no thing"""
     role: Role
     moves: tuple[Move, ...]
     """the moves it stands in the way of, if its role is `blocks`"""
     necessary: bool
     """whether the decision flips when this thing alone is taken away"""
     group: tuple[str, ...]
-    """the things that must go together for the decision to flip: this one, and its stand-ins if any"""
+    """what must go together for the decision to flip: this one, and its stand-ins if any"""
+    each_enough: bool = False
+    """whether each of a group of several would have been enough by itself"""
 
 
 @dataclass(frozen=True, slots=True)
 class Counterfactual:
     """What was decided when the tick was run again on a changed road."""
 
-    change: tuple[Remove | Add, ...]
+    change: tuple[WorldAction, ...]
     move: Move
-
-    @property
-    def removed(self) -> tuple[str, ...]:
-        """The ids of what was taken away."""
-        return tuple(
-            action.where.id
-            for action in self.change
-            if isinstance(action, Remove) and action.where is not None and action.where.id is not None
-        )
+    removed: tuple[str, ...] = ()
+    """the names of what was taken away"""
 
     @property
     def added(self) -> tuple[tuple[str, Cell], ...]:
@@ -94,13 +95,17 @@ class Explanation:
 
     about: str
     """`why` or `why_not`"""
+    moment: Run
+    """the state it was decided in"""
     decision: Decision
     foil: Move | None
-    """the move asked about in `why_not`"""
+    """the move asked about in `why_not`; for `why` the one it was taken instead of, if there is one"""
     causes: tuple[Cause, ...]
     """the most telling first"""
     verified: Verified
     counterfactuals: tuple[Counterfactual, ...]
     """one for each cause or group, in the order of the causes; without causes, the move's cell blocked"""
+    stakes: Stakes | None
+    """what the foil would have led to; None without one, or where it leads off the road"""
     reruns: int
     """how often the decision was run again for this answer"""

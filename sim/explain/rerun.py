@@ -1,21 +1,18 @@
-"""Running one decision again on a changed road, remembering what was run."""
+"""Running one decision again on a changed road or with other wishes, remembering what was run."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import replace
 
-from sim.actions import Add, Remove, Where
+from sim.actions import Add, Where, WorldAction
+from sim.config import Config
 from sim.edit import apply
-from sim.kinds import Cell, Move, kind_of
+from sim.explain.factors import factors, is_factor, without
+from sim.kinds import Cell, Move
 from sim.plan import Decision
 from sim.run import Run, decide
 from sim.world import World
-
-
-def removal(ids: Iterable[str]) -> tuple[Remove, ...]:
-    """The actions that take these things away."""
-    return tuple(Remove(kind=kind_of(name).value, count=1, where=Where(id=name)) for name in ids)
 
 
 def wall(world: World, cell: Cell) -> Add:
@@ -25,42 +22,48 @@ def wall(world: World, cell: Cell) -> Add:
 
 
 class Rerun:
-    """Decisions of one moment on roads that differ from its own by what is on them."""
+    """Decisions of one moment on roads that differ from its own by what is on them, or with other wishes."""
 
-    def __init__(self, run: Run) -> None:
-        """A moment in which a decision is taken (not while a result stands)."""
+    def __init__(self, run: Run, decision: Decision) -> None:
+        """A moment in which a decision is taken (not while a result stands), and that decision."""
         self.run = run
+        self.decision = decision
+        self.factors = factors(decision, run.config)
         self.count = 0
         self._known: dict[tuple[str, frozenset[str]], Move] = {}
 
-    def without(self, ids: Iterable[str]) -> Move:
-        """The move had these things never been there."""
-        return self._remembered("without", frozenset(ids), self.run.world.without)
+    def without(self, names: Iterable[str]) -> Move:
+        """The move had these things never been there, or these wishes never been said."""
+        key = ("without", frozenset(names))
+        if key not in self._known:
+            self._known[key] = self.decision_without(key[1]).move
+        return self._known[key]
 
-    def keeping(self, ids: Iterable[str]) -> Move:
-        """The move had nothing but these things been there."""
-        return self._remembered("keeping", frozenset(ids), self.run.world.keeping)
+    def keeping(self, names: Iterable[str]) -> Move:
+        """The move had nothing but these been there."""
+        key = ("keeping", frozenset(names))
+        if key not in self._known:
+            gone = (name for name in self.factors if name not in key[1])
+            world = self.run.world.keeping(frozenset(name for name in key[1] if not is_factor(name)))
+            self._known[key] = self._decide(world, without(self.run.config, gone)).move
+        return self._known[key]
 
-    def decision_without(self, ids: Iterable[str]) -> Decision:
-        """The whole decision had these things never been there."""
-        return self._decide(self.run.world.without(frozenset(ids)))
+    def decision_without(self, names: Iterable[str]) -> Decision:
+        """The whole decision had these never been there."""
+        names = frozenset(names)
+        world = self.run.world.without(frozenset(name for name in names if not is_factor(name)))
+        return self._decide(world, without(self.run.config, names))
 
-    def after(self, change: Iterable[Remove | Add]) -> Move:
+    def after(self, change: Iterable[WorldAction]) -> Move:
         """The move had a person made this change first."""
         run = self.run
         for action in change:
             run = apply(run, action).run
-        return self._decide(run.world).move
+        return self._decide(run.world, run.config).move
 
-    def _remembered(self, how: str, ids: frozenset[str], change: Callable[[frozenset[str]], World]) -> Move:
-        move = self._known.get((how, ids))
-        if move is None:
-            move = self._known[how, ids] = self._decide(change(ids)).move
-        return move
-
-    def _decide(self, world: World) -> Decision:
+    def _decide(self, world: World, config: Config) -> Decision:
         self.count += 1
-        decision = decide(replace(self.run, world=world))
+        decision = decide(replace(self.run, world=world, config=config))
         if decision is None:
             raise ValueError("no decision is taken while a result stands")
         return decision

@@ -1,0 +1,78 @@
+"""What was at stake: where the other move would have led, run to the end, beside where this one leads.
+
+After its first move each future goes on as it would: the planner decides, nobody speaks. Ticks lost
+are those of the best way on after each move (`sim.optimum`), whatever the planner makes of it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from sim.commit import commit
+from sim.judge import collisions, outcome
+from sim.kinds import Mode, Move, Outcome
+from sim.optimum import least_ticks
+from sim.plan import Decision
+from sim.run import Run, advance
+
+
+@dataclass(frozen=True, slots=True)
+class Future:
+    """How an episode ends after a move."""
+
+    outcome: Outcome
+    ticks: int
+    """from the episode's start to its end"""
+    ids: tuple[str, ...] = ()
+    """what was crashed with"""
+
+
+@dataclass(frozen=True, slots=True)
+class Stakes:
+    """A move that was not made, beside the one that was."""
+
+    foil: Move
+    would: Future | None
+    """how it would have ended; None where a person drives and has not said on"""
+    real: Future | None
+    """how it ends after the move that was made, left to itself"""
+    ticks_lost: int | None
+    """how much longer the best way on is after the foil; None where there is none after either"""
+    dead_end: bool
+    """whether after the foil no way leads on, and after the move made one does"""
+
+
+def stakes(run: Run, decision: Decision, foil: Move) -> Stakes | None:
+    """What `foil` would have meant instead of the move of `decision`; None if it leads off the road."""
+    if decision.option(foil).cell is None or foil is decision.move:
+        return None
+    other, real = _after(run, foil), _after(run, decision.move)
+    rest_other, rest_real = least_ticks(other), least_ticks(real)
+    both = rest_other is not None and rest_real is not None
+    return Stakes(
+        foil=foil,
+        would=_end(other),
+        real=_end(real),
+        ticks_lost=rest_other - rest_real if both else None,  # type: ignore[operator]
+        dead_end=rest_other is None and rest_real is not None,
+    )
+
+
+def _after(run: Run, move: Move) -> Run:
+    """The state after a move, judged."""
+    after = commit(run.world, move, run.config)
+    crashes = collisions(run.world, after)
+    result = outcome(after, crashes, run.config.max_ticks)
+    if result is not Outcome.RUNNING:
+        after = replace(after, outcome=result, ended=after.tick, cause=crashes[0] if crashes else None)
+    return replace(run, world=after, queue=())
+
+
+def _end(run: Run) -> Future | None:
+    """How the episode ends if nobody says anything more; None if it waits for a person."""
+    if run.mode is Mode.MANUAL and run.world.outcome is Outcome.RUNNING:
+        return None
+    while run.world.outcome is Outcome.RUNNING:
+        run = advance(run).run
+    world = run.world
+    return Future(world.outcome, world.episode_tick, world.cause.ids if world.cause else ())
