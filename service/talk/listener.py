@@ -175,6 +175,7 @@ class Listener:
         try:
             said = self.languages[DEFAULT].sentence(reading.actions)
         except Unsayable:
+            refusal.detail += " A language model read it as something that has no sentence to confirm it by."
             raise refusal from None
         raise _asked(
             "A language model read this as follows. Is that what you mean?", [(said, reading.actions)], "llm"

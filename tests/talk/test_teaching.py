@@ -6,16 +6,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from hypothesis import assume, example, given
-from hypothesis import strategies as st
 
-from service import actions as contract
-from service.language.parse_types import Ambiguous, Parse, Refused, Understood
-from service.language.references import heard
-from service.language.topic import ALONE, Topic
 from service.store import MemoryStore, SqlStore, Store
 from service.talk import phrasebook
-from tests.talk.conftest import Json, Opening, Talk, english
+from tests.talk.conftest import Json, Opening, Talk
 
 TWO_CARS: list[Json] = [{"do": "add", "kind": "vehicle", "count": 2}]
 CONE: list[Json] = [{"do": "add", "kind": "barrier", "count": 1}]
@@ -314,98 +308,9 @@ async def test_there_is_a_limit_of_phrases(talk: Talk, monkeypatch: pytest.Monke
     assert await taught(talk) == ["splinge", "splonge", "splunge"]
 
 
-# What a phrase can never change
-
-FIXED = [
-    *[say for frame in english().data.frames for say in frame.says][::2][:45],
-    *("add five potholes and two cars", "remove it", "again", "two more", "slow down", "add potholes"),
-    *("add five potholes and make me a sandwich", "don't add any cars", "could you please pause?", ""),
-    *("save this as monday demo", "when I say tidy, I mean pause", "forget tidy", "make it dusk, then go"),
-    "add five pothols",
-]
-TALKED = Topic(things=("barrier-1",), added=("barrier-1",), actions=contract.load(PAUSE), kind="pothole")
-
-
-def told(parse: Parse) -> object:
-    """What comes of a sentence."""
-    match parse:
-        case Understood():
-            return parse.actions, parse.corrections
-        case Ambiguous():
-            return parse.question, parse.choices
-        case Refused():
-            return parse.reason, parse.message, parse.unparsed
-    return None
-
-
-BEFORE = {
-    (text, topic is TALKED): told(english().parse(text, topic)) for text in FIXED for topic in (ALONE, TALKED)
-}
-
-
-def with_phrase(phrase: str, topic: Topic) -> Topic:
-    phrases = english().phrases({phrase: contract.load(TWO_CARS)})
-    return Topic(topic.things, topic.added, topic.actions, kind=topic.kind, phrases=phrases)
-
-
-LETTERS = st.text("abcdefghijklmnopqrstuvwxyzäßé", min_size=2, max_size=9)
-
-
-@example(words=["pothols"])
-@example(words=["rush", "hour"])
-@given(words=st.lists(LETTERS, min_size=1, max_size=4))
-def test_a_phrase_of_new_words_changes_no_sentence(words: list[str]) -> None:
-    assume(not any(english().data.knows(word) for word in words))
-    for text in FIXED:
-        for topic in (ALONE, TALKED):
-            assert (
-                told(heard(english().parse, text, with_phrase(" ".join(words), topic)))
-                == BEFORE[text, topic is TALKED]
-            )
-
-
-IN_USE = sorted({word for text in FIXED for word in english().words_of(text) if word.isalpha()})
-
-
-@pytest.mark.parametrize("word", IN_USE)
-def test_a_phrase_of_a_known_word_changes_no_sentence_that_means_something(word: str) -> None:
-    """So "carry on" stays what it is when "carry" was taught."""
-    for text in FIXED:
-        if word not in english().words_of(text):
-            continue
-        before = english().parse(text)
-        if isinstance(before, Refused):
-            continue
-        assert told(heard(english().parse, text, with_phrase(word, ALONE))) == BEFORE[text, False]
-
-
 async def test_a_word_of_a_built_in_saying_may_be_taught_and_leaves_it_alone(talk: Talk) -> None:
     await talk.say("when I say carry, I mean add two cars")
     assert (await talk.say("carry"))["actions"] == TWO_CARS
     assert (await talk.say("carry on"))["actions"] == [{"do": "resume"}]
     await talk.say("when I say drive, I mean add two cars")
     assert (await talk.say("let me drive"))["actions"] == [{"do": "mode", "mode": "manual"}]
-
-
-def part(words: list[str]) -> tuple[contract.Action, ...] | None:
-    """What words mean by themselves; nothing if they only make a sentence pleasant, None if they are unfit."""
-    text = " ".join(words)
-    parse = english().parse(text)
-    if isinstance(parse, Understood):
-        return parse.actions
-    return () if not english().concepts(text) else None
-
-
-@given(text=st.sampled_from([text for text in FIXED if '"' not in text]), at=st.integers(0, 12))
-def test_a_phrase_put_anywhere_is_done_whole_or_not_at_all(text: str, at: int) -> None:
-    words = text.split()
-    said = " ".join([*words[:at], "splunge", *words[at:]])
-    parse = heard(english().parse, said, with_phrase("splunge", ALONE))
-    if not isinstance(parse, Understood) or any(
-        isinstance(action, contract.Save | contract.Teach | contract.Forget) for action in parse.actions
-    ):
-        return  # refused, or a name that is kept as it was written
-    before, after = part(words[:at]), part(words[at:])
-    assert before is not None, said
-    assert after is not None, said
-    assert parse.actions == (*before, *contract.load(TWO_CARS), *after)
