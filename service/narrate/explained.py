@@ -1,11 +1,16 @@
-"""An explanation in words: the move, what was in the way, and what running it again has shown."""
+"""An explanation in words: the move, what was in the way, what re-running has shown, what was at stake."""
 
 from __future__ import annotations
 
+from service.narrate.naming import Naming
 from service.narrate.sayings import Sayings
-from sim.explain import Cause, Counterfactual, Explanation
-from sim.kinds import Move
-from sim.plan import Decision, Measure, Option
+from sim.actions import Prefer
+from sim.explain import Cause, Counterfactual, Explanation, Future
+from sim.kinds import Move, Outcome
+from sim.plan import Measure, Option
+
+MOST_TOLD = 3
+"""How many causes are told; the facts have all."""
 
 
 class Explained:
@@ -17,113 +22,100 @@ class Explained:
 
     def text(self, explanation: Explanation) -> str:
         """Why, or why not, in a few sentences."""
-        if explanation.foil is None:
-            return self._why(explanation)
-        return self._why_not(explanation, explanation.foil)
+        telling = _Telling(self._sayings, explanation)
+        return telling.why() if explanation.about == "why" else telling.why_not()
 
-    def _why(self, explanation: Explanation) -> str:
-        decision = explanation.decision
-        did = self._sayings.move(decision.move, "did")
+
+class _Telling:
+    """One explanation on its way into words."""
+
+    def __init__(self, sayings: Sayings, explanation: Explanation) -> None:
+        self._sayings = sayings
+        self._explanation = explanation
+        self._decision = explanation.decision
+        self._naming = Naming(sayings, explanation.moment)
+
+    def why(self) -> str:
+        """Why the move was made."""
+        decision = self._decision
         if decision.fault is not None:
-            fault = decision.fault
-            return self._say("fact_fault", tick=decision.tick, planner=decision.planner, fault=fault)
-        if decision.measure is not Measure.RANK and decision.asked is None:
-            return " ".join([self._weighed(decision, did), *self._proofs(explanation)])
+            return self._say("fact_fault", tick=decision.tick, planner=decision.planner, fault=decision.fault)
         if decision.asked is not None and not decision.held_back:
-            return self._say("fact_asked", tick=decision.tick, did=did)
+            return self._say("fact_asked", tick=decision.tick, did=self._did(decision.move))
+        if decision.measure is not Measure.RANK and decision.asked is None:
+            return self._joined([self._weighed(), *self._proofs()])
         if decision.held_back and decision.asked is not None:
             asked = self._sayings.move(decision.asked, "do")
             fact = self._say("fact_held_back", tick=decision.tick, asked=asked)
             hindered = [decision.option(decision.asked)]
         else:
-            fact = self._say("fact", tick=decision.tick, did=did)
-            hindered = list(decision.preferred)
+            hindered = [option for option in decision.preferred if option.cell is not None]
+            fact = self._fact(hindered)
         if not hindered:
-            reason = self._sayings.reason(decision.chosen, "then")
-            told = self._say("clear", fact=fact, reason=reason)
-            return " ".join([told, *(self._flip(flip, flip.move) for flip in explanation.counterfactuals)])
-        reasons = self._sayings.joined([self._sayings.reason(option, "then") for option in hindered])
-        told = self._say("because", fact=fact, reasons=reasons)
-        return " ".join([told, *self._proofs(explanation)])
+            told = self._say("clear", fact=fact, reason=self._reason(decision.chosen))
+            return self._joined([told, *(self._blocked(flip) for flip in self._explanation.counterfactuals)])
+        reasons = self._sayings.all_met(hindered, "then", self._naming)
+        return self._joined([self._say("because", fact=fact, reasons=reasons), *self._proofs()])
 
-    def _proofs(self, explanation: Explanation) -> list[str]:
-        """What re-running has shown, cause by cause."""
-        moves = {flip.removed: flip.move for flip in explanation.counterfactuals}
-        alone = [cause for cause in explanation.causes if cause.necessary]
-        by_move: dict[Move, list[Cause]] = {}
-        for cause in alone:
-            by_move.setdefault(moves[cause.group], []).append(cause)
-        flips = [
-            self._say(
-                "without_one" if len(causes) == 1 else "without_any",
-                who=self._sayings.joined([cause.id for cause in causes]),
-                do=self._sayings.move(move, "do"),
-            )
-            for move, causes in by_move.items()
-        ]
-        proofs = [self._say("run_again", flips=self._sayings.listed(flips))] if flips else []
-        proofs += [
-            self._say(
-                "stand_in",
-                id=cause.id,
-                others=self._sayings.joined(cause.group[1:]),
-                who=self._sayings.joined(cause.group),
-                do=self._sayings.move(moves[cause.group], "do"),
-            )
-            for cause in explanation.causes
-            if not cause.necessary
-        ]
-        return proofs
-
-    def _why_not(self, explanation: Explanation, foil: Move) -> str:
-        decision = explanation.decision
+    def why_not(self) -> str:
+        """Why the foil was not made."""
+        decision, foil = self._decision, self._explanation.foil
+        assert foil is not None
+        do = self._sayings.move(foil, "do")
         if decision.asked is not None and not decision.held_back:
-            asked, do = self._sayings.move(decision.asked, "do"), self._sayings.move(foil, "do")
+            asked = self._sayings.move(decision.asked, "do")
             return self._say("not_preferred_asked", tick=decision.tick, asked=asked, do=do)
         option = decision.option(foil)
-        reason = self._sayings.reason(option, "then")
-        do = self._sayings.move(foil, "do")
         if option.cell is None:
-            return self._say("not_off_road", tick=decision.tick, do=do, reason=reason)
+            return self._say("not_off_road", tick=decision.tick, do=do, reason=self._reason(option))
+        told = self._not_made(option, do)
+        flips = [self._flip(flip, foil) for flip in self._explanation.counterfactuals]
+        return self._joined([told, self._would(option), *flips])
+
+    def _fact(self, hindered: list[Option]) -> str:
+        decision = self._decision
+        if not hindered:
+            return self._say("fact", tick=decision.tick, did=self._did(decision.move))
+        other = self._sayings.move(hindered[0].move, "doing")
+        return self._say("rather", tick=decision.tick, did=self._did(decision.move), other=other)
+
+    def _not_made(self, option: Option, do: str) -> str:
+        decision = self._decision
         if decision.measure is not Measure.RANK and option.verdict == "free":
-            told = self._not_worth(decision, option, do)
-        elif option.verdict == "free":
-            told = self._say(
+            return self._not_worth(option, do)
+        if option.verdict == "free":
+            return self._say(
                 "not_preferred",
                 tick=decision.tick,
                 do=do,
-                reason=reason,
+                reason=self._reason(option),
                 preferred=self._sayings.move(decision.move, "name"),
-                free=self._sayings.reason(decision.chosen, "then"),
+                free=self._reason(decision.chosen),
             )
-        else:
-            told = self._say("not_blocked", tick=decision.tick, do=do, reasons=reason)
-        return " ".join([told, *(self._flip(flip, foil) for flip in explanation.counterfactuals)])
+        return self._say("not_blocked", tick=decision.tick, do=do, reasons=self._reason(option))
 
-    def _weighed(self, decision: Decision, did: str) -> str:
+    def _weighed(self) -> str:
         """What the move costs in all, and the next best."""
-        chosen = decision.chosen
+        decision, chosen = self._decision, self._decision.chosen
+        fact = self._say("fact", tick=decision.tick, did=self._did(decision.move))
         if chosen.cost is None:
-            return self._say("weighed_no_way", tick=decision.tick, did=did)
+            return self._say("weighed_no_way", fact=fact)
         costs = f"{chosen.cost:g}"
         others = [option for option in decision.options if option.cost is not None and option is not chosen]
-        if not others:
-            return self._say(f"weighed_only_{decision.measure}", tick=decision.tick, did=did, costs=costs)
-        next_best = others[0]
-        assert next_best.cost is not None
-        more = next_best.cost - chosen.cost
+        if not others or others[0].cost is None:
+            return self._say(f"weighed_only_{decision.measure}", fact=fact, costs=costs)
+        more = others[0].cost - chosen.cost
         return self._say(
             f"weighed_{decision.measure}" if more else "weighed_even",
-            tick=decision.tick,
-            did=did,
+            fact=fact,
             costs=costs,
-            other=self._sayings.move(next_best.move, "name"),
+            other=self._sayings.move(others[0].move, "name"),
             more=f"{more:g}",
         )
 
-    def _not_worth(self, decision: Decision, option: Option, do: str) -> str:
+    def _not_worth(self, option: Option, do: str) -> str:
         """Why a free move was not taken by a planner that knows what each costs in all."""
-        best = decision.chosen.cost
+        decision, best = self._decision, self._decision.chosen.cost
         if option.cost is None or best is None:
             return self._say("not_dead_end", tick=decision.tick, do=do)
         more = option.cost - best
@@ -131,18 +123,121 @@ class Explained:
         instead = self._sayings.move(decision.move, "name")
         return self._say(key, tick=decision.tick, do=do, more=f"{more:g}", instead=instead)
 
-    def _flip(self, flip: Counterfactual, foil: Move) -> str:
-        who = self._sayings.joined(flip.removed)
-        walls = self._sayings.joined(
-            [
-                self._say("wall", thing=self._sayings.things(kind, 1), where=self._sayings.where(cell))
-                for kind, cell in flip.added
-            ]
+    def _proofs(self) -> list[str]:
+        """What re-running has shown, cause by cause."""
+        explanation = self._explanation
+        moves = {flip.removed: flip.move for flip in explanation.counterfactuals}
+        alone = [cause for cause in explanation.causes if cause.necessary]
+        by_move: dict[Move, list[Cause]] = {}
+        for cause in alone:
+            by_move.setdefault(moves[cause.group], []).append(cause)
+        sole = len(explanation.causes) == 1
+        flips = [
+            self._without(causes, self._sayings.move(move, "do"), sole) for move, causes in by_move.items()
+        ]
+        proofs = [self._say("run_again", flips=self._sayings.listed(flips))] if flips else []
+        others = [cause for cause in explanation.causes if not cause.necessary]
+        return proofs + [self._stand_in(cause, moves[cause.group]) for cause in others[:MOST_TOLD]]
+
+    def _without(self, causes: list[Cause], do: str, sole: bool) -> str:
+        names = [cause.id for cause in causes]
+        if sole and causes[0].moves:
+            return self._say("without_it", it=self._say("it"), do=do)
+        if len(names) == 1:
+            return self._say("without_one", who=self._names(names), do=do)
+        if len(names) > MOST_TOLD:
+            return self._say("without_some", who=self._names(names[:1]), count=len(names), do=do)
+        key = "without_either" if len(names) == 2 else "without_any"
+        return self._say(key, who=self._names(names), do=do)
+
+    def _stand_in(self, cause: Cause, move: Move) -> str:
+        who, do = self._names(cause.group), self._sayings.move(move, "do")
+        if cause.each_enough:
+            return self._say("either" if len(cause.group) == 2 else "any_of", who=who, do=do)
+        return self._say(
+            "stand_in",
+            one=self._names(cause.group[:1]),
+            others=self._names(cause.group[1:]),
+            who=who,
+            do=do,
         )
+
+    def _would(self, option: Option) -> str:
+        """What the foil would have led to."""
+        stakes = self._explanation.stakes
+        if stakes is None or stakes.would is None:
+            return ""
+        would, real = stakes.would, stakes.real
+        if would.outcome is Outcome.CRASH:
+            first = option.reason.blocks
+            key = "would_crash" if first else "would_crash_later"
+            return self._say(key, who=self._crashed_with(would, first), ticks=would.ticks)
+        if stakes.dead_end:
+            return self._say("would_dead_end")
+        if would.outcome is Outcome.STUCK:
+            return self._say("would_stuck")
+        return self._arrives(would, real)
+
+    def _arrives(self, would: Future, real: Future | None) -> str:
+        if real is None or real.outcome is not Outcome.SUCCESS:
+            return self._say("would_arrive_but", ticks=would.ticks)
+        more = would.ticks - real.ticks
+        key = "would_arrive" if more == 0 else "would_arrive_later" if more > 0 else "would_arrive_sooner"
+        return self._say(key, ticks=would.ticks, more=abs(more))
+
+    def _crashed_with(self, would: Future, now: bool) -> str:
+        """By name where it is here and now; later, by kind."""
+        if now:
+            return self._names(would.ids)
+        kinds = [name.rpartition("-")[0] for name in would.ids]
+        return self._sayings.joined([self._sayings.say("words", "a", kind) for kind in kinds])
+
+    def _flip(self, flip: Counterfactual, foil: Move) -> str:
+        who = self._names(flip.removed)
         do = self._sayings.move(flip.move, "do")
+        wish = next(
+            (action.preference for action in reversed(flip.change) if isinstance(action, Prefer)), None
+        )
+        if wish is not None and flip.move is foil:
+            if wish == "balanced":
+                return self._say("not_balanced", do=do)
+            wished = self._sayings.say("replies", "preferences", wish)
+            return self._say("not_wish_without" if who else "not_wish", who=who, wish=wished, do=do)
         if flip.added:
-            return self._say("not_walls_without" if who else "not_walls", who=who, walls=walls, do=do)
+            key = "not_walls_without" if who else "not_walls"
+            return self._say(key, who=who, walls=self._walls(flip), do=do)
         return self._say("not_flips" if flip.move is foil else "not_flips_other", who=who, do=do)
 
+    def _blocked(self, flip: Counterfactual) -> str:
+        return self._say("blocked_first", walls=self._walls(flip), do=self._sayings.move(flip.move, "do"))
+
+    def _walls(self, flip: Counterfactual) -> str:
+        walls = [
+            self._say("wall", thing=self._sayings.things(kind, 1), where=self._naming.place(cell))
+            for kind, cell in flip.added
+        ]
+        return self._sayings.joined(walls)
+
+    def _names(self, names: tuple[str, ...] | list[str]) -> str:
+        """Things, wishes and settings as people call them."""
+        return self._sayings.joined([self._name(name) for name in names])
+
+    def _name(self, name: str) -> str:
+        kind, _, what = name.partition(":")
+        if kind == "preference" and what:
+            return self._say("wish", wish=self._sayings.say("replies", "preferences", what))
+        if kind == "setting" and what:
+            return self._say("setting", setting=what.replace("_", " "))
+        return self._naming.thing(name)
+
+    def _reason(self, option: Option) -> str:
+        return self._sayings.met(option, "then", self._naming)
+
+    def _did(self, move: Move) -> str:
+        return self._sayings.move(move, "did")
+
+    def _joined(self, parts: list[str]) -> str:
+        return " ".join(part for part in parts if part)
+
     def _say(self, key: str, **parts: object) -> str:
-        return self._sayings.say("answers", key, **parts)
+        return self._sayings.say("why", key, **parts)

@@ -1,4 +1,4 @@
-"""Things as the driver would point at them: "the pothole ahead", "the car two lanes to my left".
+"""Things as the driver would point at them: "the pothole ahead", "the car in the second lane to my left".
 
 Lanes and metres from the vehicle's seat name one cell each, so no two things of a kind have one name. Ids
 belong in the structured part of an answer. Words are data (`naming.yaml`).
@@ -36,13 +36,13 @@ class Naming:
         return self._sayings.joined([self.thing(name) for name in names])
 
     def place(self, cell: Cell) -> str:
-        """A cell as seen from the vehicle: "ahead", "one lane to the left, 10 m ahead"."""
+        """A cell as seen from the vehicle: "right ahead", "10 m ahead on my left"."""
         return self._place(cell)
 
     def _place(self, cell: Cell) -> str:
         column, row = self._seat(self._world.road)
         across, along = cell[0] - column, row - cell[1]
-        parts = [self._lanes(across), self._metres(along, beside=across != 0)]
+        parts = [self._metres(along, beside=across != 0), self._lanes(across)]
         return self._sayings.say("naming", "apart").join(part for part in parts if part)
 
     def _lanes(self, across: int) -> str:
@@ -50,7 +50,7 @@ class Naming:
             return ""
         side = "left" if across < 0 else "right"
         count = abs(across)
-        return self._sayings.say("naming", side, "one" if count == 1 else "many", count=self._count(count))
+        return self._sayings.say("naming", side, "one" if count == 1 else "many", nth=self._nth(count))
 
     def _metres(self, along: int, *, beside: bool) -> str:
         if along == 0:
@@ -60,9 +60,9 @@ class Naming:
             return self._sayings.say("naming", side, "next")
         return self._sayings.say("naming", side, "metres", metres=f"{abs(along) * self._cell_m:g}")
 
-    def _count(self, count: int) -> str:
-        words = self._sayings.words("naming", "counts")
-        return str(words[count]) if count < len(words) else str(count)
+    def _nth(self, count: int) -> str:
+        words = self._sayings.words("naming", "places")
+        return str(words[count]) if count < len(words) else self._sayings.say("naming", "nth", count=count)
 
     def _seat(self, road: Road) -> Cell:
         return road.cell(self._world.av)

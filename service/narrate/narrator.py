@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from service.narrate.answers import Answers
+from service.narrate.naming import Naming
 from service.narrate.replies import Replies
 from service.narrate.sayings import Sayings
 from service.sessions.facts import Asked, Fact, Lesson
@@ -29,23 +30,24 @@ class Narrator:
         """A narrator of the language `code`."""
         return cls(Sayings.load(code, folder))
 
-    def decision(self, decision: Decision, run: Run) -> str:  # noqa: ARG002 - later words will look round
+    def decision(self, decision: Decision, run: Run) -> str:
         """What the vehicle does at a tick and why, in one line."""
         if decision.fault is not None:
             return self._say("fault", planner=decision.planner, fault=decision.fault)
+        naming = Naming(self._sayings, run)
         first, chosen = decision.options[0], decision.chosen
         name = self._sayings.move(decision.move, "name").capitalize()
         if decision.asked is not None:
-            return self._asked(decision, decision.asked, name)
+            return self._asked(decision, decision.asked, name, naming)
         if decision.measure is not Measure.RANK:
-            return self._weighed(decision, name)
+            return self._weighed(decision, name, naming)
         if decision.move is first.move:
             return self._say("first_choice")
         if decision.move is not Move.STAY:
-            return self._say("other", move=name, reason=self._sayings.reason(first, "now"))
+            return self._say("other", move=name, reason=self._sayings.met(first, "now", naming))
         if chosen.verdict == "free":
             return self._say("no_way")
-        return self._say("no_safe_way", reason=self._sayings.reason(chosen, "now"))
+        return self._say("no_safe_way", reason=self._sayings.met(chosen, "now", naming))
 
     def lesson(self, lesson: Lesson) -> str:
         """The reply to a phrase that was taught or forgotten."""
@@ -57,15 +59,8 @@ class Narrator:
         ticks = run.world.episode_tick
         reason = ""
         if event.type is EventType.HELD_BACK and event.move is not None:
-            place = self._sayings.move(event.move, "place")
-            reason = self._sayings.say(
-                "words",
-                "reasons",
-                event.how or "free",
-                "then",
-                who=self._sayings.joined(event.ids),
-                place=place,
-            )
+            how = event.how or "free"
+            reason = self._sayings.in_the_way(how, event.move, event.ids, "then", Naming(self._sayings, run))
         return self._sayings.say(
             "log",
             "events",
@@ -93,7 +88,7 @@ class Narrator:
         """The answer to a question, as JSON values."""
         return self._answers.answer(asked)
 
-    def _weighed(self, decision: Decision, name: str) -> str:
+    def _weighed(self, decision: Decision, name: str, naming: Naming) -> str:
         """The move of a planner that knows what each costs in all, against going straight on."""
         straight, chosen = decision.option(Move.FORWARD), decision.chosen
         if chosen.cost is None:
@@ -103,13 +98,13 @@ class Narrator:
         if straight.cost is None:
             if straight.dead_end:
                 return self._say("leads_nowhere", move=name)
-            return self._say("other", move=name, reason=self._sayings.reason(straight, "now"))
+            return self._say("other", move=name, reason=self._sayings.met(straight, "now", naming))
         more = straight.cost - chosen.cost
         return self._say(f"saves_{decision.measure}", move=name, more=f"{more:g}")
 
-    def _asked(self, decision: Decision, asked: Move, name: str) -> str:
+    def _asked(self, decision: Decision, asked: Move, name: str, naming: Naming) -> str:
         if decision.held_back:
-            reason = self._sayings.reason(decision.option(asked), "now")
+            reason = self._sayings.met(decision.option(asked), "now", naming)
             return self._say("held_back", move=self._sayings.move(asked, "name"), reason=reason)
         return self._say("asked", move=name)
 

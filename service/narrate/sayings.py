@@ -4,13 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import yaml
 
 from service.resources import prompts_folder
-from sim.kinds import Cell, Move
+from sim.kinds import Cell, Move, kind_of
 from sim.plan import Option
+
+
+class Names(Protocol):
+    """Whatever knows what to call things."""
+
+    def things(self, names: Sequence[str]) -> str:
+        """Several things, each named."""
 
 
 class Sayings:
@@ -72,7 +79,43 @@ class Sayings:
         """A cell as people call it: lanes count from 1."""
         return self.say("words", "at_cell", lane=cell[0] + 1, row=cell[1])
 
-    def reason(self, option: Option, tense: str) -> str:
+    def met(self, option: Option, tense: str, naming: Names) -> str:
         """What a move would meet, `now` or `then`."""
-        place = self.move(option.move, "place")
-        return self.say("words", "reasons", option.reason, tense, who=self.joined(option.causes), place=place)
+        return self.in_the_way(option.reason, option.move, option.causes, tense, naming)
+
+    def all_met(self, options: Sequence[Option], tense: str, naming: Names) -> str:
+        """What several moves would meet, like things told together."""
+        told: list[str] = []
+        alike: dict[tuple[str, str], list[Option]] = {}
+        for option in options:
+            kind = self._kind(option)
+            key = (
+                (option.reason.value, kind)
+                if option.reason in self.words("words", "several")
+                else ("", option.move)
+            )
+            alike.setdefault(key, []).append(option)
+        for (reason, kind), group in alike.items():
+            if len(group) == 1:
+                told.append(self.met(group[0], tense, naming))
+                continue
+            places = self.joined([self.move(option.move, "place") for option in group])
+            many = self.things(kind, 2)
+            told.append(self.say("words", "several", reason, tense, places=places, many=many))
+        return self.joined(told)
+
+    @staticmethod
+    def _kind(option: Option) -> str:
+        """The kind of what a move would meet: the mover, where it is one held by a pothole."""
+        kinds = sorted((kind_of(name) for name in option.causes), key=lambda kind: not kind.moves)
+        return kinds[0].value if kinds else ""
+
+    def in_the_way(self, reason: str, move: Move, ids: Sequence[str], tense: str, naming: Names) -> str:
+        """What is in the way of a move."""
+        place, who = self.move(move, "place"), naming.things(ids)
+        movers = [kind_of(name) for name in ids if kind_of(name).moves]
+        if reason == "mover_enters" and len(movers) > 1:
+            return self.say("words", "both_enter", tense, who=who, place=place)
+        kinds = movers or [kind_of(name) for name in ids]
+        a = self.say("words", "a", kinds[0]) if kinds else ""
+        return self.say("words", "reasons", reason, tense, who=who, a=a, place=place)

@@ -54,10 +54,11 @@ def test_a_why_names_its_causes_and_the_flip() -> None:
     timeline.advance()
     told = answer(timeline, about="why")
     assert told["text"] == (
-        "At tick 0 I moved left, because pothole-1 was in the cell ahead. "
-        "Run again without pothole-1, I go forward."
+        "At tick 0 I moved left rather than going forward, because there was a pothole in the cell ahead. "
+        "Run again without it, I go forward."
     )
     assert told["counterfactual"] == {
+        "at_tick": 0,
         "change": [{"do": "remove", "kind": "pothole", "count": 1, "where": {"id": "pothole-1"}}],
         "decision": "forward",
     }
@@ -95,7 +96,7 @@ OPEN = run_on(road("........", "...o....", "......>.", ".o......", "...A...."))
         (Remove(kind="pothole", count="all"), "Removed 2 potholes: potholes 2 → 0."),
         (Remove(kind="barrier", count="all"), "There were no barriers to remove."),
         (SetCount(kind="pothole", count=1), "There is exactly 1 pothole now: potholes 2 → 1."),
-        (SetCount(kind="vehicle", count=1), "There is 1 vehicle already."),
+        (SetCount(kind="vehicle", count=1), "There is 1 car already."),
         (Scenario(road="highway", potholes=2, vehicles=0), "A new highway: 2 potholes."),
         (Scenario(potholes=0, vehicles=0), "A new road with nothing on it."),
         (Reset(), "Back at the start of this road."),

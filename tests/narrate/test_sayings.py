@@ -22,7 +22,7 @@ def test_every_move_has_every_form(move: Move, form: str) -> None:
 @pytest.mark.parametrize("verdict", Verdict)
 @pytest.mark.parametrize("tense", ["now", "then"])
 def test_every_verdict_can_be_told(verdict: Verdict, tense: str) -> None:
-    assert "X" in SAYINGS.say("words", "reasons", verdict, tense, who="W", place="X")
+    assert "X" in SAYINGS.say("words", "reasons", verdict, tense, who="W", a="A", place="X")
 
 
 @pytest.mark.parametrize("kind", Kind)
