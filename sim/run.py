@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 
 from sim.commit import commit
 from sim.config import Config
+from sim.course import Course
 from sim.events import Event, EventType
 from sim.generate import GenerationError, generate
 from sim.judge import collisions, outcome
@@ -44,6 +45,8 @@ class Run:
     """changes made so far; numbers the stream random places are drawn from"""
     fault: str | None = None
     """what the planner did instead of answering at the latest decision"""
+    course: Course = field(default_factory=Course)
+    """what the episode has come to so far"""
 
     @staticmethod
     def start(config: Config) -> Run:
@@ -106,8 +109,18 @@ def advance(run: Run) -> Tick:
         metrics = metrics.after_end(result, after.episode_tick)
         ids, cell, how = (cause.ids, cause.cell, cause.how) if cause else ((), None, None)
         events.append(Event(after.tick, _END_EVENTS[result], after.episode, ids, cell, decision.move, how))
+    course = run.course.after(
+        before,
+        after,
+        decision.move,
+        edits=run.edits,
+        certain=run.config.courtesy == 0.0,
+        by_person=decision.asked is not None,
+        faulty=decision.fault is not None,
+        ended=result is not Outcome.RUNNING,
+    )
     return Tick(
-        replace(run, world=after, metrics=metrics, queue=run.queue[1:], fault=decision.fault),
+        replace(run, world=after, metrics=metrics, queue=run.queue[1:], fault=decision.fault, course=course),
         decision,
         tuple(events),
     )
@@ -138,7 +151,7 @@ def reconfigured(run: Run, config: Config) -> tuple[Run, Event]:
 def _begin(run: Run, config: Config, episode: int) -> tuple[Run, Event]:
     world = generate(config, episode, tick=run.world.tick, numbered=run.world.numbered)
     event = Event(world.tick, EventType.EPISODE_STARTED, episode)
-    return replace(run, config=config, world=world, queue=()), event
+    return replace(run, config=config, world=world, queue=(), course=Course()), event
 
 
 def _hold(run: Run) -> Tick:
