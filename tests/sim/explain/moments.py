@@ -13,12 +13,14 @@ from sim.run import Run, advance
 from sim.timeline import Timeline
 
 
-def moments(count: int, seed: int = 0) -> Iterator[Timeline]:
-    """Timelines that have just taken a decision, on roads from empty to crowded."""
+def moments(count: int, seed: int = 0, planner: str = "priority") -> Iterator[Timeline]:
+    """Timelines that have just taken a decision, on roads from empty to crowded, with wishes or without."""
     draw = random.Random(seed)
     found = 0
     while found < count:
         columns, rows = draw.choice([4, 8, 11]), draw.choice([8, 30])
+        if planner in ("astar", "dijkstra"):
+            columns, rows = draw.choice([4, 8]), draw.choice([8, 12])
         config = Config(
             seed=draw.randrange(2**32),
             columns=columns,
@@ -28,7 +30,11 @@ def moments(count: int, seed: int = 0) -> Iterator[Timeline]:
             pedestrians=draw.choice([0, 2]),
             barriers=draw.choice([0, 2]),
             courtesy=draw.choice([0.0, 0.0, 0.5]),
+            planner=planner,
         )
+        if planner != "priority":
+            wishes = draw.choice([(), ("cautious",), ("avoid_potholes", "smooth_ride"), ("fastest",)])
+            config = config.with_parts(preferences=wishes, safety_buffer=draw.choice([1, 1, 2]))
         timeline = Timeline(config)
         for _ in range(draw.randrange(1, rows)):
             timeline.advance()
