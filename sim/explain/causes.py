@@ -15,6 +15,7 @@ spared; whether any smaller part would do is then tried outright.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from itertools import combinations
 
 from sim.explain.factors import is_factor, removal
@@ -36,7 +37,7 @@ def explain_why(run: Run, decision: Decision) -> Explanation:
     rerun = Rerun(run, decision)
     fact = decision.move
     names = [*rerun.factors, *_telling_first(run.world, decision)]
-    enough = spared(names, lambda kept: rerun.keeping(kept) is fact)
+    enough = _least(names, lambda kept: rerun.keeping(kept) is fact)
     if any(rerun.without([name]) is fact for name in enough):  # some have a stand-in
         enough = _of_necessary(rerun, fact, names) or enough
     enough, minimal = _smallest(rerun, fact, enough)
@@ -94,7 +95,19 @@ def _group(rerun: Rerun, fact: Move, name: str, names: list[str], enough: list[s
     if rerun.without([name]) is not fact:
         return (name,)
     stand_ins = [other for other in names if other not in enough]
-    return (name, *spared(stand_ins, lambda gone: rerun.without([name, *gone]) is not fact))
+    return (name, *_least(stand_ins, lambda gone: rerun.without([name, *gone]) is not fact))
+
+
+def _least(names: list[str], holds: Callable[[Sequence[str]], bool]) -> list[str]:
+    """A part of `names` for which it holds and from which nothing can be spared; it holds for all of them.
+
+    Looked for among the first names before the later ones are thought of, so that an explanation does not
+    change with what is far away.
+    """
+    size = 0
+    while size < len(names) and not holds(names[:size]):
+        size = max(size + 1, size * 3 // 2)
+    return spared(names[:size], holds)
 
 
 def _smallest(rerun: Rerun, fact: Move, enough: list[str]) -> tuple[list[str], bool]:

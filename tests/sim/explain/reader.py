@@ -59,9 +59,8 @@ def main() -> None:
             counts["perturbed, right"] += said == move_after(run, taking(gone, run.config))
     said = counts["perturbed"] - counts["not said"]
     print(f"stated changes   {counts['stated']:>7}, right {counts['stated, right'] / counts['stated']:.4%}")
-    print(
-        f"one thing gone   {counts['perturbed']:>7}, said {said}, right {counts['perturbed, right'] / said:.4%} of them"
-    )
+    right = counts["perturbed, right"] / said
+    print(f"one thing gone   {counts['perturbed']:>7}, said {said}, right {right:.4%} of them")
 
 
 if __name__ == "__main__":
