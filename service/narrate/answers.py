@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from service.narrate.advice import Advices
 from service.narrate.answering import Answerer, Json
 from service.narrate.sayings import Sayings
 from service.narrate.status import Help, Status
 from service.narrate.whys import Whys
-from service.sessions.facts import Asked
+from service.sessions.facts import Advised, Answerable
 
 
 class Answers:
@@ -14,6 +15,7 @@ class Answers:
 
     def __init__(self, sayings: Sayings) -> None:
         """`sayings`: the language's."""
+        self._advices = Advices(sayings)
         whys = Whys(sayings)
         self._by_question: dict[str, Answerer] = {
             "why": whys,
@@ -22,6 +24,8 @@ class Answers:
             "help": Help(sayings),
         }
 
-    def answer(self, asked: Asked) -> Json:
+    def answer(self, asked: Answerable) -> Json:
         """The `Answer` of the interface."""
+        if isinstance(asked, Advised):
+            return self._advices.answer(asked)
         return self._by_question[asked.ask.about].answer(asked)

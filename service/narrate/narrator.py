@@ -9,7 +9,7 @@ from service.narrate.answers import Answers
 from service.narrate.naming import Naming
 from service.narrate.replies import Replies
 from service.narrate.sayings import Sayings
-from service.sessions.facts import Asked, Fact, Lesson
+from service.sessions.facts import Answerable, Fact, Lesson
 from sim.events import Event, EventType
 from sim.kinds import Move
 from sim.plan import Decision, Measure
@@ -84,7 +84,7 @@ class Narrator:
         """The reply: what was done, in a sentence for each fact."""
         return self._replies.done(facts)
 
-    def answer(self, asked: Asked) -> dict[str, Any]:
+    def answer(self, asked: Answerable) -> dict[str, Any]:
         """The answer to a question, as JSON values."""
         return self._answers.answer(asked)
 

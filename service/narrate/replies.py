@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from service.narrate.sayings import Sayings
-from service.sessions.facts import Asked, Fact, Lesson, PauseSet, Stepped, Undone
+from service.sessions.facts import Advised, Asked, Fact, Lesson, PauseSet, Stepped, Undone
 from sim.actions import Add, Adjust, Drive, Prefer, Remove, Reset, Scenario, Set, SetCount, SetMode
 from sim.edit import Applied, Change
 from sim.events import EventType
@@ -48,7 +48,7 @@ class Replies:
                 key = "redo" if fact.again else "undo"
                 told = self._diff(fact.changes)
                 return self._say(key, diff=told) if told else self._say(f"{key}_plain")
-            case Asked():
+            case Asked() | Advised():
                 return ""
 
     def _applied(self, applied: Applied) -> str:

@@ -31,6 +31,7 @@ _OFFERED = frozenset(
         "redo",
         "teach",
         "forget",
+        "advise",
     )
 )
 _ANSWERED = frozenset(("why", "why_not", "status", "help"))
@@ -41,7 +42,6 @@ _NAMES = {
     "rewind": "Going back in time",
     "evaluate": "Running many episodes to compare planners",
     "find_worst": "Searching for the hardest road",
-    "advise": "Advice about a hazard",
     "save": "Saving under a name",
     "load": "Loading what was saved",
     "record": "Recording pictures",

@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 
 from service.actions import Action, Redo, Undo
 from service.language.topic import Phrases, Topic
-from service.sessions.facts import Asked, Fact, Undone
+from service.sessions.facts import Answerable, Asked, Fact, Undone
 from service.sessions.utterance import Outcome
 from sim.actions import Add, Remove, Reset, SetCount, Where
 from sim.edit import Applied
@@ -48,7 +48,7 @@ class Conversation:
         if changing:
             last = changing[-1]
             self._undone = isinstance(last, Undone) and not last.again
-        elif any(not isinstance(fact, Asked) for fact in facts):
+        elif any(not isinstance(fact, Answerable) for fact in facts):
             self._undone = False  # time has passed, or stands still: "again" is about that
         amounts = [fact for fact in facts if isinstance(fact, Applied) and _moves_things(fact)]
         if amounts:

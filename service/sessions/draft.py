@@ -10,11 +10,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from service.actions import Action, Ask, Forget, Pause, Redo, Resume, Teach, Undo
+from service.actions import Action, Advise, Ask, Forget, Pause, Redo, Resume, Teach, Undo
 from service.actions import Step as StepTicks
 from service.problems import DoesNotFit, FieldProblem, Invalid, NotAvailable, NothingToUndo, ProblemError
 from service.sessions import availability
-from service.sessions.facts import Asked, Fact, PauseSet, Stepped, Undone
+from service.sessions.facts import Advised, Asked, Fact, PauseSet, Stepped, Undone
 from service.sessions.history import History, Step
 from sim.actions import (
     Add,
@@ -27,10 +27,13 @@ from sim.actions import (
     Set,
     SetCount,
     SetMode,
+    Weather,
     WorldAction,
 )
+from sim.advice import NoAdviceError, advise
 from sim.edit import differences
 from sim.edit_error import EditError
+from sim.kinds import Kind
 from sim.timeline import PlannerSilentError, Timeline
 
 WORLD_ACTIONS = (Add, Remove, SetCount, Scenario, Reset, SetMode, Drive, Set, Adjust, Prefer)
@@ -74,6 +77,8 @@ class Draft:
         match action:
             case Ask():
                 return Asked(action, self.timeline.copy())
+            case Advise():
+                return self._advise(position, action)
             case Pause() | Resume():
                 return self._set_paused(isinstance(action, Pause))
             case StepTicks():
@@ -107,6 +112,15 @@ class Draft:
         except EditError as error:
             raise _edit_problem(error, position) from error
         return applied
+
+    def _advise(self, position: int, action: Advise) -> Advised:
+        weather: Weather = getattr(self.timeline.run.config, "weather", "clear")
+        try:
+            advice = advise(Kind(action.hazard), action.distance_m, action.speed_kmh, weather)
+        except NoAdviceError as error:
+            where = f"actions.{position}.{error.field}"
+            raise Invalid(error.message, errors=[FieldProblem(where, error.message)]) from error
+        return Advised(advice, self.timeline.tick)
 
     def _set_paused(self, paused: bool) -> PauseSet:
         before, self.paused = self.paused, paused

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from service.actions import Ask
+from sim.advice import Advice
 from sim.edit import Applied, Change
 from sim.run import Run, Tick
 from sim.timeline import Timeline
@@ -45,6 +46,14 @@ class Asked:
 
 
 @dataclass(frozen=True, slots=True)
+class Advised:
+    """Advice about a hazard that was told of; `tick` is None outside of any session."""
+
+    advice: Advice
+    tick: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Lesson:
     """A phrase that was taught or forgotten, and the sentence that says the same."""
 
@@ -55,7 +64,10 @@ class Lesson:
     """what it meant before, as a sentence"""
 
 
-Fact: TypeAlias = Applied | PauseSet | Stepped | Undone | Asked
+Answerable: TypeAlias = Asked | Advised
+"""What is answered, and changes nothing."""
+
+Fact: TypeAlias = Applied | PauseSet | Stepped | Undone | Answerable
 
 
 def changes_of(facts: tuple[Fact, ...]) -> tuple[Change, ...]:
@@ -87,5 +99,5 @@ def _changes(fact: Fact) -> tuple[Change, ...]:
             return (Change("paused", fact.before, fact.paused),)
         case Stepped():
             return (Change("tick", fact.first_tick, fact.first_tick + len(fact.ticks)),)
-        case Asked():
+        case Asked() | Advised():
             return ()

@@ -17,13 +17,13 @@ from anyio import to_thread
 from pydantic import ValidationError
 
 from service import actions as contract
-from service.actions import Action, Ask, Pause, Redo, Resume, Undo
+from service.actions import Action, Advise, Ask, Pause, Redo, Resume, Undo
 from service.problems import Invalid, NotSaved, ProblemError, UnknownSession
 from service.sessions.availability import refusal
 from service.sessions.clock import Clock
 from service.sessions.conversation import Conversation
 from service.sessions.draft import Draft, check_ticks
-from service.sessions.facts import Asked, Fact, changes_of, happened_in
+from service.sessions.facts import Answerable, Asked, Fact, changes_of, happened_in
 from service.sessions.history import History
 from service.sessions.log import Log, LogEvent
 from service.sessions.messages import changed_message, tick_message
@@ -214,7 +214,7 @@ class Session:
                 facts = await self._perform(draft, utterance)
                 if dry_run:
                     return await self._told(utterance, facts, self.sequence)
-                if all(isinstance(action, Ask) for action in utterance.actions):
+                if all(isinstance(action, Ask | Advise) for action in utterance.actions):
                     outcome = await self._told(utterance, facts, self.sequence)
                     self.conversation.note(outcome)
                     return outcome
@@ -233,8 +233,8 @@ class Session:
 
     def _outcome(self, utterance: Utterance, facts: tuple[Fact, ...], sequence: int) -> Outcome:
         words = self._around.words
-        answers = [words.answer(fact) for fact in facts if isinstance(fact, Asked)]
-        done = tuple(fact for fact in facts if not isinstance(fact, Asked))
+        answers = [words.answer(fact) for fact in facts if isinstance(fact, Answerable)]
+        done = tuple(fact for fact in facts if not isinstance(fact, Answerable))
         said = [words.done(done)] if done else []
         return Outcome(
             utterance=utterance,

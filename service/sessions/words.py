@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Protocol
 
-from service.sessions.facts import Asked, Fact, Lesson
+from service.sessions.facts import Answerable, Fact, Lesson
 from sim.events import Event
 from sim.plan import Decision
 from sim.run import Run
@@ -28,5 +28,5 @@ class Words(Protocol):
     def lesson(self, lesson: Lesson) -> str:
         """The reply to a phrase that was taught or forgotten."""
 
-    def answer(self, asked: Asked) -> dict[str, Any]:
+    def answer(self, asked: Answerable) -> dict[str, Any]:
         """The answer to a question, as JSON values."""

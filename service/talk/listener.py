@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from service import actions as contract
-from service.actions import Action, Ask, Forget, Hide, Show, Teach
+from service.actions import Action, Advise, Ask, Forget, Hide, Show, Teach
 from service.language.parse_types import Ambiguous as AmbiguousParse
 from service.language.parse_types import Correction, Refused, Understood
 from service.language.references import heard
@@ -28,7 +28,7 @@ from sim.actions import Scenario
 from sim.config import Config
 from sim.described import UndescribableError, actions_for
 
-HARMLESS = (Ask, Show, Hide)
+HARMLESS = (Ask, Advise, Show, Hide)
 """Actions that change no session: an interpretation that is only these needs no confirmation."""
 
 MOST_SUGGESTED = 3

@@ -43,6 +43,7 @@ OFFERED: list[dict[str, Any]] = [
     {"do": "adjust", "parameter": "safety_buffer", "by": 1},
     {"do": "prefer", "preference": "cautious"},
     {"do": "ask", "about": "help"},
+    {"do": "advise", "hazard": "pothole", "distance_m": 2, "speed_kmh": 40},
 ]
 BESIDE_SESSIONS = {"teach", "forget"}
 """Offered, but done to a phrasebook and to no session (test_teaching)."""
@@ -54,7 +55,6 @@ REFUSED: list[dict[str, Any]] = [
     {"do": "rewind", "ticks": 2},
     {"do": "evaluate", "runs": 5},
     {"do": "find_worst"},
-    {"do": "advise", "hazard": "pothole", "distance_m": 2, "speed_kmh": 40},
     {"do": "save", "name": "monday"},
     {"do": "load", "name": "monday"},
     {"do": "record", "on": True},
