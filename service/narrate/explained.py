@@ -136,7 +136,7 @@ class _Telling:
             self._without(causes, self._sayings.move(move, "do"), sole) for move, causes in by_move.items()
         ]
         proofs = [self._say("run_again", flips=self._sayings.listed(flips))] if flips else []
-        others = [cause for cause in explanation.causes if not cause.necessary]
+        others = [cause for cause in explanation.causes if not cause.necessary and cause.group]
         return proofs + [self._stand_in(cause, moves[cause.group]) for cause in others[:MOST_TOLD]]
 
     def _without(self, causes: list[Cause], do: str, sole: bool) -> str:

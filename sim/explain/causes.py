@@ -28,8 +28,11 @@ from sim.plan import Decision
 from sim.run import Run
 from sim.world import World
 
-MAX_TRIED = 8
+MAX_TRIED = 6
 """Sets up to this size have every part of them tried."""
+
+MAX_GROUPS = 6
+"""For so many causes that are not necessary alone it is found out what would have to go with them."""
 
 
 def explain_why(run: Run, decision: Decision) -> Explanation:
@@ -41,9 +44,9 @@ def explain_why(run: Run, decision: Decision) -> Explanation:
     if any(rerun.without([name]) is fact for name in enough):  # some have a stand-in
         enough = _of_necessary(rerun, fact, names) or enough
     enough, minimal = _smallest(rerun, fact, enough)
-    groups = {name: _group(rerun, fact, name, names, enough) for name in enough}
+    groups = _groups(rerun, fact, names, enough)
     causes = _ranked(rerun, decision, enough, groups)
-    told = dict.fromkeys(cause.group for cause in causes)
+    told = dict.fromkeys(cause.group for cause in causes if cause.group)
     flips = [Counterfactual(removal(group, run.config), rerun.without(group), group) for group in told]
     foil = next((option.move for option in decision.preferred if option.cell is not None), None)
     return Explanation(
@@ -87,13 +90,24 @@ def _of_necessary(rerun: Rerun, fact: Move, names: list[str]) -> list[str]:
     return spared(necessary, lambda kept: rerun.keeping(kept) is fact)
 
 
+def _groups(rerun: Rerun, fact: Move, names: list[str], enough: list[str]) -> dict[str, tuple[str, ...]]:
+    """For each cause its group; an empty one for causes that are not necessary after the first few."""
+    necessary = {name for name in enough if rerun.without([name]) is not fact}
+    looked_for = [name for name in enough if name not in necessary][:MAX_GROUPS]
+    groups: dict[str, tuple[str, ...]] = {}
+    for name in enough:
+        if name in necessary:
+            groups[name] = (name,)
+        else:
+            groups[name] = _group(rerun, fact, name, names, enough) if name in looked_for else ()
+    return groups
+
+
 def _group(rerun: Rerun, fact: Move, name: str, names: list[str], enough: list[str]) -> tuple[str, ...]:
-    """The things that must go with a cause for the move to change; the cause alone if it is necessary.
+    """The things that must go with a cause that is not necessary for the move to change.
 
     There are such: without the cause and all that is not one, the others are not enough.
     """
-    if rerun.without([name]) is not fact:
-        return (name,)
     stand_ins = [other for other in names if other not in enough]
     return (name, *_least(stand_ins, lambda gone: rerun.without([name, *gone]) is not fact))
 
@@ -134,7 +148,7 @@ def _ranked(
     for name in enough:
         group = groups[name]
         necessary = group == (name,)
-        each = not necessary and all(rerun.keeping([other]) is decision.move for other in group)
+        each = len(group) > 1 and all(rerun.keeping([other]) is decision.move for other in group)
         if is_factor(name):
             kind = name.partition(":")[0]
             causes.append(Cause(name, kind, None, Role.WEIGHS, (), necessary, group, each))  # type: ignore[arg-type]

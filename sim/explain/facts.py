@@ -53,7 +53,8 @@ class Cause:
     necessary: bool
     """whether the decision flips when this thing alone is taken away"""
     group: tuple[str, ...]
-    """what must go together for the decision to flip: this one, and its stand-ins if any"""
+    """what must go together for the decision to flip: this one, and its stand-ins if any; empty where there
+    are so many that it was not looked for"""
     each_enough: bool = False
     """whether each of a group of several would have been enough by itself"""
 

@@ -16,6 +16,10 @@ from sim.plan import Decision
 from sim.run import Run, advance
 
 
+TIMELESS_PLANNERS = frozenset(("priority",))
+"""Planners to whom the time does not matter: what has been once comes again for ever."""
+
+
 @dataclass(frozen=True, slots=True)
 class Future:
     """How an episode ends after a move."""
@@ -72,7 +76,15 @@ def _end(run: Run) -> Future | None:
     """How the episode ends if nobody says anything more; None if it waits for a person."""
     if run.mode is Mode.MANUAL and run.world.outcome is Outcome.RUNNING:
         return None
+    recurs = run.config.planner in TIMELESS_PLANNERS and not run.config.courtesy
+    seen: set[tuple[object, ...]] = set()
     while run.world.outcome is Outcome.RUNNING:
+        if recurs:
+            world = run.world
+            state = (world.avs, world.right, world.left, world.pedestrians, world.potholes)
+            if state in seen:
+                return Future(Outcome.STUCK, run.config.max_ticks)
+            seen.add(state)
         run = advance(run).run
     world = run.world
     return Future(world.outcome, world.episode_tick, world.cause.ids if world.cause else ())

@@ -56,7 +56,7 @@ def wrong_claims(explanation: Explanation, *, parts: bool) -> Iterator[str]:
     run, fact = explanation.moment, explanation.decision.move
     causes = [cause.id for cause in explanation.causes]
     for cause in explanation.causes:
-        if move_after(run, taking(cause.group, run.config)) is fact:
+        if cause.group and move_after(run, taking(cause.group, run.config)) is fact:
             yield f"without {cause.group} it stays {fact}"
         alone = move_after(run, taking([cause.id], run.config)) is not fact
         if alone is not cause.necessary:
