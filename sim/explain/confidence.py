@@ -1,0 +1,345 @@
+"""How sure it is that the vehicle arrives in this episode, over all that is drawn only later.
+
+On a road that is seen whole, one thing is not known yet: who will give way (`sim.courtesy`). So the
+futures form a tree that branches only where a mover beside the vehicle has a reason to be courteous. Where
+the branches meet again, which is soon, they are one: rows that lie behind take no part any more. Mostly the
+tree is then small enough to be walked whole, and the share of futures that arrive is exact. Where it is
+not, futures are drawn from it, with seeds of their own, and the share has Wilson's interval ("Probable
+inference, the law of succession, and statistical inference", Journal of the American Statistical
+Association, 1927).
+
+A future in which potholes and barriers have shut the vehicle off from the goal is followed no further: it
+never drives back, so it does not arrive, however it ends.
+
+Every step is the session's own (`sim.run.advance`) with the draws of its tick set. Work is limited by
+decisions taken and never by the clock, so the same moment has the same answer everywhere. Not foreseen:
+what a person will do. In manual mode it is told how it goes if the vehicle drives from here on by itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from enum import StrEnum
+from itertools import chain, combinations, count
+from math import sqrt
+from typing import Final, TypeAlias
+
+from sim.config import Config
+from sim.courtesy import yielding
+from sim.explain.facts import QuestionError
+from sim.forecast import foretell
+from sim.kinds import Mode, Move, Outcome
+from sim.perceive import perceive
+from sim.plan import Decision
+from sim.plan.costs import weights
+from sim.planner_names import BUILT_IN
+from sim.randomness import Stream
+from sim.road import Board, bits, board_of
+from sim.rules import spread_back
+from sim.run import Run, advance, decide
+from sim.timeline import Timeline
+from sim.world import World
+
+WORK: Final = {"priority": 600, "exact": 450, "astar": 240, "dijkstra": 240}
+"""Decisions taken for one answer, by planner; a few more where the last future is run to its end."""
+OTHER_WORK: Final = 120
+"""The same for planners that are not the project's own."""
+WALK_SHARE: Final = 2 / 3
+"""How much of the work goes into walking the whole tree before futures are drawn instead."""
+MAX_FUTURES: Final = 200
+_WEIGHING: Final = ("astar", "dijkstra")
+"""Planners that charge for what is near, also behind the vehicle."""
+Z: Final = 1.959964
+"""Standard errors on either side of a 95 % interval."""
+
+
+End: TypeAlias = tuple[Outcome | None, int]
+"""How and how many ticks from now a future ends; None where it is shut off from the goal."""
+Ends: TypeAlias = dict[End, float]
+"""The chance of each end, or how often it was met."""
+
+
+class Method(StrEnum):
+    """How a confidence was come by."""
+
+    ONE_RUN = "one_run"
+    """nothing is left to chance: the one future was run"""
+    ALL_FUTURES = "all_futures"
+    """every future that can be was run; the share is exact"""
+    SAMPLED = "sampled"
+    """futures were drawn; the share has an interval"""
+
+
+@dataclass(frozen=True, slots=True)
+class Clarity:
+    """How clear a decision was: the move taken against the next best."""
+
+    decision: Decision
+    free: int
+    """moves that would have met nothing"""
+    next_best: Move | None
+    """the best of the others that led on; None if there was none"""
+    gap: float | None
+    """what that would have cost more, in the decision's measure"""
+
+
+@dataclass(frozen=True, slots=True)
+class Confidence:
+    """How sure it is that the vehicle arrives in this episode."""
+
+    tick: int
+    method: Method
+    arrives: float
+    """share of futures in which it arrives"""
+    low: float
+    high: float
+    """the 95 % interval of the share; equal to it where the share is exact"""
+    crashes: float
+    stuck: float
+    shut_off: float
+    """shares of the other ends; `shut_off`: potholes and barriers leave no way, and no end was waited for"""
+    arrival_ticks: tuple[int, int] | None
+    """ticks from now of the earliest and the latest arrival that was found"""
+    end_ticks: tuple[int, int] | None
+    """the same of all ends that were waited for"""
+    futures: int | None
+    """how many were drawn; None where the share is exact"""
+    decisions: int
+    """decisions taken for this answer"""
+    chance: bool
+    """whether who gives way is drawn at all"""
+    by_hand: bool
+    """whether a person drives at present, and it is told how it goes if the vehicle took over"""
+    clarity: Clarity | None
+    """of the latest decision of this episode, if a planner took it"""
+
+    @property
+    def stated(self) -> float:
+        """The one figure to state: never all or none of a sample, but the end of its interval."""
+        if self.arrives == 1.0:
+            return self.low
+        return self.high if self.arrives == 0.0 else self.arrives
+
+
+def confidence(timeline: Timeline) -> Confidence:
+    """How sure it is that the present episode ends with an arrival. Raises `QuestionError`."""
+    run = timeline.run
+    if run.world.outcome is not Outcome.RUNNING:
+        raise QuestionError("confidence_ended", outcome=run.world.outcome, tick=run.world.tick)
+    futures = _Futures(run)
+    ends = futures.walked()
+    drawn = None
+    if ends is None:
+        ends = futures.drawn()
+        drawn = round(sum(ends.values()))
+    mass = dict.fromkeys((*Outcome, None), 0.0)
+    for (outcome, _), chance in ends.items():
+        mass[outcome] += chance
+    shares = {outcome: each / sum(mass.values()) for outcome, each in mass.items()}
+    arrivals = [ticks for outcome, ticks in ends if outcome is Outcome.SUCCESS]
+    waited = [ticks for outcome, ticks in ends if outcome is not None]
+    arrives = shares[Outcome.SUCCESS]
+    low, high = (arrives, arrives) if drawn is None else wilson(round(mass[Outcome.SUCCESS]), drawn)
+    method = Method.ONE_RUN if futures.branched == 0 else Method.ALL_FUTURES
+    return Confidence(
+        tick=run.world.tick,
+        method=method if drawn is None else Method.SAMPLED,
+        arrives=arrives,
+        low=low,
+        high=high,
+        crashes=shares[Outcome.CRASH],
+        stuck=shares[Outcome.STUCK],
+        shut_off=shares[None],
+        arrival_ticks=(min(arrivals), max(arrivals)) if arrivals else None,
+        end_ticks=(min(waited), max(waited)) if waited else None,
+        futures=drawn,
+        decisions=futures.work,
+        chance=0.0 < run.config.courtesy < 1.0,
+        by_hand=run.mode is Mode.MANUAL,
+        clarity=_clarity(timeline),
+    )
+
+
+def wilson(hits: int, tries: int) -> tuple[float, float]:
+    """Wilson's 95 % interval of a share that held `hits` times in `tries`."""
+    share, square = hits / tries, Z * Z
+    middle = (share + square / (2 * tries)) / (1 + square / tries)
+    half = Z / (1 + square / tries) * sqrt(share * (1 - share) / tries + square / (4 * tries * tries))
+    return max(0.0, middle - half), min(1.0, middle + half)
+
+
+def _clarity(timeline: Timeline) -> Clarity | None:
+    if timeline.run.world.episode_tick == 0:
+        return None
+    decision = decide(timeline.at(timeline.tick - 1))
+    if decision is None or decision.asked is not None or decision.fault is not None:
+        return None
+    cost = decision.chosen.cost
+    free = sum(not option.reason.blocks for option in decision.options)
+    others = [
+        option for option in decision.options if option.move is not decision.move and option.cost is not None
+    ]
+    if cost is None or not others:
+        return Clarity(decision, free, None, None)
+    next_best = min(others, key=lambda option: option.cost or 0.0)
+    return Clarity(decision, free, next_best.move, (next_best.cost or 0.0) - cost)
+
+
+@dataclass(slots=True)
+class _Node:
+    """A moment of a future; `after` is where it may go, with the chance of each, once that is known."""
+
+    run: Run
+    after: list[tuple[float, _Node]] | None = None
+
+
+@dataclass(slots=True)
+class _Futures:
+    """The tree of futures of a moment, grown where it is looked at."""
+
+    start: Run
+    work: int = 0
+    branched: int = 0
+    _nodes: dict[tuple[int, ...], _Node] = field(default_factory=dict)
+    _root: _Node = field(init=False)
+    _known: bool = field(init=False)
+    _buffer: int = field(init=False)
+    _open: Board = field(init=False)
+    _none: Config = field(init=False)
+    _all: Config = field(init=False)
+
+    def __post_init__(self) -> None:
+        config = self.start.config
+        self._root = _Node(replace(self.start, mode=Mode.AUTO))
+        # Planners of others may look at anything; the project's own at what their charges reach.
+        self._known = config.planner in BUILT_IN
+        self._buffer = weights(config).buffer if config.planner in _WEIGHING else 0
+        self._open = _leading_on(self.start.world)
+        self._none = config.with_parts(courtesy=0.0)
+        self._all = config.with_parts(courtesy=1.0)
+
+    def walked(self) -> Ends | None:
+        """The chance of each end, by outcome and ticks from now; None if the tree is too large to walk."""
+        ends: Ends = {}
+        layer: dict[int, tuple[_Node, float]] = {id(self._root): (self._root, 1.0)}
+        if (shut := self._end(self._root)) is not None:
+            return {shut: 1.0}
+        while layer:
+            after: dict[int, tuple[_Node, float]] = {}
+            for node, mass in layer.values():
+                if self.branched and self.work >= WALK_SHARE * self._limit:
+                    return None
+                for chance, then in self._after(node):
+                    end = self._end(then)
+                    if end is not None:
+                        ends[end] = ends.get(end, 0.0) + mass * chance
+                    else:
+                        _, before = after.get(id(then), (then, 0.0))
+                        after[id(then)] = then, before + mass * chance
+            layer = after
+        return ends
+
+    def drawn(self) -> Ends:
+        """How often each end was met, by outcome and ticks from now, in futures drawn by chance.
+
+        Whether one more is drawn does not hang on how long it would be, so that short ones are not favoured.
+        """
+        world = self.start.world
+        stream = Stream.of(self.start.config.seed, "confidence", world.episode, world.episode_tick)
+        ends: Ends = {}
+        for number in range(MAX_FUTURES):
+            if self.work >= self._limit:
+                break
+            node, draws, step = self._root, stream.narrow(number), count()
+            while (end := self._end(node)) is None:
+                node = _pick(self._after(node), draws.uniform(next(step)))
+            ends[end] = ends.get(end, 0.0) + 1.0
+        return ends
+
+    @property
+    def _limit(self) -> int:
+        return WORK.get(self.start.config.planner, OTHER_WORK)
+
+    def _end(self, node: _Node) -> End | None:
+        world = node.run.world
+        ticks = world.tick - self.start.world.tick
+        if world.outcome is not Outcome.RUNNING:
+            return world.outcome, ticks
+        return None if self._open >> world.av & 1 else (None, ticks)
+
+    def _after(self, node: _Node) -> list[tuple[float, _Node]]:
+        if node.after is None:
+            ways = [(1.0, self.start.config)] if node is self._root else list(self._ways(node.run))
+            self.branched += len(ways) > 1
+            node.after = [(chance, self._step(node.run, config)) for chance, config in ways]
+        return node.after
+
+    def _ways(self, run: Run) -> Iterator[tuple[float, Config]]:
+        """What may be drawn in the coming tick: the chance of it, and a configuration that draws it.
+
+        What makes no difference to where anything goes is one way. The tick that comes next is seen already,
+        which is why the root has no ways to choose from.
+        """
+        world, courtesy = run.world, run.config.courtesy
+        near = yielding(world, self._all) if courtesy else 0
+        if not near:
+            yield 1.0, self._none
+            return
+        ways: dict[object, tuple[float, Config]] = {}
+        cells = list(bits(near))
+        for chosen in chain.from_iterable(combinations(cells, size) for size in range(len(cells) + 1)):
+            giving = board_of(chosen)
+            chance = courtesy ** len(chosen) * (1.0 - courtesy) ** (len(cells) - len(chosen))
+            config = self._drawing(world, near, giving)
+            motion = foretell(perceive(world, config), 1).slices[0] if self._known else giving
+            before, first = ways.get(motion, (0.0, config))
+            ways[motion] = before + chance, first
+        yield from (way for way in ways.values() if way[0] > 0.0)
+
+    def _drawing(self, world: World, near: Board, giving: Board) -> Config:
+        """A configuration under which exactly these movers of those near give way in the coming tick."""
+        if giving == 0:
+            return self._none
+        if giving == near:
+            return self._all
+        tried = (self._none.with_parts(courtesy=0.5, seed=seed) for seed in count())
+        return next(config for config in tried if yielding(world, config) == giving)
+
+    def _step(self, run: Run, config: Config) -> _Node:
+        self.work += 1
+        tick = advance(replace(run, config=config))
+        if tick.decision is not None and tick.decision.timed_out:
+            raise QuestionError("confidence_silent", planner=tick.decision.planner)
+        after = replace(tick.run, config=self.start.config)
+        return self._nodes.setdefault(self._key(after), _Node(after))
+
+    def _key(self, run: Run) -> tuple[int, ...]:
+        """Equal for moments from which everything goes on alike."""
+        world = run.world
+        ahead = world.road.all
+        if self._known:
+            rows = world.road.cell(world.av)[1] + 1 + self._buffer
+            ahead = (1 << min(rows, world.road.rows) * world.road.columns) - 1
+        boards = (world.right & ahead, world.left & ahead, world.pedestrians & ahead)
+        return world.tick, tuple(Outcome).index(world.outcome), *world.avs, *boards
+
+
+def _leading_on(world: World) -> Board:
+    """The cells from which the goal could be reached if nothing moved."""
+    road, free = world.road, world.road.all & ~world.fixed
+    found, grown = 0, road.row(0) & free
+    while grown != found:
+        found = grown
+        behind = found << road.columns
+        grown = found | free & spread_back(found, behind, 0, 0, road.left_edge, road.right_edge)
+    return found
+
+
+def _pick(ways: list[tuple[float, _Node]], draw: float) -> _Node:
+    """The way on which a draw from [0, 1) falls."""
+    for chance, node in ways:
+        if draw < chance:
+            return node
+        draw -= chance
+    return ways[-1][1]

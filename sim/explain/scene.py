@@ -1,0 +1,133 @@
+"""What is seen, and what the vehicle would meet if it drove straight on: from the percept alone.
+
+Nothing here looks at the world. What sensors miss is not in the answer, what they imagine is, and how
+sure they are goes along with each thing: 1 under the perfect sensor, else as `likelihoods` says. When
+something is met is not reckoned from speeds: the forecast that planners read is stepped row by row, so it
+holds exactly where sight is perfect. Only the first meeting would happen; later ones are told as if the
+vehicle had come through.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Final
+
+from sim.config import Config
+from sim.forecast import foretell
+from sim.kinds import Cell, Kind, Move
+from sim.perceive import Percept
+from sim.road import Road
+
+CERTAIN: Final[Mapping[str, float]] = MappingProxyType({})
+"""The likelihoods of sensors that are always sure."""
+
+
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """One thing as it is seen."""
+
+    id: str
+    kind: Kind
+    cell: Cell
+    likelihood: float
+    """how sure it is that the thing is there, 0 to 1"""
+    lanes: int
+    """lanes to the right of the vehicle; to the left below 0"""
+    rows: int
+    """rows ahead of the vehicle; behind it below 0"""
+    heading: str | None
+    """"left" or "right" for movers"""
+    held: bool
+    """a mover in a pothole: it stays where it is"""
+    ticks: int | None
+    """ticks until it is met, if the vehicle drives straight on; None if it is not met in the next rows"""
+
+    @property
+    def walks(self) -> bool:
+        """Whether it may be somewhere else by the time it is met."""
+        return self.kind.moves and not self.held
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """What is seen at a tick."""
+
+    tick: int
+    cell: Cell
+    """where the vehicle is"""
+    reach: int
+    """rows ahead that were looked at for what would be met; fewer where the goal is nearer"""
+    seen: tuple[Seen, ...]
+    """what would be met, soonest first; then the rest, the nearest first"""
+
+    @property
+    def threats(self) -> tuple[Seen, ...]:
+        """What would be met on the way straight on, soonest first."""
+        return tuple(thing for thing in self.seen if thing.ticks is not None)
+
+    def of(self, kind: Kind | None) -> tuple[Seen, ...]:
+        """Everything, or the things of one kind."""
+        return tuple(thing for thing in self.seen if kind is None or thing.kind is kind)
+
+
+def look(percept: Percept, config: Config, likelihoods: Mapping[str, float] = CERTAIN) -> Scene:
+    """What is seen. `likelihoods`: by id, of the things of which the sensors are not sure."""
+    road = percept.road
+    column, row = road.cell(percept.ego)
+    reach = min(row, config.visible_rows)
+    ticks = _meetings(percept, reach)
+    seen = []
+    for index, name, kind in _things(percept):
+        cell = road.cell(index)
+        moves, bit = kind.moves, 1 << index
+        seen.append(
+            Seen(
+                id=name,
+                kind=kind,
+                cell=cell,
+                likelihood=likelihoods.get(name, 1.0),
+                lanes=cell[0] - column,
+                rows=row - cell[1],
+                heading=("right" if percept.right & bit else "left") if moves else None,
+                held=moves and bool(percept.potholes & bit),
+                ticks=ticks.get(name),
+            )
+        )
+    return Scene(percept.tick, (column, row), reach, tuple(sorted(seen, key=_nearest)))
+
+
+def _things(percept: Percept) -> Iterator[tuple[int, str, Kind]]:
+    """Cell, id and kind of all that is seen; what it is, the boards say."""
+    for index, name in percept.hazards.items():
+        yield index, name, Kind.POTHOLE if percept.potholes >> index & 1 else Kind.BARRIER
+    for index, name in percept.movers.items():
+        yield index, name, Kind.PEDESTRIAN if percept.pedestrians >> index & 1 else Kind.VEHICLE
+
+
+def _meetings(percept: Percept, reach: int) -> dict[str, int]:
+    """In how many ticks each thing is met that stands in the way straight on."""
+    if not reach:
+        return {}
+    forecast = foretell(percept, reach)
+    met: dict[str, int] = {}
+    here = percept.ego
+    for ahead in range(reach):
+        then = _on(percept.road, here)
+        for name in forecast.expect(here, then, ahead)[1]:
+            met.setdefault(name, ahead + 1)
+        here = then
+    return met
+
+
+def _on(road: Road, here: int) -> int:
+    then = road.moved(here, Move.FORWARD)
+    assert then is not None  # there are `reach` rows ahead
+    return then
+
+
+def _nearest(thing: Seen) -> tuple[bool, int, int, int, bool, Cell]:
+    """What is met first; then by distance, and among equals own lane, then ahead, first."""
+    away = max(abs(thing.lanes), abs(thing.rows))
+    return thing.ticks is None, thing.ticks or 0, away, abs(thing.lanes), thing.rows < 0, thing.cell
