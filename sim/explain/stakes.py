@@ -15,7 +15,6 @@ from sim.optimum import least_ticks
 from sim.plan import Decision
 from sim.run import Run, advance
 
-
 TIMELESS_PLANNERS = frozenset(("priority",))
 """Planners to whom the time does not matter: what has been once comes again for ever."""
 
@@ -83,7 +82,7 @@ def _end(run: Run) -> Future | None:
             world = run.world
             state = (world.avs, world.right, world.left, world.pedestrians, world.potholes)
             if state in seen:
-                return Future(Outcome.STUCK, run.config.max_ticks)
+                return Future(Outcome.STUCK, run.config.max_ticks + 1)
             seen.add(state)
         run = advance(run).run
     world = run.world
