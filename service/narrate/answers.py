@@ -4,8 +4,14 @@ from __future__ import annotations
 
 from service.narrate.advice import Advices
 from service.narrate.answering import Answerer, Json
+from service.narrate.metrics import Figures
+from service.narrate.next import Next
+from service.narrate.confidence import Confidences
+from service.narrate.maintenance import Maintenance
 from service.narrate.sayings import Sayings
+from service.narrate.scene import Scenes
 from service.narrate.status import Help, Status
+from service.narrate.whatif import WhatIfs
 from service.narrate.whys import Whys
 from service.sessions.facts import Advised, Answerable
 
@@ -22,6 +28,12 @@ class Answers:
             "why_not": whys,
             "status": Status(sayings),
             "help": Help(sayings),
+            "scene": Scenes(sayings),
+            "confidence": Confidences(sayings),
+            "maintenance": Maintenance(sayings),
+            "what_if": WhatIfs(sayings),
+            "next": Next(sayings),
+            "metrics": Figures(sayings),
         }
 
     def answer(self, asked: Answerable) -> Json:

@@ -34,7 +34,12 @@ _OFFERED = frozenset(
         "advise",
     )
 )
-_ANSWERED = frozenset(("why", "why_not", "status", "help"))
+_ANSWERED = frozenset(
+    ("why", "why_not", "status", "help", "what_if", "next", "metrics", "scene", "confidence", "maintenance")
+)
+
+_NO_WORLD = frozenset(("show", "hide", "evaluate", "find_worst", "advise", "save", "record"))
+"""Actions that leave the road as it is, whether this version has them or not."""
 
 _NAMES = {
     "show": "Other views than the road",
@@ -46,20 +51,15 @@ _NAMES = {
     "load": "Loading what was saved",
     "record": "Recording pictures",
 }
-_QUESTIONS = {
-    "what_if": "Asking what if",
-    "next": "Asking what comes next",
-    "scene": "Asking what is seen",
-    "metrics": "Asking for figures",
-    "confidence": "Asking how sure the vehicle is",
-    "maintenance": "Asking about wear",
-}
+_QUESTIONS = {}
 
 
 def refusal(action: Action) -> str | None:
     """Why an action is not offered by this version, as a sentence; None if it is."""
     if isinstance(action, Ask):
-        return None if action.about in _ANSWERED else _sentence(_QUESTIONS[action.about])
+        if action.about not in _ANSWERED:
+            return _sentence(_QUESTIONS[action.about])
+        return next((sentence for each in action.change or () if (sentence := _imagined(each))), None)
     if action.do not in _OFFERED:
         return _sentence(_NAMES[action.do])
     match action:
@@ -73,6 +73,13 @@ def refusal(action: Action) -> str | None:
             return _sentence(f"Changing the {action.parameter.replace('_', ' ')}{value}")
         case Drive() | Reset() | SetMode() | _:
             return None
+
+
+def _imagined(action: Action) -> str | None:
+    """Why nobody can be asked what if to an action; what touches no world may be, and makes no difference."""
+    if action.do in ("undo", "redo"):
+        return _sentence("Asking what if something were taken back")
+    return None if action.do in _NO_WORLD else refusal(action)
 
 
 def _sentence(what: str) -> str:

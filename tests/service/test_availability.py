@@ -39,10 +39,17 @@ OFFERED: list[dict[str, Any]] = [
     {"do": "ask", "about": "why"},
     {"do": "ask", "about": "why_not", "move": "left"},
     {"do": "ask", "about": "status"},
+    {"do": "ask", "about": "what_if", "change": [{"do": "remove", "kind": "pothole", "count": 1}]},
+    {"do": "ask", "about": "what_if", "change": [{"do": "show", "view": "log"}]},
+    {"do": "ask", "about": "next"},
+    {"do": "ask", "about": "metrics", "metric": "crashes"},
     {"do": "set", "parameter": "planner", "value": "astar"},
     {"do": "adjust", "parameter": "safety_buffer", "by": 1},
     {"do": "prefer", "preference": "cautious"},
     {"do": "ask", "about": "help"},
+    {"do": "ask", "about": "scene", "kind": "pothole"},
+    {"do": "ask", "about": "confidence"},
+    {"do": "ask", "about": "maintenance"},
     {"do": "advise", "hazard": "pothole", "distance_m": 2, "speed_kmh": 40},
 ]
 BESIDE_SESSIONS = {"teach", "forget"}
@@ -64,9 +71,10 @@ REFUSED: list[dict[str, Any]] = [
     *({"do": "scenario", key: value} for key, value in (
         ("weather", "rain"), ("time_of_day", "night"), ("sensor", "lidar"), ("planner", "rl"), ("avs", 1),
     )),
-    {"do": "ask", "about": "what_if", "change": [{"do": "remove", "kind": "pothole", "count": 1}]},
+    {"do": "ask", "about": "what_if", "change": [{"do": "set", "parameter": "weather", "value": "rain"}]},
+    {"do": "ask", "about": "what_if", "change": [{"do": "pause"}, {"do": "undo"}]},
     *({"do": "ask", "about": about} for about in (
-        "next", "scene", "metrics", "confidence", "maintenance",
+        "scene", "confidence", "maintenance",
     )),
 ]  # fmt: skip
 

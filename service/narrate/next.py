@@ -1,0 +1,73 @@
+"""Answers to "what will you do next?": the coming moves, put together where they are alike."""
+
+from __future__ import annotations
+
+from itertools import groupby
+
+from service.narrate.answering import Json, plain
+from service.narrate.naming import Naming
+from service.narrate.sayings import Sayings
+from service.sessions.facts import Asked
+from service.wire.future import way_json
+from sim.explain.future import Detour, Way, way_ahead
+from sim.kinds import Move, Outcome
+from sim.run import Run
+
+
+class Next:
+    """Answers to "what will you do next?"."""
+
+    def __init__(self, sayings: Sayings) -> None:
+        """`sayings`: the language's."""
+        self._sayings = sayings
+
+    def answer(self, asked: Asked) -> Json:
+        """See `Answerer.answer`."""
+        run = asked.timeline.run
+        way = way_ahead(run)
+        return plain(self._sayings, asked.ask, run, self._text(way)) | way_json(way)
+
+    def _text(self, way: Way) -> str:
+        run = way.run
+        if run.world.outcome is not Outcome.RUNNING:
+            return self._ended(run)
+        if not way.decisions:
+            return self._say("silent", planner=run.config.planner)
+        told = self._say("let" if way.offered else "next", way=self._way(way))
+        more = way.chance and way.outcome is Outcome.RUNNING
+        return f"{told} {self._say('chance')}" if more else told
+
+    def _way(self, way: Way) -> str:
+        detours = {detour.tick: detour for detour in way.detours}
+        steps = [(decision.move, detours.get(decision.tick)) for decision in way.decisions]
+        alike = groupby(steps, key=lambda step: (step[0], step[1] and (step[1].sake, step[1].ids)))
+        naming = Naming(self._sayings, way.run)
+        told = []
+        for (move, _), group in alike:
+            members = list(group)
+            told.append(self._move(move, len(members), members[0][1], way.run, naming))
+        said = self._say("then").join(told)
+        if way.outcome is Outcome.SUCCESS:
+            return self._say("arrives", way=said)
+        if way.outcome is Outcome.CRASH:
+            a = "" if way.cause is None else self._sayings.say("words", "a", way.cause.kind)
+            return self._say("crashes", way=said, a=a)
+        return self._say("stuck", way=said) if way.outcome is Outcome.STUCK else said
+
+    def _move(self, move: Move, count: int, detour: Detour | None, run: Run, naming: Naming) -> str:
+        metres = f"{count * run.config.cell_m:g}"
+        said = self._say("moves", move, "one" if count == 1 else "many", count=count, metres=metres)
+        if detour is None:
+            return said
+        key = "stays" if move is Move.STAY and detour.ids else detour.sake
+        return self._say("sakes", key, move=said, who=naming.things(detour.ids))
+
+    def _ended(self, run: Run) -> str:
+        world = run.world
+        stood = 0 if world.ended is None else world.tick - world.ended
+        seconds = max(1, run.config.reset_delay_ticks - stood) * run.config.step_seconds
+        outcome = self._sayings.say("answers", "outcomes", world.outcome)
+        return self._say("ended", outcome=outcome, seconds=f"{seconds:g}")
+
+    def _say(self, *keys: str, **parts: object) -> str:
+        return self._sayings.say("next", *keys, **parts)

@@ -1,0 +1,167 @@
+"""What will come of a run: the same ticks as it would be driven through, taken on a copy.
+
+Nothing is foretold here, everything is run, to the end of the episode or for a few ticks. What a person
+may say meanwhile is left out: a story is told as if nothing were said any more.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Final
+
+from sim.course import Sake, sake
+from sim.kinds import Mode, Move, Outcome
+from sim.plan import Decision
+from sim.run import Run, Tick, advance
+from sim.world import Cause
+
+NEXT_TICKS: Final = 5
+"""How far the way from here is told."""
+
+
+@dataclass(frozen=True, slots=True)
+class Detour:
+    """A move that was not straight on."""
+
+    tick: int
+    move: Move
+    sake: Sake
+    ids: tuple[str, ...]
+    """who would have been met straight ahead"""
+
+
+@dataclass(frozen=True, slots=True)
+class Story:
+    """A run to the end of its episode; where a result stands, to the end of the next."""
+
+    tick: int
+    """where it begins"""
+    waited: int
+    """ticks until the next road, where a result stood"""
+    episode: int
+    end: int
+    """the tick at which it ends"""
+    outcome: Outcome
+    """`RUNNING` where it cannot be told, since the planner does not answer in time"""
+    cause: Cause | None
+    """of a crash"""
+    path: tuple[Move, ...]
+    """every move, in order"""
+    detours: tuple[Detour, ...]
+    by_hand: bool
+    """whether a person drives and asked for nothing, from the first move on"""
+    silent: str | None
+    """what the planner did instead of answering"""
+    digest: str
+    """of the world at the end"""
+
+    @property
+    def ticks(self) -> int:
+        """Ticks from the beginning to the end."""
+        return self.end - self.tick
+
+    def moves(self) -> dict[Move, int]:
+        """How many moves of each kind."""
+        return {move: self.path.count(move) for move in Move}
+
+
+@dataclass(frozen=True, slots=True)
+class Way:
+    """The next decisions, none of them taken yet."""
+
+    run: Run
+    """the moment it is seen from"""
+    decisions: tuple[Decision, ...]
+    detours: tuple[Detour, ...]
+    outcome: Outcome
+    cause: Cause | None
+    offered: bool
+    """whether this is what the planner would do, were it let: a person drives and has asked for nothing"""
+    chance: bool
+    """whether what comes after the first move hangs on who gives way"""
+
+
+def story(run: Run) -> Story:
+    """What comes of a run if nothing more is said."""
+    return told(run, list(followed(run)))
+
+
+def followed(run: Run) -> Iterator[tuple[Run, Tick]]:
+    """Each tick to the end of the episode, with the run before it; a result that stands is waited out first.
+
+    A tick whose planner did not answer in time is the last: a session would hand over to a person there.
+    """
+    started = run.world.outcome is Outcome.RUNNING
+    while run.world.outcome is Outcome.RUNNING or not started:
+        tick = advance(run)
+        yield run, tick
+        if tick.decision is not None and tick.decision.timed_out:
+            return
+        run = tick.run
+        started = started or run.world.outcome is Outcome.RUNNING
+
+
+def told(run: Run, ticks: list[tuple[Run, Tick]]) -> Story:
+    """The story of ticks that were followed from a run."""
+    path, detours = [], []
+    last, silent = run, None
+    for before, tick in ticks:
+        decision = tick.decision
+        if decision is not None and decision.timed_out:
+            silent = decision.fault
+            break
+        last = tick.run
+        if decision is not None:
+            path.append(decision.move)
+            detours += detoured(before, tick)
+    first = next((tick.decision for _, tick in ticks if tick.decision is not None), None)
+    return Story(
+        tick=run.world.tick,
+        waited=sum(tick.decision is None for _, tick in ticks),
+        episode=last.world.episode,
+        end=last.world.tick,
+        outcome=last.world.outcome,
+        cause=last.world.cause,
+        path=tuple(path),
+        detours=tuple(detours),
+        by_hand=first is not None and first.asked is not None and run.mode is Mode.MANUAL and not run.queue,
+        silent=silent,
+        digest=last.world.digest(),
+    )
+
+
+def detoured(before: Run, tick: Tick) -> list[Detour]:
+    """The detour of a tick, if it was one."""
+    decision = tick.decision
+    if decision is None or decision.move is Move.FORWARD:
+        return []
+    by_person, faulty = decision.asked is not None, decision.fault is not None
+    whose, ids = sake(before.world, tick.run.world, by_person=by_person, faulty=faulty)
+    return [Detour(decision.tick, decision.move, whose, ids)]
+
+
+def way_ahead(run: Run, ticks: int = NEXT_TICKS) -> Way:
+    """The next decision and the way from there; empty while a result stands.
+
+    Where a person drives and has asked for nothing, it is what the planner would do, were it let. Movers
+    that may give way are a matter of chance that no driver knows beforehand, so with courtesy the way is
+    not told beyond the next decision.
+    """
+    offered = run.mode is Mode.MANUAL and not run.queue
+    chance = run.config.courtesy > 0.0
+    seen = replace(run, mode=Mode.AUTO) if offered else run
+    decisions: list[Decision] = []
+    detours: list[Detour] = []
+    after = seen
+    for _ in range(1 if chance else ticks):
+        if after.world.outcome is not Outcome.RUNNING:
+            break
+        tick = advance(after)
+        if tick.decision is None or tick.decision.timed_out:
+            break
+        decisions.append(tick.decision)
+        detours += detoured(after, tick)
+        after = tick.run
+    outcome, cause = after.world.outcome, after.world.cause
+    return Way(run, tuple(decisions), tuple(detours), outcome, cause, offered, chance)

@@ -1,0 +1,135 @@
+"""What an episode has come to, at its end: detours and for whose sake, and what the best would have been.
+
+Read off the course that the run carries (`sim.course`), so nothing is driven again. What cannot be known for
+certain is left out: the best, and until when a way was open, are for roads that nobody changed on the
+way and on which nothing hung on who gives way.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from sim.course import Course, Sake
+from sim.forecast import foretell
+from sim.kinds import Move, Outcome
+from sim.optimum.least import least_ticks
+from sim.perceive import perceive
+from sim.rules import spread_back
+from sim.run import Run
+from sim.search.reach import steps_left
+from sim.world import Cause
+
+QUICK_CELLS = 512
+"""On roads up to this size an arrival or a crash is summed up in a fraction of a millisecond."""
+
+
+@dataclass(frozen=True, slots=True)
+class Summary:
+    """An episode that has ended, in facts."""
+
+    outcome: Outcome
+    ticks: int
+    sakes: tuple[tuple[Sake, int], ...]
+    """detours by whose sake, in the order they first came"""
+    best: int | None
+    """least ticks from the beginning; None where there is no way, or where it is not certain"""
+    cause: Cause | None
+    """of a crash"""
+    free: bool | None
+    """of a crash: whether some move of the last tick would have met nothing"""
+    open_before: bool | None
+    """of a crash: whether a way to the goal was open a tick before; None where it is not certain"""
+    open_until: int | None
+    """of STUCK: the last tick of the episode at which a way was open; None as for `best`"""
+    certain: bool
+    """whether nobody changed the road on the way, and nothing hung on who gives way"""
+
+    @property
+    def detours(self) -> int:
+        """Moves that were not straight on."""
+        return sum(count for _, count in self.sakes)
+
+    @property
+    def above(self) -> int | None:
+        """Ticks more than the best possible, for an arrival."""
+        if self.outcome is not Outcome.SUCCESS or self.best is None:
+            return None
+        return self.ticks - self.best
+
+
+def summary(run: Run) -> Summary:
+    """How the episode went that has ended in this run. Raises `ValueError` while it goes on."""
+    world, course = run.world, run.course
+    if world.outcome is Outcome.RUNNING:
+        raise ValueError("the episode goes on")
+    whole = course.start is not None and course.start.tick == world.episode_start
+    certain = course.certain and whole and not course.changed
+    free = open_before = best = open_until = None
+    if course.start is not None and certain:
+        best = least_ticks(_at_first(run, course))
+    if world.outcome is Outcome.CRASH and course.last is not None:
+        before = replace(run, world=course.last, queue=())
+        free = any(foretell(perceive(before.world, run.config), 1).steps(1 << before.world.av))
+        open_before = least_ticks(before) is not None if course.certain else None
+    if world.outcome is Outcome.STUCK and certain:
+        open_until = _open_until(run, course)
+    return Summary(
+        outcome=world.outcome,
+        ticks=(world.tick if world.ended is None else world.ended) - world.episode_start,
+        sakes=course.sakes,
+        best=best,
+        cause=world.cause,
+        free=free,
+        open_before=open_before,
+        open_until=open_until,
+        certain=certain,
+    )
+
+
+def long_to_tell(run: Run) -> bool:
+    """Whether the summary takes longer than a tick of many sessions may."""
+    world = run.world
+    return world.outcome is Outcome.STUCK or world.road.columns * world.road.rows > QUICK_CELLS
+
+
+def _at_first(run: Run, course: Course) -> Run:
+    """The run as the episode began, with the present configuration."""
+    assert course.start is not None
+    return replace(run, world=course.start, queue=())
+
+
+def _open_until(run: Run, course: Course) -> int | None:
+    """The last tick of the episode at which a way still led to the goal; None: at none.
+
+    One sweep backwards: the cells from which row 0 can be met in the ticks that are left, until the
+    vehicle's own is among them.
+    """
+    world = _at_first(run, course).world
+    road, limit = world.road, steps_left(run.config, 0)
+    forecast = foretell(perceive(world, run.config), limit)
+    cells = _cells(world.av, course.made(), road.columns)
+    goal = road.row(0)
+    reaching = goal
+    for tick in range(limit - 1, -1, -1):
+        slice_ = forecast.slices[tick]
+        free = reaching & ~(forecast.fixed | slice_.occupied)
+        reaching = goal | spread_back(
+            free,
+            free << road.columns & road.all,
+            slice_.came_right,
+            slice_.came_left,
+            road.left_edge,
+            road.right_edge,
+        )
+        if tick < len(cells) and reaching >> cells[tick] & 1:
+            return tick
+    return None
+
+
+def _cells(start: int, moves: tuple[Move, ...], columns: int) -> list[int]:
+    """The vehicle's cell at every tick."""
+    cells = [start]
+    for move in moves:
+        across, along = move.offset
+        cells.append(cells[-1] + across + along * columns)
+    return cells
