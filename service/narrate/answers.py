@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from service.narrate.advice import Advices
 from service.narrate.answering import Answerer, Json
-from service.narrate.metrics import Figures
-from service.narrate.next import Next
 from service.narrate.confidence import Confidences
 from service.narrate.maintenance import Maintenance
+from service.narrate.metrics import Figures
+from service.narrate.next import Next
 from service.narrate.sayings import Sayings
 from service.narrate.scene import Scenes
 from service.narrate.status import Help, Status

@@ -34,10 +34,6 @@ _OFFERED = frozenset(
         "advise",
     )
 )
-_ANSWERED = frozenset(
-    ("why", "why_not", "status", "help", "what_if", "next", "metrics", "scene", "confidence", "maintenance")
-)
-
 _NO_WORLD = frozenset(("show", "hide", "evaluate", "find_worst", "advise", "save", "record"))
 """Actions that leave the road as it is, whether this version has them or not."""
 
@@ -51,14 +47,11 @@ _NAMES = {
     "load": "Loading what was saved",
     "record": "Recording pictures",
 }
-_QUESTIONS = {}
 
 
 def refusal(action: Action) -> str | None:
     """Why an action is not offered by this version, as a sentence; None if it is."""
     if isinstance(action, Ask):
-        if action.about not in _ANSWERED:
-            return _sentence(_QUESTIONS[action.about])
         return next((sentence for each in action.change or () if (sentence := _imagined(each))), None)
     if action.do not in _OFFERED:
         return _sentence(_NAMES[action.do])

@@ -73,9 +73,6 @@ REFUSED: list[dict[str, Any]] = [
     )),
     {"do": "ask", "about": "what_if", "change": [{"do": "set", "parameter": "weather", "value": "rain"}]},
     {"do": "ask", "about": "what_if", "change": [{"do": "pause"}, {"do": "undo"}]},
-    *({"do": "ask", "about": about} for about in (
-        "scene", "confidence", "maintenance",
-    )),
 ]  # fmt: skip
 
 
