@@ -43,9 +43,14 @@ class Next:
         alike = groupby(steps, key=lambda step: (step[0], step[1] and (step[1].sake, step[1].ids)))
         naming = Naming(self._sayings, way.run)
         told = []
+        named: tuple[str, ...] = ()
         for (move, _), group in alike:
             members = list(group)
-            told.append(self._move(move, len(members), members[0][1], way.run, naming))
+            detour = members[0][1]
+            if detour is not None and detour.ids == named:
+                detour = None  # they have been spoken of
+            told.append(self._move(move, len(members), detour, way.run, naming))
+            named = named if detour is None else detour.ids
         said = self._say("then").join(told)
         if way.outcome is Outcome.SUCCESS:
             return self._say("arrives", way=said)

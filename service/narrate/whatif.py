@@ -5,6 +5,7 @@ from __future__ import annotations
 from service.actions import Ask
 from service.narrate.answering import Json, not_so, plain
 from service.narrate.naming import Naming
+from service.narrate.replies import WEIGHING
 from service.narrate.sayings import Sayings
 from service.sessions.facts import Asked
 from service.wire.future import what_if_json
@@ -56,7 +57,8 @@ class WhatIfs:
         except QuestionError as error:
             return plain(self._sayings, ask, timeline.run, not_so(self._sayings, error.code, error.facts))
         except EditError as error:
-            return plain(self._sayings, ask, timeline.run, self._say("cannot", message=error.message))
+            told = plain(self._sayings, ask, timeline.run, self._say("cannot", message=error.message))
+            return told | {"evidence": {"code": error.code, "field": error.field, "message": error.message}}
         text = self._text(ask, found)
         if len(actions) < len(change):
             text = f"{text} {self._say('rest_aside')}"
@@ -73,11 +75,27 @@ class WhatIfs:
             told.append(self._say("so_already"))
             told.append(self._say("as_it_is", end=self._end(found.real, found.run)))
         else:
-            told.append(self._say("if", clauses=self._sayings.joined(clauses), then=self._then(found)))
+            told.append(self._condition(clauses, found))
+            if found.run.world.tick in found.changed.held_back:
+                told.append(self._say("held_back"))
             told += self._beside(found)
         if found.said_since:
             told.append(self._say("said_since", tick=ask.tick))
         return " ".join(told)
+
+    def _condition(self, clauses: list[str], found: WhatIf) -> str:
+        """The change as a condition, and what would come of it."""
+        difference, action = found.first_difference, found.done[0].action
+        if (
+            len(found.done) == 1
+            and isinstance(action, Drive)
+            and difference is not None
+            and self._when(difference, found) == "now"
+            and difference.changed is action.move
+        ):
+            do, doing = self._moves(difference)
+            return self._say("driven", do=do, doing=doing, end=self._both(found))
+        return self._say("if", clauses=self._sayings.joined(clauses), then=self._then(found))
 
     def _then(self, found: WhatIf) -> str:
         """What I would do, and what would come of it."""
@@ -88,24 +106,22 @@ class WhatIfs:
             return self._say("nothing", end=self._end(found.changed, found.run))
         if difference is None:
             return self._say("same_moves", end=self._both(found))
-        parts = {
-            "do": self._sayings.move(difference.changed, "do"),
-            "doing": self._sayings.move(difference.real, "doing"),
-            "end": self._both(found),
-        }
-        if self._at_once(difference, found):
-            return self._say("now", **parts)
-        seconds = f"{(difference.tick - found.run.world.tick) * found.run.config.step_seconds:g}"
-        return self._say("later", time=self._say("seconds", seconds=seconds), **parts)
+        do, doing = self._moves(difference)
+        seconds = self._say("seconds", seconds=f"{difference.ahead * found.run.config.step_seconds:g}")
+        return self._say(
+            self._when(difference, found), do=do, doing=doing, end=self._both(found), time=seconds
+        )
 
     def _beside(self, found: WhatIf) -> list[str]:
         """How it is beside that: the end on this road, or what the real move costs."""
         if not found.same_road:
             return [self._say("as_it_is", end=self._end(found.real, found.run))]
         difference, regret = found.first_difference, found.regret
-        if difference is None or regret is None or not found.certain or found.real.by_hand:
+        if difference is None:
+            return self._why_nothing(found)
+        if regret is None or not found.certain or found.real.by_hand:
             return []
-        now = "_now" if self._at_once(difference, found) else ""
+        now = "_now" if self._when(difference, found) == "now" else ""
         doing = self._sayings.move(difference.real, "doing")
         if regret.lost:
             return [self._say("loses_way", doing=doing)]
@@ -115,20 +131,36 @@ class WhatIfs:
             return []
         return [self._say(f"loses_ticks{now}", doing=doing, ticks=self._ticks(regret.ticks))]
 
+    def _why_nothing(self, found: WhatIf) -> list[str]:
+        """Wishes are nothing to a planner that does not weigh."""
+        planner = found.done[-1].run.config.planner
+        wished = any(isinstance(each.action, Prefer) for each in found.done)
+        if not wished or planner in WEIGHING or found.real.by_hand:
+            return []
+        return [self._sayings.say("replies", "weighs_nothing", planner=planner)]
+
+    def _moves(self, difference: Difference) -> tuple[str, str]:
+        """What would be done, and what is done instead of it."""
+        do = self._sayings.move(difference.changed, "do")
+        return do, self._sayings.move(difference.real, "doing")
+
     @staticmethod
-    def _at_once(difference: Difference, found: WhatIf) -> bool:
-        return difference.tick == found.run.world.tick
+    def _when(difference: Difference, found: WhatIf) -> str:
+        """Whether it differs `now`, `first` thing on the next road, or `later`."""
+        if difference.ahead:
+            return "later"
+        return "first" if found.real.waited else "now"
 
     @staticmethod
     def _alike(found: WhatIf) -> bool:
         real, changed = found.real, found.changed
         kinds = [None if story.cause is None else story.cause.kind for story in (real, changed)]
-        return real.outcome is changed.outcome and real.ticks == changed.ticks and kinds[0] is kinds[1]
+        return real.outcome is changed.outcome and real.driven == changed.driven and kinds[0] is kinds[1]
 
     def _both(self, found: WhatIf) -> str:
         """Both ends in one clause."""
         real, changed, run = found.real, found.changed, found.run
-        parts = {**self._parts(changed, run), "count": real.ticks}
+        parts = {**self._parts(changed, run), "count": real.driven}
         if self._alike(found) or real.outcome is changed.outcome in (Outcome.STUCK, Outcome.RUNNING):
             return self._say("alike", changed.outcome, **parts)
         same = real.cause is None or changed.cause is None or real.cause.kind is changed.cause.kind
@@ -141,7 +173,7 @@ class WhatIfs:
 
     def _parts(self, story: Story, run: Run) -> dict[str, object]:
         a = "" if story.cause is None else self._sayings.say("words", "a", story.cause.kind)
-        return {"a": a, "ticks": self._ticks(story.ticks), "planner": run.config.planner}
+        return {"a": a, "ticks": self._ticks(story.driven), "planner": run.config.planner}
 
     def _ticks(self, count: int) -> str:
         return self._say("ticks", "one" if count == 1 else "many", count=count)
@@ -161,7 +193,8 @@ class Conditions:
         """One for each action that changed anything."""
         told, before = [], found.run
         for applied in found.done:
-            if applied.changes or applied.added or applied.removed or applied.events:
+            touched = applied.changes or applied.added or applied.events
+            if applied.removed or (touched and not isinstance(applied.action, Remove)):
                 told.append(self._clause(applied, applied.action, before))
             before = applied.run
         return told

@@ -49,6 +49,8 @@ class Story:
     path: tuple[Move, ...]
     """every move, in order"""
     detours: tuple[Detour, ...]
+    held_back: tuple[int, ...]
+    """ticks in which a person's move is not made, since its cell will not be free"""
     by_hand: bool
     """whether a person drives and asked for nothing, from the first move on"""
     silent: str | None
@@ -60,6 +62,11 @@ class Story:
     def ticks(self) -> int:
         """Ticks from the beginning to the end."""
         return self.end - self.tick
+
+    @property
+    def driven(self) -> int:
+        """Ticks on the road, without those waited."""
+        return len(self.path)
 
     def moves(self) -> dict[Move, int]:
         """How many moves of each kind."""
@@ -104,7 +111,7 @@ def followed(run: Run) -> Iterator[tuple[Run, Tick]]:
 
 def told(run: Run, ticks: list[tuple[Run, Tick]]) -> Story:
     """The story of ticks that were followed from a run."""
-    path, detours = [], []
+    path, detours, held_back = [], [], []
     last, silent = run, None
     for before, tick in ticks:
         decision = tick.decision
@@ -115,6 +122,7 @@ def told(run: Run, ticks: list[tuple[Run, Tick]]) -> Story:
         if decision is not None:
             path.append(decision.move)
             detours += detoured(before, tick)
+            held_back += [decision.tick] if decision.held_back else []
     first = next((tick.decision for _, tick in ticks if tick.decision is not None), None)
     return Story(
         tick=run.world.tick,
@@ -125,6 +133,7 @@ def told(run: Run, ticks: list[tuple[Run, Tick]]) -> Story:
         cause=last.world.cause,
         path=tuple(path),
         detours=tuple(detours),
+        held_back=tuple(held_back),
         by_hand=first is not None and first.asked is not None and run.mode is Mode.MANUAL and not run.queue,
         silent=silent,
         digest=last.world.digest(),
