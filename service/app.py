@@ -15,6 +15,7 @@ from fastapi import FastAPI
 from fastapi.routing import APIRoute
 
 from service.api import (
+    advice,
     commands,
     edges,
     errors,
@@ -116,7 +117,7 @@ def create_app(
     app.add_middleware(edges.BodyLimit, most=partial(_body_bytes, settings))
     app.add_middleware(edges.SecurityHeaders)
     errors.install(app)
-    for resource in (sessions, commands, watching, frames, parse, language_route, stream):
+    for resource in (sessions, commands, watching, frames, parse, advice, language_route, stream):
         app.include_router(resource.router, prefix=PREFIX)
     app.include_router(health.router)
     openapi.install(app)

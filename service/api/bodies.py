@@ -11,6 +11,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSche
 
 from service.actions import Action, load
 from service.api.config_schema import CONFIG_SCHEMA
+from sim.actions import PlaceableKind, Weather
 
 Tick = Annotated[int, Field(ge=0, le=2**53 - 1, description="Ticks since the session began.")]
 ConfigParts = Annotated[dict[str, Any], WithJsonSchema(CONFIG_SCHEMA)]
@@ -101,4 +102,15 @@ class Text(Sent):
     """A sentence to be understood."""
 
     text: str
+    language: str = Field("en", max_length=16, description="In which language; `GET /language` names them.")
+
+
+class AdviceQuestion(Sent):
+    """A hazard ahead, as a sentence or in figures."""
+
+    text: str | None = Field(None, description="As a sentence; then without hazard, distance and speed.")
+    hazard: PlaceableKind | None = None
+    distance_m: float | None = Field(None, description="From 0.1 to 1,000.")
+    speed_kmh: float | None = Field(None, description="From 1 to 300.")
+    weather: Weather | None = Field(None, description="Default: clear.")
     language: str = Field("en", max_length=16, description="In which language; `GET /language` names them.")

@@ -40,6 +40,13 @@ QUESTION: Examples = {
     "status": {"summary": "Where it is", "value": {"question": "where are you?"}},
     "help": {"summary": "What can be said", "value": {"question": "what can I say?"}},
 }
+ADVICE: Examples = {
+    "figures": {
+        "summary": "In figures",
+        "value": {"hazard": "pothole", "distance_m": 30, "speed_kmh": 40, "weather": "rain"},
+    },
+    "sentence": {"summary": "As a sentence", "value": {"text": "pothole 2m ahead, speed 40 km/h"}},
+}
 TEXT: Examples = {
     "parse": {"summary": "Understand only", "value": {"text": "add five potholes and two cars"}}
 }

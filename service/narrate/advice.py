@@ -80,7 +80,7 @@ class Advices:
             return "brake_late"
         if CLOSE[0] < chosen.chance < CLOSE[1]:
             return f"{chosen.choice}_close"
-        return f"{chosen.choice}_{chosen.ending}"
+        return f"steer_{_steered(advice)}" if chosen.choice is Choice.STEER else f"brake_{chosen.ending}"
 
     def _other(self, advice: Advice) -> str:
         """What else could be done; braking and steering are told of each other."""
@@ -95,7 +95,7 @@ class Advices:
             case Choice.BRAKE if chosen.ending is Ending.STOPS and chosen.chance >= SURE:
                 return "nothing"
             case Choice.BRAKE:
-                return f"brake_steer_{advice.prospect(Choice.STEER).ending}"
+                return f"brake_steer_{_steered(advice)}"
 
     def _sure(self, advice: Advice) -> str:
         stays = ""
@@ -120,6 +120,11 @@ class Advices:
 def _late(advice: Advice) -> bool:
     """Whether all is over before a driver has reacted."""
     return advice.figures.time_s <= advice.figures.reaction_s
+
+
+def _steered(advice: Advice) -> str:
+    """Whether steering gets clear, when everything is in the middle of its range."""
+    return "clears" if advice.prospect(Choice.STEER).ending is Ending.CLEARS else "misses"
 
 
 def _kmh(speed: float) -> str:

@@ -96,7 +96,8 @@ def interval(share: float, count: int) -> tuple[float, float]:
     square = _Z * _Z / count
     middle = (share + square / 2) / (1 + square)
     half = _Z * sqrt(share * (1 - share) / count + square / (4 * count)) / (1 + square)
-    return max(0.0, middle - half), min(1.0, middle + half)
+    # At 0 and 1 the bound is the share itself, but for the last digit of a float.
+    return max(0.0, min(share, middle - half)), min(1.0, max(share, middle + half))
 
 
 def _offset(hazard: Kind, width: physics.Number) -> physics.Number:

@@ -48,6 +48,7 @@ ROUTES = {
     "GET /api/v1/sessions/{session_id}/recording",
     "GET /api/v1/sessions/{session_id}/frame",
     "POST /api/v1/parse",
+    "POST /api/v1/advice",
     "GET /api/v1/language",
     "GET /healthz",
     "GET /readyz",
@@ -61,6 +62,7 @@ MODELS: dict[str, type] = {
     "talking_step": schemas.StepResult,
     "talking_ask": schemas.Answer,
     "talking_parse": schemas.Parsed,
+    "talking_advice": schemas.Advice,
     "talking_language": schemas.LanguageGuide,
     "watching_state": schemas.State,
     "watching_decisions": schemas.DecisionPage,
@@ -216,7 +218,13 @@ KEYS = st.one_of(
         sorted(
             {
                 key
-                for model in (bodies.NewSession, bodies.Said, bodies.TypedActions, bodies.Recording)
+                for model in (
+                    bodies.NewSession,
+                    bodies.Said,
+                    bodies.TypedActions,
+                    bodies.Recording,
+                    bodies.AdviceQuestion,
+                )
                 for key in model.model_fields
             }
             | {

@@ -29,6 +29,9 @@ SENTENCES: dict[str, list[dict[str, object]]] = {
     "a rainy road": [{"do": "scenario", "weather": "rain"}],
     "why did you do that?": [{"do": "ask", "about": "why"}],
     "where are you?": [{"do": "ask", "about": "status"}],
+    "pothole 2m ahead, speed 40 km/h": [
+        {"do": "advise", "hazard": "pothole", "distance_m": 2, "speed_kmh": 40}
+    ],
     "what can I say?": [{"do": "ask", "about": "help"}],
 }
 
