@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from service.narrate.answers import Answers
+from service.narrate.ends import Ends
 from service.narrate.naming import Naming
 from service.narrate.replies import Replies
 from service.narrate.sayings import Sayings
@@ -16,6 +17,9 @@ from sim.plan import Decision, Measure
 from sim.run import Run
 
 
+ENDS = (EventType.ARRIVED, EventType.CRASHED, EventType.STUCK)
+
+
 class Narrator:
     """Words for facts, in one language."""
 
@@ -24,6 +28,7 @@ class Narrator:
         self._sayings = sayings
         self._replies = Replies(sayings)
         self._answers = Answers(sayings)
+        self._ends = Ends(sayings)
 
     @classmethod
     def load(cls, code: str = "en", folder: Path | None = None) -> Narrator:
@@ -42,12 +47,26 @@ class Narrator:
         if decision.measure is not Measure.RANK:
             return self._weighed(decision, name, naming)
         if decision.move is first.move:
-            return self._say("first_choice")
+            return self._straight_on(decision, run, naming)
         if decision.move is not Move.STAY:
             return self._say("other", move=name, reason=self._sayings.met(first, "now", naming))
         if chosen.verdict == "free":
             return self._say("no_way")
         return self._say("no_safe_way", reason=self._sayings.met(chosen, "now", naming))
+
+    def _straight_on(self, decision: Decision, run: Run, naming: Naming) -> str:
+        """Straight on, in a word; in a few more where something is passed closely, or the goal is near."""
+        world, cell = run.world, decision.chosen.cell
+        if cell is not None and cell[1] == 0:
+            return self._say("into_the_goal")
+        column, row = world.road.cell(world.av)
+        beside = [
+            world.road.index((c, row - 1)) for c in (column - 1, column + 1) if 0 <= c < world.road.columns
+        ]
+        movers = [world.movers[index] for index in beside if index in world.movers]
+        if movers:
+            return self._say("passing", who=naming.things(movers))
+        return self._say("first_choice")
 
     def lesson(self, lesson: Lesson) -> str:
         """The reply to a phrase that was taught or forgotten."""
@@ -55,7 +74,8 @@ class Narrator:
 
     def event(self, event: Event, run: Run) -> str:
         """One line of the log."""
-        key = f"crashed_{event.how}" if event.type is EventType.CRASHED else str(event.type)
+        if event.type in ENDS:
+            return self._ends.text(run)
         ticks = run.world.episode_tick
         reason = ""
         if event.type is EventType.HELD_BACK and event.move is not None:
@@ -64,7 +84,7 @@ class Narrator:
         return self._sayings.say(
             "log",
             "events",
-            key,
+            event.type,
             episode=event.episode,
             ticks=ticks,
             seconds=f"{ticks * run.config.step_seconds:g}",

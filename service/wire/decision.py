@@ -16,6 +16,7 @@ def decision_json(decision: Decision, narration: str) -> dict[str, Any]:
         "asked": decision.asked,
         "options": [option_json(option) for option in decision.options],
         "narration": narration,
+        "weight": decision.weight,
     }
 
 
@@ -32,12 +33,12 @@ def brief_decision_json(decision: Decision) -> dict[str, Any]:
         "move": decision.move,
         "reason": preferred.reason,
         "causes": preferred.causes,
+        "weight": decision.weight,
     }
 
 
 def option_json(option: Option) -> dict[str, Any]:
     """One move with what spoke for or against it."""
-    """One move of a trace."""
     return {
         "move": option.move,
         "cell": option.cell,

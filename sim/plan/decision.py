@@ -74,6 +74,13 @@ class Decision:
         return self.asked is not None and self.asked is not self.move
 
     @property
+    def weight(self) -> int:
+        """How much there is to say: 0 nothing was in the way, 1 a way round or a choice, 2 a wait or worse."""
+        if self.fault is not None or self.held_back or self.move is Move.STAY:
+            return 2
+        return 2 if self.chosen.cost is None else int(self.move is not Move.FORWARD)
+
+    @property
     def preferred(self) -> tuple[Option, ...]:
         """The moves that come before the one taken."""
         return self.options[: self.options.index(self.chosen)]
