@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from service.narrate.sayings import Sayings
-from service.sessions.facts import Advised, Asked, Fact, Lesson, PauseSet, Stepped, Undone
+from service.sessions.facts import Advised, Asked, Fact, Lesson, PauseSet, Stepped, Undone, changes_of
 from sim.actions import Add, Adjust, Drive, Prefer, Remove, Reset, Scenario, Set, SetCount, SetMode
 from sim.edit import Applied, Change
 from sim.events import EventType
@@ -24,7 +24,10 @@ class Replies:
 
     def done(self, facts: tuple[Fact, ...]) -> str:
         """A sentence for each fact; questions are answered elsewhere."""
-        return " ".join(sentence for fact in facts if (sentence := self._done(fact)))
+        told = [
+            self._done(group[0]) if len(group) == 1 else self._all_gone(group) for group in _grouped(facts)
+        ]
+        return " ".join(sentence for sentence in told if sentence)
 
     def lesson(self, lesson: Lesson) -> str:
         """What was taught or forgotten, as the sentence that says the same."""
@@ -124,6 +127,14 @@ class Replies:
         named = self._sayings.things(noun, len(things))
         return self._say(f"{key}_many", count=len(things), things=named, diff=diff)
 
+    def _all_gone(self, group: list[Fact]) -> str:
+        """Several things taken away one by one, told at once."""
+        things = [thing for fact in group if isinstance(fact, Applied) for thing in fact.removed]
+        kinds = {thing.kind for thing in things}
+        named = self._sayings.things(next(iter(kinds)) if len(kinds) == 1 else "everything", len(things))
+        diff = self._diff(changes_of(tuple(group)))
+        return self._say("remove_many", count=len(things), things=named, diff=diff)
+
     def _scenario(self, run: Run) -> str:
         road = self._sayings.say("replies", "roads", run.config.road or "none")
         contents = [
@@ -146,3 +157,24 @@ class Replies:
 
     def _say(self, key: str, **parts: object) -> str:
         return self._sayings.say("replies", key, **parts)
+
+
+def _grouped(facts: tuple[Fact, ...]) -> list[list[Fact]]:
+    """The facts one by one, but things that are taken away by name one after another together."""
+    groups: list[list[Fact]] = []
+    for fact in facts:
+        if groups and _by_name(fact) and _by_name(groups[-1][-1]):
+            groups[-1].append(fact)
+        else:
+            groups.append([fact])
+    return groups
+
+
+def _by_name(fact: Fact) -> bool:
+    return (
+        isinstance(fact, Applied)
+        and isinstance(fact.action, Remove)
+        and fact.action.where is not None
+        and fact.action.where.id is not None
+        and not fact.events
+    )

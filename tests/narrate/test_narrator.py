@@ -117,3 +117,10 @@ def test_every_decision_and_event_reads_like_a_sentence() -> None:
         for event in moved.events:
             assert looks_like_sentences(NARRATOR.event(event, moved.run)), event
         run = moved.run
+
+
+def test_things_taken_away_one_after_another_are_told_at_once() -> None:
+    timeline = Timeline(Config(seed=4, barriers=3))
+    ids = [name for name in timeline.run.world.hazards.values() if name.startswith("barrier-")]
+    removals = [Remove(kind="barrier", count=1, where=Where(id=name)) for name in ids]
+    assert NARRATOR.done(tuple(timeline.apply(1, removals))) == "Removed 3 barriers: barriers 3 → 0."
