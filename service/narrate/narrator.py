@@ -16,7 +16,6 @@ from sim.kinds import Move
 from sim.plan import Decision, Measure
 from sim.run import Run
 
-
 ENDS = (EventType.ARRIVED, EventType.CRASHED, EventType.STUCK)
 
 

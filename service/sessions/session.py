@@ -25,6 +25,7 @@ from service.sessions.conversation import Conversation
 from service.sessions.draft import Draft, check_ticks
 from service.sessions.facts import Answerable, Asked, Fact, changes_of, happened_in
 from service.sessions.history import History
+from service.sessions.later import Later
 from service.sessions.log import Log, LogEvent
 from service.sessions.messages import changed_message, tick_message
 from service.sessions.utterance import Outcome, Utterance
@@ -35,6 +36,8 @@ from service.store import EntryRecord, SessionRecord, Store, StoreError
 from service.wire.state import Standing, state_json
 from sim.actions import Add, Remove, SetCount, SetMode
 from sim.edit import Applied, Change
+from sim.events import Event
+from sim.explain.summary import long_to_tell
 from sim.kinds import Mode
 from sim.plan import Decision
 from sim.run import Run, Tick
@@ -47,6 +50,9 @@ TRIED = (Add, Remove, SetCount, SetMode, Undo, Redo, Pause, Resume)
 
 QUICK_PLANNERS = frozenset(("priority",))
 """Planners that decide in so little time that an answer from hundreds of decisions is at once."""
+
+LONG_QUESTIONS = frozenset(("what_if", "confidence"))
+"""Questions for which whole episodes are run, with whatever planner."""
 
 THREAD_TICKS = 500
 """Work of more ticks than this is done beside the event loop."""
@@ -85,6 +91,7 @@ class Session:
         self.conversation = Conversation()
         self.log = Log(around.settings.log_events)
         self.watchers = Watchers()
+        self._later = Later(self._write_late)
         self._around = around
         self._turn = asyncio.Lock()
         self._changing = False
@@ -149,8 +156,11 @@ class Session:
         except PlannerSilentError as silence:
             self._hand_over(silence)
             return
-        lines = self._note(tick.run, tick)
-        self._publish_tick(before, tick, lines)
+        if tick.events and long_to_tell(tick.run):
+            self._later.begin(lambda: self._worded(tick.run, tick))
+            self._publish_tick(before, tick, ())
+        else:
+            self._publish_tick(before, tick, self._note(tick.run, tick))
 
     def _hand_over(self, silence: PlannerSilentError) -> None:
         """Let a person drive, as a change like any other: a replay does not ask that planner again."""
@@ -247,8 +257,9 @@ class Session:
 
     async def _told(self, utterance: Utterance, facts: tuple[Fact, ...], sequence: int) -> Outcome:
         """The outcome in words; beside the event loop where a question has a slow planner run many times."""
-        asked = any(isinstance(fact, Asked) for fact in facts)
-        if asked and self.run.config.planner not in QUICK_PLANNERS:
+        asked = [fact.ask.about for fact in facts if isinstance(fact, Asked)]
+        quick = self.run.config.planner in QUICK_PLANNERS and not LONG_QUESTIONS & set(asked)
+        if asked and not quick:
             return await to_thread.run_sync(self._outcome, utterance, facts, sequence)
         return self._outcome(utterance, facts, sequence)
 
@@ -331,13 +342,22 @@ class Session:
 
     def _note(self, run: Run, part: Applied | Tick) -> list[LogEvent]:
         """Write the events of a tick or an action to the log."""
-        words = self._around.words
-        return [
-            self.log.add(event.tick, event.type, words.event(event, run), event.ids, event.cell)
-            for event in part.events
-        ]
+        self._later.settle()
+        return self._write(self._worded(run, part))
+
+    def _worded(self, run: Run, part: Applied | Tick) -> list[tuple[Event, str]]:
+        return [(event, self._around.words.event(event, run)) for event in part.events]
+
+    def _write(self, worded: list[tuple[Event, str]]) -> list[LogEvent]:
+        return [self.log.add(event.tick, event.type, text, event.ids, event.cell) for event, text in worded]
+
+    def _write_late(self, worded: list[tuple[Event, str]]) -> None:
+        """Lines that were worded beside the clock, told as soon as they are there."""
+        lines = self._write(worded)
+        self._publish_changed(None, lines[-1].text, (), lines)
 
     def _line(self, tick: int, kind: str, text: str) -> LogEvent:
+        self._later.settle()
         return self.log.add(tick, kind, text)
 
     def _publish_tick(self, before: Run, tick: Tick, lines: Sequence[LogEvent]) -> None:

@@ -87,8 +87,10 @@ def summary(run: Run) -> Summary:
 
 
 def long_to_tell(run: Run) -> bool:
-    """Whether the summary takes longer than a tick of many sessions may."""
+    """Whether this is an end, and its summary takes longer than a tick of many sessions may."""
     world = run.world
+    if world.outcome is Outcome.RUNNING:
+        return False
     return world.outcome is Outcome.STUCK or world.road.columns * world.road.rows > QUICK_CELLS
 
 
