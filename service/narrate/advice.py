@@ -80,6 +80,8 @@ class Advices:
             return "brake_late"
         if CLOSE[0] < chosen.chance < CLOSE[1]:
             return f"{chosen.choice}_close"
+        if chosen.choice is Choice.BRAKE and chosen.ending is Ending.STOPS and chosen.chance < SURE:
+            return "brake_likely"
         return f"steer_{_steered(advice)}" if chosen.choice is Choice.STEER else f"brake_{chosen.ending}"
 
     def _other(self, advice: Advice) -> str:
