@@ -64,7 +64,7 @@ def story_json(story: Story) -> Json:
         "driven": story.driven,
         "outcome": story.outcome,
         "cause": _cause_json(story.cause),
-        "moves": story.moves(),
+        "moves": {str(move): count for move, count in story.moves().items()},
         "path": story.path,
         "detours": [detour_json(detour) for detour in story.detours],
         "held_back": story.held_back,
