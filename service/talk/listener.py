@@ -112,7 +112,7 @@ class Listener:
     async def hear_question(self, text: str, session: Session | None, code: str = DEFAULT) -> Heard:
         """What a question means. Raises also `NotAQuestion` where something else was said."""
         found = await self.hear(text, session, code, "question")
-        if not all(isinstance(action, Ask) for action in found.actions):
+        if not all(isinstance(action, Ask | Advise) for action in found.actions):
             raise NotAQuestion(
                 "This is understood, but it is not a question. Send it to `commands` to have it done."
             )

@@ -60,6 +60,8 @@ async def test_in_a_session_it_is_answered_and_changes_nothing(service: Service)
     before = await service.state(path)
     answer = (await service.say(path, SAID)).json()
     alone = (await asked(service, **POTHOLE)).json()
+    question = await service.client.post(f"{path}/ask", json={"question": SAID})
+    assert question.json() == answer["answer"]
     assert answer["reply"] == answer["answer"]["text"] == alone["text"]
     assert answer["answer"]["options"] == alone["options"]
     assert answer["answer"]["about"] == "advice"
