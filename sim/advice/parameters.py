@@ -139,7 +139,7 @@ HARM: Final = Quantity(
     "km/h",
     "Zimmer & Ivey, Texas Transportation Institute 328-2F (1983): 20 mph is the lowest street speed with "
     "damage to tyres and rims, by holes over 30 in long and 3 in deep; this hole is taken to be one. "
-    "The spread is assumed.",
+    "The spread is assumed. For one hole they find that slower is not always better; that is left out.",
 )
 
 SPEEDS_KMH: Final = (1.0, 300.0)
