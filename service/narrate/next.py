@@ -9,6 +9,7 @@ from service.narrate.naming import Naming
 from service.narrate.sayings import Sayings
 from service.sessions.facts import Asked
 from service.wire.future import way_json
+from sim.course import Sake
 from sim.explain.future import Detour, Way, way_ahead
 from sim.kinds import Move, Outcome
 from sim.run import Run
@@ -39,15 +40,22 @@ class Next:
 
     def _way(self, way: Way) -> str:
         detours = {detour.tick: detour for detour in way.detours}
-        steps = [(decision.move, detours.get(decision.tick)) for decision in way.decisions]
-        alike = groupby(steps, key=lambda step: (step[0], step[1] and (step[1].sake, step[1].ids)))
+        asked = len(way.run.queue)
+        steps = [
+            (decision.move, detours.get(decision.tick), place >= asked)
+            for place, decision in enumerate(way.decisions)
+        ]
+        alike = groupby(steps, key=lambda step: (step[0], step[1] and (step[1].sake, step[1].ids), step[2]))
         naming = Naming(self._sayings, way.run)
         told = []
         named: tuple[str, ...] = ()
-        for (move, _), group in alike:
+        for (move, _, silent), group in alike:
             members = list(group)
             detour = members[0][1]
-            if detour is not None and detour.ids == named:
+            if detour is not None and detour.sake is Sake.YOU and silent:
+                told.append(self._say("waits"))
+                continue
+            if detour is not None and detour.ids and detour.ids == named:
                 detour = None  # they have been spoken of
             told.append(self._move(move, len(members), detour, way.run, naming))
             named = named if detour is None else detour.ids

@@ -155,21 +155,21 @@ class WhatIfs:
     def _alike(found: WhatIf) -> bool:
         real, changed = found.real, found.changed
         kinds = [None if story.cause is None else story.cause.kind for story in (real, changed)]
-        return real.outcome is changed.outcome and real.driven == changed.driven and kinds[0] is kinds[1]
+        return _ending(real) == _ending(changed) and real.driven == changed.driven and kinds[0] is kinds[1]
 
     def _both(self, found: WhatIf) -> str:
         """Both ends in one clause."""
         real, changed, run = found.real, found.changed, found.run
         parts = {**self._parts(changed, run), "count": real.driven}
-        if self._alike(found) or real.outcome is changed.outcome in (Outcome.STUCK, Outcome.RUNNING):
-            return self._say("alike", changed.outcome, **parts)
+        if self._alike(found) or real.outcome is changed.outcome is Outcome.STUCK:
+            return self._say("alike", _ending(changed), **parts)
         same = real.cause is None or changed.cause is None or real.cause.kind is changed.cause.kind
-        if real.outcome is changed.outcome and same:
+        if real.outcome is changed.outcome is not Outcome.RUNNING and same:
             return self._say("both", changed.outcome, **parts)
         return self._say("rather", changed=self._end(changed, run), real=self._end(real, run))
 
     def _end(self, story: Story, run: Run) -> str:
-        return self._say("ends", story.outcome, **self._parts(story, run))
+        return self._say("ends", _ending(story), **self._parts(story, run))
 
     def _parts(self, story: Story, run: Run) -> dict[str, object]:
         a = "" if story.cause is None else self._sayings.say("words", "a", story.cause.kind)
@@ -180,6 +180,11 @@ class WhatIfs:
 
     def _say(self, *keys: str, **parts: object) -> str:
         return self._sayings.say("whatif", *keys, **parts)
+
+
+def _ending(story: Story) -> str:
+    """How it ends, as the sayings call it."""
+    return "silent" if story.silent is not None else str(story.outcome)
 
 
 class Conditions:

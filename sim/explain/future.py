@@ -19,6 +19,16 @@ from sim.world import Cause
 NEXT_TICKS: Final = 5
 """How far the way from here is told."""
 
+MAX_WORK: Final = 10_000_000
+"""How much is looked through for one story where the planner searches: cells times rows, every tick.
+
+Four whole episodes on the default road; on the largest roads, where one decision takes a second, a few
+ticks.
+"""
+
+AT_SIGHT: Final = frozenset(("priority",))
+"""Planners that look one tick ahead, on a road of any size."""
+
 
 @dataclass(frozen=True, slots=True)
 class Detour:
@@ -43,7 +53,7 @@ class Story:
     end: int
     """the tick at which it ends"""
     outcome: Outcome
-    """`RUNNING` where it cannot be told, since the planner does not answer in time"""
+    """`RUNNING` where it is not told: no answer from the planner in time, or too much to look through"""
     cause: Cause | None
     """of a crash"""
     path: tuple[Move, ...]
@@ -98,7 +108,9 @@ def followed(run: Run) -> Iterator[tuple[Run, Tick]]:
     """Each tick to the end of the episode, with the run before it; a result that stands is waited out first.
 
     A tick whose planner did not answer in time is the last: a session would hand over to a person there.
+    On long roads a planner that searches is followed for so long only as `MAX_WORK` allows.
     """
+    work = 0
     started = run.world.outcome is Outcome.RUNNING
     while run.world.outcome is Outcome.RUNNING or not started:
         tick = advance(run)
@@ -106,7 +118,16 @@ def followed(run: Run) -> Iterator[tuple[Run, Tick]]:
         if tick.decision is not None and tick.decision.timed_out:
             return
         run = tick.run
+        work += _work(run)
+        if work > MAX_WORK:
+            return
         started = started or run.world.outcome is Outcome.RUNNING
+
+
+def _work(run: Run) -> int:
+    """How much is looked through in a tick of a run."""
+    road = run.world.road
+    return 0 if run.config.planner in AT_SIGHT else road.columns * road.rows * road.rows
 
 
 def told(run: Run, ticks: list[tuple[Run, Tick]]) -> Story:
