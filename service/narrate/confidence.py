@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import ceil, floor
+
 from service.narrate.answering import Json, plain
 from service.narrate.sayings import Sayings
 from service.sessions.facts import Asked
@@ -44,7 +46,7 @@ class Confidences:
             "sure",
             self._key(found),
             when="" if ticks is None else self._when(ticks, run),
-            percent=_clear_of_all_and_none(found.stated) if sampled else self._percent(found.stated),
+            percent=_of_sample(found) if sampled else self._percent(found.stated),
             low=self._percent(found.low),
             high=self._percent(found.high),
             futures=found.futures,
@@ -129,6 +131,10 @@ def _clarity_key(clarity: Clarity) -> str:
     return "only" if clarity.next_best is None else "in_order"
 
 
-def _clear_of_all_and_none(share: float) -> int:
-    """Whole per cent of a sample, which shows neither that all nor that none arrive."""
-    return min(99, max(1, round(100 * share)))
+def _of_sample(found: Confidence) -> int:
+    """Whole per cent of a sample, which shows neither that all nor that none arrive; bounds outwards."""
+    if found.arrives == 1.0:
+        return floor(100 * found.low)
+    if found.arrives == 0.0:
+        return ceil(100 * found.high)
+    return min(99, max(1, round(100 * found.stated)))

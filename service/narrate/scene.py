@@ -118,7 +118,8 @@ class _Told:
     def _threat(self, thing: Seen) -> str:
         key = "threat_moving" if thing.walks else "threat"
         noun, place = self._say("a", thing.kind), self._naming.place(thing.cell)
-        return self._sure(thing, self._say(key, thing=noun, place=place, seconds=self._seconds(thing)))
+        place = self._sure(thing, place, "place_sure")
+        return self._say(key, thing=noun, place=place, seconds=self._seconds(thing))
 
     def _met(self, ahead: Sequence[Seen]) -> list[str]:
         """The first of a kind that is met straight on."""
@@ -138,11 +139,11 @@ class _Told:
             thing, self._say("held" if thing.held else "one", place=self._naming.place(thing.cell))
         )
 
-    def _sure(self, thing: Seen, told: str) -> str:
+    def _sure(self, thing: Seen, told: str, key: str = "sure") -> str:
         """With how sure the sensors are, where they are not; never all of it, nor none."""
         if thing.likelihood == 1.0:
             return told
-        return self._say("sure", told=told, percent=min(99, max(1, round(100 * thing.likelihood))))
+        return self._say(key, told=told, percent=min(99, max(1, round(100 * thing.likelihood))))
 
     def _seconds(self, thing: Seen) -> str:
         return f"{(thing.ticks or 0) * self._run.config.step_seconds:g}"

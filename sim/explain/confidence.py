@@ -8,8 +8,8 @@ not, futures are drawn from it, with seeds of their own, and the share has Wilso
 inference, the law of succession, and statistical inference", Journal of the American Statistical
 Association, 1927).
 
-A future in which potholes and barriers have shut the vehicle off from the goal is followed no further: it
-never drives back, so it does not arrive, however it ends.
+A future in which the vehicle is proved to be shut off from the goal, by hazards or by movers in the rows
+before it, is followed no further: it does not arrive, however it ends.
 
 Every step is the session's own (`sim.run.advance`) with the draws of its tick set. Work is limited by
 decisions taken and never by the clock, so the same moment has the same answer everywhere. Not foreseen:
@@ -36,8 +36,9 @@ from sim.plan.costs import weights
 from sim.planner_names import BUILT_IN
 from sim.randomness import Stream
 from sim.road import Board, bits, board_of
-from sim.rules import spread_back
+from sim.rules import beside
 from sim.run import Run, advance, decide
+from sim.search.reach import steps_left
 from sim.timeline import Timeline
 from sim.world import World
 
@@ -47,6 +48,8 @@ OTHER_WORK: Final = 120
 """The same for planners that are not the project's own."""
 WALK_SHARE: Final = 2 / 3
 """How much of the work goes into walking the whole tree before futures are drawn instead."""
+PATIENCE: Final = 40
+"""Decisions after which futures are looked at for whether they are shut off."""
 MAX_FUTURES: Final = 200
 _WEIGHING: Final = ("astar", "dijkstra")
 """Planners that charge for what is near, also behind the vehicle."""
@@ -98,7 +101,7 @@ class Confidence:
     crashes: float
     stuck: float
     shut_off: float
-    """shares of the other ends; `shut_off`: potholes and barriers leave no way, and no end was waited for"""
+    """shares of the other ends; `shut_off`: proved to have no way left, and no end was waited for"""
     arrival_ticks: tuple[int, int] | None
     """ticks from now of the earliest and the latest arrival that was found"""
     end_ticks: tuple[int, int] | None
@@ -116,10 +119,10 @@ class Confidence:
 
     @property
     def stated(self) -> float:
-        """The one figure to state: never all or none of a sample, but the end of its interval."""
-        if self.arrives == 1.0:
-            return self.low
-        return self.high if self.arrives == 0.0 else self.arrives
+        """The one figure to state: of a sample, half a case more on either side, never all or none."""
+        if self.futures is None:
+            return self.arrives
+        return (self.arrives * self.futures + 0.5) / (self.futures + 1)
 
 
 def confidence(timeline: Timeline) -> Confidence:
@@ -205,7 +208,7 @@ class _Futures:
     _root: _Node = field(init=False)
     _known: bool = field(init=False)
     _buffer: int = field(init=False)
-    _open: Board = field(init=False)
+    _leading_on: list[Board] | None = None
     _none: Config = field(init=False)
     _all: Config = field(init=False)
 
@@ -215,7 +218,6 @@ class _Futures:
         # Planners of others may look at anything; the project's own at what their charges reach.
         self._known = config.planner in BUILT_IN
         self._buffer = weights(config).buffer if config.planner in _WEIGHING else 0
-        self._open = _leading_on(self.start.world)
         self._none = config.with_parts(courtesy=0.0)
         self._all = config.with_parts(courtesy=1.0)
 
@@ -223,8 +225,6 @@ class _Futures:
         """The chance of each end, by outcome and ticks from now; None if the tree is too large to walk."""
         ends: Ends = {}
         layer: dict[int, tuple[_Node, float]] = {id(self._root): (self._root, 1.0)}
-        if (shut := self._end(self._root)) is not None:
-            return {shut: 1.0}
         while layer:
             after: dict[int, tuple[_Node, float]] = {}
             for node, mass in layer.values():
@@ -248,8 +248,9 @@ class _Futures:
         world = self.start.world
         stream = Stream.of(self.start.config.seed, "confidence", world.episode, world.episode_tick)
         ends: Ends = {}
+        limit = self.work + (1.0 - WALK_SHARE) * self._limit
         for number in range(MAX_FUTURES):
-            if self.work >= self._limit:
+            if self.work >= limit:
                 break
             node, draws, step = self._root, stream.narrow(number), count()
             while (end := self._end(node)) is None:
@@ -266,7 +267,11 @@ class _Futures:
         ticks = world.tick - self.start.world.tick
         if world.outcome is not Outcome.RUNNING:
             return world.outcome, ticks
-        return None if self._open >> world.av & 1 else (None, ticks)
+        if self.work < PATIENCE:
+            return None  # most are done by now, and the proof would cost more than they did
+        if self._leading_on is None:
+            self._leading_on = _leading_on(self.start)
+        return None if self._leading_on[ticks] >> world.av & 1 else (None, ticks)
 
     def _after(self, node: _Node) -> list[tuple[float, _Node]]:
         if node.after is None:
@@ -325,15 +330,24 @@ class _Futures:
         return world.tick, tuple(Outcome).index(world.outcome), *world.avs, *boards
 
 
-def _leading_on(world: World) -> Board:
-    """The cells from which the goal could be reached if nothing moved."""
-    road, free = world.road, world.road.all & ~world.fixed
-    found, grown = 0, road.row(0) & free
-    while grown != found:
-        found = grown
-        behind = found << road.columns
-        grown = found | free & spread_back(found, behind, 0, 0, road.left_edge, road.right_edge)
-    return found
+def _leading_on(run: Run) -> list[Board]:
+    """The cells from which the goal may still be reached, by ticks from now.
+
+    Cells left out are proved hopeless, whoever gives way: courtesy changes only the row the vehicle is in. So
+    the rows before it go on as foretold until it enters them, and its own row is taken to be free of movers.
+    """
+    percept = perceive(run.world, run.config)
+    road, limit = percept.road, steps_left(run.config, percept.episode_tick)
+    forecast = foretell(percept, limit)
+    free, goal = road.all & ~forecast.fixed, road.row(0)
+    boards = [goal & free]
+    for ahead in reversed(range(limit)):
+        there = boards[-1]
+        entered = there & ~forecast.slices[ahead].occupied
+        within = beside(there, road.left_edge, road.right_edge)
+        before = beside(entered, road.left_edge, road.right_edge) << road.columns
+        boards.append((goal | within | before) & free)
+    return boards[::-1]
 
 
 def _pick(ways: list[tuple[float, _Node]], draw: float) -> _Node:
