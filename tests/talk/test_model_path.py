@@ -183,8 +183,8 @@ async def test_without_confirming_it_is_done_and_marked(opening: Opening, action
     ("actions", "slug"),
     [
         ([{"do": "show", "view": "log"}], "not-available"),
-        ([{"do": "ask", "about": "next"}], "not-available"),
-        ([{"do": "ask", "about": "what_if", "change": [{"do": "pause"}]}], "not-available"),
+        ([{"do": "show", "view": "occupancy"}, {"do": "ask", "about": "next"}], "not-available"),
+        ([{"do": "hide", "view": "path"}], "not-available"),
     ],
 )
 async def test_what_is_not_available_is_refused_all_the_same(
