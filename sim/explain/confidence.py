@@ -42,14 +42,15 @@ from sim.search.reach import steps_left
 from sim.timeline import Timeline
 from sim.world import World
 
-WORK: Final = {"priority": 600, "exact": 450, "astar": 240, "dijkstra": 240}
+WORK: Final = {"priority": 450, "exact": 450, "astar": 240, "dijkstra": 240}
 """Decisions taken for one answer, by planner; a few more where the last future is run to its end."""
 OTHER_WORK: Final = 120
 """The same for planners that are not the project's own."""
 WALK_SHARE: Final = 2 / 3
 """How much of the work goes into walking the whole tree before futures are drawn instead."""
-PATIENCE: Final = 40
-"""Decisions after which futures are looked at for whether they are shut off."""
+PATIENCE: Final = {"priority": 40}
+"""Decisions after which futures are looked at for whether they are shut off; at once where not named, as a
+decision then costs as much as the look."""
 MAX_FUTURES: Final = 200
 _WEIGHING: Final = ("astar", "dijkstra")
 """Planners that charge for what is near, also behind the vehicle."""
@@ -225,6 +226,8 @@ class _Futures:
         """The chance of each end, by outcome and ticks from now; None if the tree is too large to walk."""
         ends: Ends = {}
         layer: dict[int, tuple[_Node, float]] = {id(self._root): (self._root, 1.0)}
+        if (shut := self._end(self._root)) is not None:
+            return {shut: 1.0}
         while layer:
             after: dict[int, tuple[_Node, float]] = {}
             for node, mass in layer.values():
@@ -267,7 +270,7 @@ class _Futures:
         ticks = world.tick - self.start.world.tick
         if world.outcome is not Outcome.RUNNING:
             return world.outcome, ticks
-        if self.work < PATIENCE:
+        if self.work < PATIENCE.get(self.start.config.planner, 0):
             return None  # most are done by now, and the proof would cost more than they did
         if self._leading_on is None:
             self._leading_on = _leading_on(self.start)
@@ -314,8 +317,9 @@ class _Futures:
     def _step(self, run: Run, config: Config) -> _Node:
         self.work += 1
         tick = advance(replace(run, config=config))
-        if tick.decision is not None and tick.decision.timed_out:
-            raise QuestionError("confidence_silent", planner=tick.decision.planner)
+        if tick.decision is not None and tick.decision.fault is not None:
+            # It may answer the next time, or cost a new process each time: neither is to be built upon.
+            raise QuestionError("confidence_fault", planner=tick.decision.planner, fault=tick.decision.fault)
         after = replace(tick.run, config=self.start.config)
         return self._nodes.setdefault(self._key(after), _Node(after))
 

@@ -123,6 +123,11 @@ def test_every_answer_reads_like_sentences_and_has_its_figures() -> None:
             assert sum(ends) == pytest.approx(1.0)
 
 
+def test_a_planner_that_fails_leaves_nothing_to_be_sure_of() -> None:
+    run = run_on(OPEN.world, planner="dwa")  # promised, and not there yet
+    assert answer(run)["text"] == "I cannot tell how it ends: the planner dwa is not installed."
+
+
 def worn(metrics: Metrics) -> dict[str, Any]:
     timeline = Timeline(Config())
     timeline.run = replace(timeline.run, metrics=metrics)

@@ -127,9 +127,11 @@ def test_seen_courtesy_of_the_coming_tick_is_no_chance() -> None:
 
 
 def test_a_way_shut_by_hazards_is_not_run_to_its_end() -> None:
-    found = of(run_on(road("........", "########", "........", "...A....")))
-    assert (found.shut_off, found.arrives, found.end_ticks) == (1.0, 0.0, None)
-    assert found.decisions == module.PATIENCE
+    world = road("........", "########", "........", "...A....")
+    for planner, decisions in (("priority", module.PATIENCE["priority"]), ("exact", 0)):
+        found = of(run_on(world, planner=planner))
+        assert (found.shut_off, found.arrives, found.end_ticks) == (1.0, 0.0, None)
+        assert found.decisions == decisions
 
 
 def test_what_is_proved_hopeless_never_arrives() -> None:
