@@ -10,24 +10,23 @@ Json = dict[str, Any]
 
 
 def confidence_json(found: Confidence) -> Json:
-    """Shares from 0 to 1; ticks from now."""
+    """Shares from 0 to 1; ticks from now. `confidence` and `interval` as in an advice."""
     return {
-        "confidence": {
+        "confidence": found.stated,
+        "interval": [found.low, found.high],
+        "method": found.method,
+        "futures": found.futures,
+        "decisions": found.decisions,
+        "ends": {
             "arrives": found.arrives,
-            "stated": found.stated,
-            "low": found.low,
-            "high": found.high,
-            "method": found.method,
-            "futures": found.futures,
-            "decisions": found.decisions,
             "crashes": found.crashes,
             "stuck": found.stuck,
             "shut_off": found.shut_off,
-            "arrival_ticks": found.arrival_ticks,
-            "end_ticks": found.end_ticks,
-            "left_to_chance": found.chance,
-            "by_hand": found.by_hand,
         },
+        "arrival_ticks": found.arrival_ticks,
+        "end_ticks": found.end_ticks,
+        "left_to_chance": found.chance,
+        "by_hand": found.by_hand,
         "clarity": None if found.clarity is None else _clarity_json(found.clarity),
     }
 

@@ -118,9 +118,9 @@ def test_every_answer_reads_like_sentences_and_has_its_figures() -> None:
         ended = timeline.run.world.outcome is not Outcome.RUNNING
         assert ("confidence" in told) != ended
         if not ended:
-            figures = told["confidence"]
-            ends = [figures[key] for key in ("arrives", "crashes", "stuck", "shut_off")]
-            assert sum(ends) == pytest.approx(1.0)
+            assert sum(told["ends"].values()) == pytest.approx(1.0)
+            low, high = told["interval"]
+            assert low <= told["confidence"] <= high
 
 
 def test_a_planner_that_fails_leaves_nothing_to_be_sure_of() -> None:
