@@ -51,7 +51,7 @@ TRIED = (Add, Remove, SetCount, SetMode, Undo, Redo, Pause, Resume)
 QUICK_PLANNERS = frozenset(("priority",))
 """Planners that decide in so little time that an answer from hundreds of decisions is at once."""
 
-LONG_QUESTIONS = frozenset(("what_if", "confidence"))
+LONG_QUESTIONS = frozenset(("what_if", "why_not", "confidence"))
 """Questions for which whole episodes are run, with whatever planner."""
 
 THREAD_TICKS = 500
