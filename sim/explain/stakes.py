@@ -9,11 +9,13 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from sim.commit import commit
+from sim.explain.future import followed
 from sim.judge import collisions, outcome
 from sim.kinds import Mode, Move, Outcome
 from sim.optimum import least_ticks
 from sim.plan import Decision
-from sim.run import Run, advance
+from sim.run import Run
+from sim.world import World
 
 TIMELESS_PLANNERS = frozenset(("priority",))
 """Planners to whom the time does not matter: what has been once comes again for ever."""
@@ -72,18 +74,27 @@ def _after(run: Run, move: Move) -> Run:
 
 
 def _end(run: Run) -> Future | None:
-    """How the episode ends if nobody says anything more; None if it waits for a person."""
+    """How the episode ends if nobody says anything more; None if it waits for a person or is not told."""
     if run.mode is Mode.MANUAL and run.world.outcome is Outcome.RUNNING:
         return None
     recurs = run.config.planner in TIMELESS_PLANNERS and not run.config.courtesy
     seen: set[tuple[object, ...]] = set()
-    while run.world.outcome is Outcome.RUNNING:
-        if recurs:
-            world = run.world
-            state = (world.avs, world.right, world.left, world.pedestrians, world.potholes)
-            if state in seen:
+    last = run
+    if run.world.outcome is Outcome.RUNNING:
+        for before, tick in followed(run):
+            if recurs and _again(before.world, seen):
                 return Future(Outcome.STUCK, run.config.max_ticks + 1)
-            seen.add(state)
-        run = advance(run).run
-    world = run.world
+            last = tick.run
+    world = last.world
+    if world.outcome is Outcome.RUNNING:
+        return None
     return Future(world.outcome, world.episode_tick, world.cause.ids if world.cause else ())
+
+
+def _again(world: World, seen: set[tuple[object, ...]]) -> bool:
+    """Whether the world has been so before, but for the time; it is remembered."""
+    state = (world.avs, world.right, world.left, world.pedestrians, world.potholes)
+    if state in seen:
+        return True
+    seen.add(state)
+    return False
