@@ -26,6 +26,9 @@ Four whole episodes on the default road; on the largest roads, where one decisio
 ticks.
 """
 
+MAX_FAULTS: Final = 20
+"""After so many failures one after the other no answer is expected of a planner any more."""
+
 AT_SIGHT: Final = frozenset(("priority",))
 """Planners that look one tick ahead, on a road of any size."""
 
@@ -108,14 +111,16 @@ def followed(run: Run) -> Iterator[tuple[Run, Tick]]:
     """Each tick to the end of the episode, with the run before it; a result that stands is waited out first.
 
     A tick whose planner did not answer in time is the last: a session would hand over to a person there.
-    On long roads a planner that searches is followed for so long only as `MAX_WORK` allows.
+    So is that of one that has failed `MAX_FAULTS` times running; and on long roads a planner that searches is
+    followed for so long only as `MAX_WORK` allows.
     """
-    work = 0
+    work = faults = 0
     started = run.world.outcome is Outcome.RUNNING
     while run.world.outcome is Outcome.RUNNING or not started:
         tick = advance(run)
         yield run, tick
-        if tick.decision is not None and tick.decision.timed_out:
+        faults = faults + 1 if tick.decision is not None and tick.decision.fault is not None else 0
+        if faults == MAX_FAULTS or (tick.decision is not None and tick.decision.timed_out):
             return
         run = tick.run
         work += _work(run)
@@ -144,6 +149,8 @@ def told(run: Run, ticks: list[tuple[Run, Tick]]) -> Story:
             path.append(decision.move)
             detours += detoured(before, tick)
             held_back += [decision.tick] if decision.held_back else []
+    if last.world.outcome is Outcome.RUNNING and ticks and ticks[-1][1].decision is not None:
+        silent = silent or ticks[-1][1].decision.fault
     first = next((tick.decision for _, tick in ticks if tick.decision is not None), None)
     return Story(
         tick=run.world.tick,

@@ -15,6 +15,7 @@ from sim.explain.facts import QuestionError
 from sim.explain.future import Story, followed, told
 from sim.kinds import Move
 from sim.optimum.regret import Regret, regret
+from sim.plan import Decision
 from sim.run import Run, Tick
 from sim.timeline import Timeline
 
@@ -100,9 +101,14 @@ def _first_difference(
     real: Sequence[tuple[Run, Tick]], changed: Sequence[tuple[Run, Tick]]
 ) -> Difference | None:
     """The first of the decisions, one by one from the moment on, in which the moves are not the same."""
-    mine = [tick.decision for _, tick in real if tick.decision is not None]
-    theirs = [tick.decision for _, tick in changed if tick.decision is not None]
+    mine, theirs = _taken(real), _taken(changed)
     for ahead, (one, other) in enumerate(zip(mine, theirs, strict=False)):
         if one.move is not other.move:
             return Difference(one.tick, ahead, one.move, other.move)
     return None
+
+
+def _taken(ticks: Sequence[tuple[Run, Tick]]) -> list[Decision]:
+    """The decisions that led on; one that did not come in time leads nowhere."""
+    decisions = [tick.decision for _, tick in ticks if tick.decision is not None]
+    return [decision for decision in decisions if not decision.timed_out]

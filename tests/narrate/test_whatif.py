@@ -76,8 +76,8 @@ def asked(run: Run, *change: dict[str, Any]) -> dict[str, Any]:
         (
             [{"do": "add", "kind": "barrier", "count": 1, "where": {"cell": [7, 1]}}, {"do": "pause"}],
             "If there were a barrier 15 m ahead in the fourth lane to my right, nothing would change: I "
-            "would make the same moves, and arrive in 5 ticks. The rest of that would make no difference on the "
-            "road.",
+            "would make the same moves, and arrive in 5 ticks. The rest of that would make no difference "
+            "on the road.",
         ),
     ],
 )

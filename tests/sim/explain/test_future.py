@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 
+from sim.actions import Add
 from sim.config import Config
 from sim.course import Sake
 from sim.explain.future import story, way_ahead
@@ -13,6 +14,7 @@ from sim.explain.summary import long_to_tell, summary
 from sim.kinds import Mode, Move, Outcome
 from sim.optimum import least_ticks
 from sim.run import Run, advance
+from sim.timeline import Timeline
 from tests.sim.explain.moments import moments
 from tests.sim.roads import road, run_on
 
@@ -126,3 +128,19 @@ def test_what_is_not_certain_is_left_out() -> None:
     assert chance.best is None
     with pytest.raises(ValueError, match="goes on"):
         summary(Run.start(Config()))
+
+
+def test_a_road_that_was_changed_on_the_way_is_not_measured_by_how_it_began() -> None:
+    timeline = Timeline(Config(seed=3))
+    timeline.apply(1, [Add(kind="pothole", count=3)])
+    timeline.advance()
+    assert not timeline.run.course.changed
+    timeline.apply(2, [Add(kind="pothole", count=3)])
+    while timeline.run.world.outcome is Outcome.RUNNING:
+        timeline.advance()
+    found = summary(timeline.run)
+    assert (found.certain, found.best) == (False, None)
+    timeline.rewrite(timeline.entries[:1], 1)
+    while timeline.run.world.outcome is Outcome.RUNNING:
+        timeline.advance()
+    assert summary(timeline.run).certain
