@@ -14,6 +14,7 @@ from sim.judge import collisions, outcome
 from sim.kinds import Mode, Move, Outcome
 from sim.optimum import least_ticks
 from sim.plan import Decision
+from sim.rules import PEDESTRIAN_PERIOD
 from sim.run import Run
 from sim.world import World
 
@@ -92,8 +93,9 @@ def _end(run: Run) -> Future | None:
 
 
 def _again(world: World, seen: set[tuple[object, ...]]) -> bool:
-    """Whether the world has been so before, but for the time; it is remembered."""
-    state = (world.avs, world.right, world.left, world.pedestrians, world.potholes)
+    """Whether the world has been so before, at the same beat of walking; it is remembered."""
+    beat = world.episode_tick % PEDESTRIAN_PERIOD
+    state = (beat, world.avs, world.right, world.left, world.pedestrians, world.potholes)
     if state in seen:
         return True
     seen.add(state)
