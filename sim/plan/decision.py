@@ -75,7 +75,7 @@ class Decision:
 
     @property
     def weight(self) -> int:
-        """How much there is to say: 0 nothing was in the way, 1 a way round or a choice, 2 a wait or worse."""
+        """How much there is to say: 0 nothing was in the way, 1 a way round, 2 a wait or worse."""
         if self.fault is not None or self.held_back or self.move is Move.STAY:
             return 2
         return 2 if self.chosen.cost is None else int(self.move is not Move.FORWARD)
