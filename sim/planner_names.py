@@ -7,8 +7,10 @@ read from what is installed, and nothing of theirs is run for it.
 from __future__ import annotations
 
 from functools import cache
-from importlib.metadata import EntryPoint, entry_points
-from typing import Final
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
 
 GROUP: Final = "roadtalk.planners"
 BUILT_IN: Final = ("priority", "astar", "dijkstra", "exact")
@@ -29,6 +31,8 @@ def claim(name: str) -> None:
 @cache
 def installed() -> dict[str, EntryPoint]:
     """Planners of other packages by name; of two that claim one name, the first by package counts."""
+    from importlib.metadata import entry_points  # takes longer than all else that is imported here
+
     found: dict[str, EntryPoint] = {}
     for point in sorted(entry_points(group=GROUP), key=lambda point: point.value):
         found.setdefault(point.name, point)

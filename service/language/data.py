@@ -7,8 +7,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from service.language.build import Parameters
 from service.language.frames import Frame, FrameError, read_frames
 from service.language.lexicon import Lexicon
@@ -70,13 +68,22 @@ def read_language(folder: Path) -> LanguageData:
         raise LanguageDataError(f"there is no language in {folder}")
     try:
         return _read(folder)
-    except (PatternError, FrameError, KeyError, yaml.YAMLError) as error:
+    except (PatternError, FrameError, KeyError, YamlError) as error:
         raise LanguageDataError(f"{folder}: {type(error).__name__}: {error}") from error
+
+
+class YamlError(Exception):
+    """A file that is no YAML."""
 
 
 def read_yaml(path: Path) -> Any:
     """One YAML file."""
-    return yaml.load(path.read_bytes(), Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+    import yaml  # with the words themselves, and not where only the types are needed
+
+    try:
+        return yaml.load(path.read_bytes(), Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+    except yaml.YAMLError as error:
+        raise YamlError(f"{path.name}: {error}") from error
 
 
 def _read(folder: Path) -> LanguageData:

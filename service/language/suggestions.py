@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from rapidfuzz import fuzz
-
 HOW_MANY = 3
 _SHARED_WEIGHT = 40.0
 _LEAST = 45.0
@@ -20,6 +18,8 @@ class Suggestions:
 
     def nearest(self, text: str, concepts: frozenset[str]) -> tuple[str, ...]:
         """Up to three sayings, nearest first; empty when nothing is near."""
+        from rapidfuzz import fuzz  # needed at the first refusal, not before
+
         text = text.lower()[:200]
         scored = []
         for say, shared in self._sayings:
