@@ -93,9 +93,17 @@ def _end(run: Run) -> Future | None:
 
 
 def _again(world: World, seen: set[tuple[object, ...]]) -> bool:
-    """Whether the world has been so before, at the same beat of walking; it is remembered."""
+    """Whether what matters has been so before, at the same beat of walking; it is remembered.
+
+    What matters are the vehicle's row and the one before it: movers keep to their rows, and the vehicle,
+    which never goes back, has stayed in its own since. So what has come again will come for ever.
+    """
+    road = world.road
+    row = road.cell(world.av)[1]
+    first = max(0, row - 1) * road.columns
+    rows = ((1 << (row + 1) * road.columns) - 1) >> first << first
     beat = world.episode_tick % PEDESTRIAN_PERIOD
-    state = (beat, world.avs, world.right, world.left, world.pedestrians, world.potholes)
+    state = (beat, world.avs, *(board & rows for board in (world.right, world.left, world.pedestrians)))
     if state in seen:
         return True
     seen.add(state)
