@@ -5,12 +5,13 @@
 
 from __future__ import annotations
 
-from service.store.base import EntryRecord, PhraseRecord, SessionRecord, Store, StoreError
+from service.store.base import EntryRecord, KeptAnswer, PhraseRecord, SessionRecord, Store, StoreError
 from service.store.memory import MemoryStore
 from service.store.sql import SqlStore
 
 __all__ = [
     "EntryRecord",
+    "KeptAnswer",
     "MemoryStore",
     "PhraseRecord",
     "SessionRecord",

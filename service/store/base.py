@@ -63,6 +63,21 @@ class PhraseRecord:
     meaning: Sequence[Mapping[str, Any]]
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class KeptAnswer:
+    """What a request under an idempotency key was answered, so that sent again it is answered the same.
+
+    `request` is a digest of what was asked; `at` is seconds since 1970, for forgetting it in time.
+    """
+
+    key: str
+    request: str
+    at: int
+    status: int
+    headers: Mapping[str, str]
+    body: bytes
+
+
 class Store(Protocol):
     """A place where sessions outlive the process. Every method may raise `StoreError`.
 
@@ -75,10 +90,15 @@ class Store(Protocol):
     async def close(self) -> None:
         """Let go of files and connections; closing twice is the same as once."""
 
-    async def create(self, record: SessionRecord, entries: Sequence[EntryRecord] = ()) -> SessionRecord:
-        """Keep a new session, with entries if it is a replayed one; answers it numbered."""
+    async def create(
+        self, record: SessionRecord, entries: Sequence[EntryRecord] = (), answer: KeptAnswer | None = None
+    ) -> SessionRecord:
+        """Keep a new session, with entries if it is a replayed one; answers it numbered.
 
-    async def append(self, session_id: str, entry: EntryRecord) -> None:
+        An `answer` is kept with it or not at all, here and wherever one is taken.
+        """
+
+    async def append(self, session_id: str, entry: EntryRecord, answer: KeptAnswer | None = None) -> None:
         """Keep one more change of a session. An unknown session or a sequence twice is an error."""
 
     async def get(self, session_id: str) -> SessionRecord | None:
@@ -95,6 +115,18 @@ class Store(Protocol):
 
     async def delete(self, session_id: str) -> bool:
         """Forget a session and its changes; whether there was one."""
+
+    async def keep(self, answer: KeptAnswer) -> None:
+        """Keep an answer by itself. A key twice is an error."""
+
+    async def kept(self, key: str) -> KeptAnswer | None:
+        """What was answered under a key, or None."""
+
+    async def forget_answers(self, before: int) -> None:
+        """Forget the answers of before a moment."""
+
+    async def date_answers(self, newest: int) -> None:
+        """Move all answers in time together, so that the newest is of this moment."""
 
     async def teach(self, record: PhraseRecord) -> None:
         """Keep a phrase, in place of the one of that owner, language and key if there is one."""

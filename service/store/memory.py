@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from service.store.base import EntryRecord, PhraseRecord, SessionRecord, StoreError
+from service.store.base import EntryRecord, KeptAnswer, PhraseRecord, SessionRecord, StoreError
 
 
 class MemoryStore:
@@ -18,6 +18,7 @@ class MemoryStore:
         self._sessions: dict[str, SessionRecord] = {}
         self._entries: dict[str, list[EntryRecord]] = {}
         self._phrases: dict[tuple[str, str, str], PhraseRecord] = {}
+        self._answers: dict[str, KeptAnswer] = {}
         self._last_number = 0
 
     async def open(self) -> None:
@@ -26,23 +27,27 @@ class MemoryStore:
     async def close(self) -> None:
         """Keeps what it holds, so that a test can close and open it again like a file."""
 
-    async def create(self, record: SessionRecord, entries: Sequence[EntryRecord] = ()) -> SessionRecord:
+    async def create(
+        self, record: SessionRecord, entries: Sequence[EntryRecord] = (), answer: KeptAnswer | None = None
+    ) -> SessionRecord:
         """See `Store.create`."""
         if record.id in self._sessions:
             raise StoreError(f"session {record.id} is there already")
+        await self._keep(answer)
         self._last_number += 1
         numbered = record.numbered(self._last_number)
         self._sessions[record.id] = numbered
         self._entries[record.id] = list(entries)
         return numbered
 
-    async def append(self, session_id: str, entry: EntryRecord) -> None:
+    async def append(self, session_id: str, entry: EntryRecord, answer: KeptAnswer | None = None) -> None:
         """See `Store.append`."""
         entries = self._entries.get(session_id)
         if entries is None:
             raise StoreError(f"no session {session_id}")
         if any(kept.sequence == entry.sequence for kept in entries):
             raise StoreError(f"session {session_id} has an entry {entry.sequence} already")
+        await self._keep(answer)
         entries.append(entry)
 
     async def get(self, session_id: str) -> SessionRecord | None:
@@ -68,6 +73,30 @@ class MemoryStore:
         """See `Store.delete`."""
         self._entries.pop(session_id, None)
         return self._sessions.pop(session_id, None) is not None
+
+    async def keep(self, answer: KeptAnswer) -> None:
+        """See `Store.keep`."""
+        await self._keep(answer)
+
+    async def kept(self, key: str) -> KeptAnswer | None:
+        """See `Store.kept`."""
+        return self._answers.get(key)
+
+    async def forget_answers(self, before: int) -> None:
+        """See `Store.forget_answers`."""
+        self._answers = {key: each for key, each in self._answers.items() if each.at >= before}
+
+    async def date_answers(self, newest: int) -> None:
+        """See `Store.date_answers`."""
+        by = newest - max((each.at for each in self._answers.values()), default=newest)
+        self._answers = {key: replace(each, at=each.at + by) for key, each in self._answers.items()}
+
+    async def _keep(self, answer: KeptAnswer | None) -> None:
+        if answer is None:
+            return
+        if answer.key in self._answers:
+            raise StoreError(f"there is an answer under the key {answer.key} already")
+        self._answers[answer.key] = answer
 
     async def teach(self, record: PhraseRecord) -> None:
         """See `Store.teach`."""

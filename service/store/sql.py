@@ -21,12 +21,14 @@ from typing import Any
 from anyio import to_thread
 from sqlalchemy import (
     JSON,
+    BigInteger,
     Boolean,
     Column,
     DateTime,
     Delete,
     ForeignKey,
     Integer,
+    LargeBinary,
     MetaData,
     Row,
     String,
@@ -35,6 +37,7 @@ from sqlalchemy import (
     bindparam,
     delete,
     event,
+    func,
     insert,
     select,
     update,
@@ -44,7 +47,7 @@ from sqlalchemy.exc import SQLAlchemyError
 from sqlalchemy.ext.asyncio import AsyncConnection, AsyncEngine, create_async_engine
 from sqlalchemy.pool import AsyncAdaptedQueuePool
 
-from service.store.base import EntryRecord, PhraseRecord, SessionRecord, StoreError
+from service.store.base import EntryRecord, KeptAnswer, PhraseRecord, SessionRecord, StoreError
 
 METADATA = MetaData()
 
@@ -81,6 +84,17 @@ PHRASES = Table(
     Column("meaning", JSON, nullable=False),
 )
 
+IDEMPOTENCY = Table(
+    "idempotency",
+    METADATA,
+    Column("key", String(255), primary_key=True),
+    Column("request", String(64), nullable=False, comment="digest of what was asked"),
+    Column("at", BigInteger, nullable=False, index=True, comment="seconds since 1970"),
+    Column("status", Integer, nullable=False),
+    Column("headers", JSON, nullable=False),
+    Column("body", LargeBinary, nullable=False),
+)
+
 _BUSY_S = 1.0
 """How long a file that another process holds is waited for."""
 
@@ -92,7 +106,7 @@ _PRAGMAS = (
     "PRAGMA foreign_keys=ON",
 )
 
-_Pending = tuple[dict[str, Any], "asyncio.Future[None]"]
+_Pending = tuple[dict[str, Any], KeptAnswer | None, "asyncio.Future[None]"]
 
 
 class SqlStore:
@@ -134,7 +148,9 @@ class SqlStore:
             await self._engine.dispose()
             self._engine = None
 
-    async def create(self, record: SessionRecord, entries: Sequence[EntryRecord] = ()) -> SessionRecord:
+    async def create(
+        self, record: SessionRecord, entries: Sequence[EntryRecord] = (), answer: KeptAnswer | None = None
+    ) -> SessionRecord:
         """See `Store.create`."""
         values = {
             "id": record.id,
@@ -152,12 +168,14 @@ class SqlStore:
                 await connection.execute(
                     insert(ENTRIES), [_entry_values(record.id, entry) for entry in entries]
                 )
+            if answer is not None:
+                await connection.execute(insert(IDEMPOTENCY), _answer_values(answer))
         return record.numbered(number)
 
-    async def append(self, session_id: str, entry: EntryRecord) -> None:
+    async def append(self, session_id: str, entry: EntryRecord, answer: KeptAnswer | None = None) -> None:
         """See `Store.append`; joins the next group commit."""
         done: asyncio.Future[None] = asyncio.get_running_loop().create_future()
-        self._pending.append((_entry_values(session_id, entry), done))
+        self._pending.append((_entry_values(session_id, entry), answer, done))
         if self._writer is None:
             self._writer = asyncio.create_task(self._write())
         await done
@@ -203,6 +221,32 @@ class SqlStore:
             result = await connection.execute(delete(SESSIONS).where(SESSIONS.c.id == session_id))
         return result.rowcount > 0
 
+    async def keep(self, answer: KeptAnswer) -> None:
+        """See `Store.keep`."""
+        async with self._transaction() as connection:
+            await connection.execute(insert(IDEMPOTENCY), _answer_values(answer))
+
+    async def kept(self, key: str) -> KeptAnswer | None:
+        """See `Store.kept`."""
+        async with self._transaction() as connection:
+            row = (
+                await connection.execute(select(IDEMPOTENCY).where(IDEMPOTENCY.c.key == key))
+            ).one_or_none()
+        return None if row is None else KeptAnswer(**row._mapping)
+
+    async def forget_answers(self, before: int) -> None:
+        """See `Store.forget_answers`."""
+        async with self._transaction() as connection:
+            await connection.execute(delete(IDEMPOTENCY).where(IDEMPOTENCY.c.at < before))
+
+    async def date_answers(self, newest: int) -> None:
+        """See `Store.date_answers`."""
+        async with self._transaction() as connection:
+            latest = (await connection.execute(select(func.max(IDEMPOTENCY.c.at)))).scalar_one()
+            if latest is not None and latest != newest:
+                moved = IDEMPOTENCY.c.at + (newest - latest)
+                await connection.execute(update(IDEMPOTENCY).values(at=moved))
+
     async def teach(self, record: PhraseRecord) -> None:
         """See `Store.teach`."""
         values = {
@@ -246,16 +290,19 @@ class SqlStore:
     async def _write_batch(self, batch: list[_Pending]) -> None:
         try:
             async with self._transaction() as connection:
-                await connection.execute(insert(ENTRIES), [values for values, _ in batch])
+                await connection.execute(insert(ENTRIES), [values for values, _, _ in batch])
+                answers = [_answer_values(answer) for _, answer, _ in batch if answer is not None]
+                if answers:
+                    await connection.execute(insert(IDEMPOTENCY), answers)
         except StoreError as error:
             if len(batch) > 1:
                 # One bad entry must not fail its neighbours: each gets its own commit.
                 for pending in batch:
                     await self._write_batch([pending])
-            elif not batch[0][1].done():
-                batch[0][1].set_exception(error)
+            elif not batch[0][2].done():
+                batch[0][2].set_exception(error)
         else:
-            for _, done in batch:
+            for _, _, done in batch:
                 if not done.done():
                     done.set_result(None)
 
@@ -312,6 +359,17 @@ def _session(row: Row[Any]) -> SessionRecord:
 
 def _utc(moment: datetime) -> datetime:
     return moment.replace(tzinfo=UTC)
+
+
+def _answer_values(answer: KeptAnswer) -> dict[str, Any]:
+    return {
+        "key": answer.key,
+        "request": answer.request,
+        "at": answer.at,
+        "status": answer.status,
+        "headers": dict(answer.headers),
+        "body": answer.body,
+    }
 
 
 def _entry_values(session_id: str, entry: EntryRecord) -> dict[str, Any]:
