@@ -11,12 +11,18 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from service.actions import Action
 from service.api.bodies import Tick
+from service.sessions.pace import FASTEST, SLOWEST
 from sim.actions import Weather
 from sim.advice import Choice, Ending
 from sim.kinds import Kind, Mode, Move, Outcome
 
 CellPair = Annotated[
     list[int], Field(min_length=2, max_length=2, description="[column, row], row 0 at the goal")
+]
+
+PlaybackSpeed = Annotated[
+    Annotated[float, Field(ge=SLOWEST, le=FASTEST)] | Literal["max"],
+    Field(description="How fast the clock plays it; `max` is as fast as possible. No world knows of it."),
 ]
 
 
@@ -99,6 +105,7 @@ class State(Answered):
     visible_rows: int
     step_seconds: float
     paused: bool
+    playback_speed: PlaybackSpeed
     mode: Mode
     planner: str
     vehicles: list[Vehicle]
@@ -152,6 +159,7 @@ class Session(Answered):
     name: str | None
     created_at: str
     paused: bool
+    playback_speed: PlaybackSpeed
     mode: Mode
     tick: Tick
     episode: int
@@ -364,6 +372,7 @@ class ProblemDocument(Answered):
     understood: list[str] | None = None
     suggestions: list[str] | None = None
     choices: list[ChoiceModel] | None = None
+    sequence: int | None = Field(None, description="Where the session stands, if it was changed meanwhile.")
 
 
 Share = Annotated[float, Field(ge=0, le=1)]

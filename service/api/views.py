@@ -41,6 +41,7 @@ def session_json(session: Session, sentence: str | None) -> dict[str, Any]:
         "name": record.name,
         "created_at": record.created_at.isoformat(),
         "paused": session.paused,
+        "playback_speed": session.pace,
         "mode": run.mode,
         "tick": run.world.tick,
         "episode": run.world.episode,

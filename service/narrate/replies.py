@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from service.narrate.sayings import Sayings
 from service.sessions.facts import Advised, Asked, Fact, Lesson, PauseSet, Stepped, Undone, changes_of
+from service.sessions.pace import PaceSet
+from service.sessions.pace import said as said_pace
 from sim.actions import Add, Adjust, Drive, Prefer, Remove, Reset, Scenario, Set, SetCount, SetMode
 from sim.edit import Applied, Change
 from sim.events import EventType
@@ -44,6 +46,9 @@ class Replies:
             case PauseSet(before=before, paused=paused):
                 key = "pause" if paused else "resume"
                 return self._say(f"{key}_already" if before is paused else key)
+            case PaceSet(before=before, after=after):
+                key = "pace_already" if before == after else "pace"
+                return self._say(key, before=said_pace(before), after=said_pace(after))
             case Stepped(ticks=ticks):
                 key = "step_one" if len(ticks) == 1 else "step_many"
                 return self._say(key, count=len(ticks), tick=fact.first_tick + len(ticks))

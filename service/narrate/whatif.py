@@ -8,6 +8,7 @@ from service.narrate.naming import Naming
 from service.narrate.replies import WEIGHING
 from service.narrate.sayings import Sayings
 from service.sessions.facts import Asked
+from service.sessions.pace import sets_pace
 from service.wire.future import what_if_json
 from sim.actions import (
     Add,
@@ -49,7 +50,7 @@ class WhatIfs:
         """See `Answerer.answer`. What cannot be done is answered too, and nothing is run for it."""
         ask, timeline = asked.ask, asked.timeline
         change = ask.change or ()
-        actions = [action for action in change if isinstance(action, WORLD_ACTIONS)]
+        actions = [action for action in change if isinstance(action, WORLD_ACTIONS) and not sets_pace(action)]
         if not actions:
             return plain(self._sayings, ask, timeline.run, self._say("only_road"))
         try:

@@ -7,6 +7,7 @@ the same. What a scenario may name is the world's rule.
 from __future__ import annotations
 
 from service.actions import Action, Ask
+from service.sessions.pace import sets_pace
 from sim.actions import Add, Adjust, Drive, Remove, Reset, Scenario, Set, SetCount, SetMode
 from sim.kinds import Kind
 from sim.scenario import unavailable
@@ -61,6 +62,8 @@ def refusal(action: Action) -> str | None:
         case Scenario():
             missing = unavailable(action)
             return None if missing is None else _sentence(missing.message)
+        case (Set() | Adjust()) if sets_pace(action):
+            return None
         case Set() | Adjust() if not offered(action):
             value = f" ({action.value})" if isinstance(action, Set) else ""
             return _sentence(f"Changing the {action.parameter.replace('_', ' ')}{value}")

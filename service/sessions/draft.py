@@ -10,12 +10,28 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from service.actions import Action, Advise, Ask, Forget, Pause, Redo, Resume, Teach, Undo
+from service.actions import (
+    Action,
+    Advise,
+    Ask,
+    Forget,
+    Load,
+    Pause,
+    Redo,
+    Resume,
+    Rewind,
+    Save,
+    Teach,
+    Undo,
+)
 from service.actions import Step as StepTicks
 from service.problems import DoesNotFit, FieldProblem, Invalid, NotAvailable, NothingToUndo, ProblemError
 from service.sessions import availability
 from service.sessions.facts import Advised, Asked, Fact, PauseSet, Stepped, Undone
 from service.sessions.history import History, Step
+from service.sessions.pace import NORMAL, Pace, PaceError, PaceSet, pace_after, sets_pace
+from service.sessions.rewinding import Jump, go_back
+from service.sessions.saved import MOST_NAMES, Kept, Moment, Went, unknown
 from sim.actions import (
     Add,
     Adjust,
@@ -31,20 +47,26 @@ from sim.actions import (
     WorldAction,
 )
 from sim.advice import NoAdviceError, advise
-from sim.edit import differences
+from sim.edit import Change, differences
 from sim.edit_error import EditError
 from sim.kinds import Kind
+from sim.run import Run
 from sim.timeline import PlannerSilentError, Timeline
 
 WORLD_ACTIONS = (Add, Remove, SetCount, Scenario, Reset, SetMode, Drive, Set, Adjust, Prefer)
 
 
+STEPS = (*WORLD_ACTIONS, Rewind, Load)
+"""Actions that are a step to undo."""
+
+
 class Draft:
     """A session's changeable part, on a copy."""
 
-    def __init__(self, timeline: Timeline, paused: bool, history: History) -> None:
+    def __init__(self, timeline: Timeline, paused: bool, history: History, pace: Pace = NORMAL) -> None:
         self.timeline = timeline.copy()
         self.paused = paused
+        self.pace = pace
         self.history = history.copy()
         self._open = _Mark(self.timeline, paused)
 
@@ -56,8 +78,10 @@ class Draft:
         for position, action in enumerate(actions):
             facts.append(self._do(sequence, position, action))
             began.kept = min(began.kept, self._open.kept)
-        if any(isinstance(action, WORLD_ACTIONS) for action in actions):
+            began.jumped = began.jumped or self._open.jumped
+        if any(isinstance(action, STEPS) and not sets_pace(action) for action in actions):
             # Whatever it undid on the way, the utterance is one step.
+            earlier.saved = self.history.saved
             self.history = earlier
             self._add_step(began)
         return tuple(facts)
@@ -66,8 +90,11 @@ class Draft:
         """About how many ticks are to be run: those of steps, and those since what is undone or redone."""
         ticks = ticks_to_run(actions)
         for kind, steps in ((Undo, self.history.done), (Redo, self.history.undone)):
-            if steps and any(isinstance(action, kind) for action in actions):
+            if steps and steps[-1].jump is None and any(isinstance(action, kind) for action in actions):
                 ticks += self.timeline.tick - steps[-1].since
+        for action in actions:
+            if isinstance(action, Rewind) and action.ticks <= self.timeline.tick:
+                ticks += self.timeline.ticks_to(self.timeline.tick - action.ticks)
         return ticks
 
     def _do(self, sequence: int, position: int, action: Action) -> Fact:
@@ -83,10 +110,18 @@ class Draft:
                 return self._set_paused(isinstance(action, Pause))
             case StepTicks():
                 return self._step(action.ticks)
+            case Set() | Adjust() if sets_pace(action):
+                return self._set_pace(position, action)
             case Undo():
                 return self._undo(position)
             case Redo():
                 return self._redo(position)
+            case Rewind():
+                return self._rewind(position, action.ticks)
+            case Save():
+                return self._save(sequence, position, action.name)
+            case Load():
+                return self._load(position, action.name)
             case (
                 Add()
                 | Remove()
@@ -126,6 +161,15 @@ class Draft:
         before, self.paused = self.paused, paused
         return PauseSet(before, paused, self.timeline.tick)
 
+    def _set_pace(self, position: int, action: Set | Adjust) -> PaceSet:
+        before = self.pace
+        try:
+            self.pace = pace_after(before, action)
+        except PaceError as error:
+            where = f"actions.{position}.{error.field}"
+            raise Invalid(error.message, errors=[FieldProblem(where, error.message)]) from error
+        return PaceSet(before, self.pace, self.timeline.tick)
+
     def _step(self, ticks: int) -> Stepped:
         self.paused = True
         try:
@@ -139,7 +183,7 @@ class Draft:
         if not self.history.done:
             raise _nothing("There is no change to take back.", position)
         step = self.history.done.pop()
-        self.history.undone.append(step)
+        self.history.undone.append(step.left_after(self.timeline))
         return self._take(step.reversed, again=False)
 
     def _redo(self, position: int) -> Undone:
@@ -147,8 +191,39 @@ class Draft:
         if not self.history.undone:
             raise _nothing("No change has been taken back that could be made again.", position)
         step = self.history.undone.pop()
-        self.history.done.append(step)
+        self.history.done.append(step.left_before(self.timeline))
         return self._take(step, again=True)
+
+    def _rewind(self, position: int, ticks: int) -> Went:
+        before = self.timeline.run
+        go_back(self.timeline, ticks, f"actions.{position}.ticks")
+        return self._went(before, len(self.timeline.entries))
+
+    def _save(self, sequence: int, position: int, name: str) -> Kept:
+        saved = self.history.saved
+        if name not in saved and len(saved) >= MOST_NAMES:
+            sentence = f"{MOST_NAMES} moments have names here, which is the limit; save under one of those."
+            raise Invalid(sentence, errors=[FieldProblem(f"actions.{position}.name", sentence)])
+        again = name in saved
+        saved[name] = Moment(name, sequence, self.timeline.copy())
+        return Kept(name, self.timeline.tick, again)
+
+    def _load(self, position: int, name: str) -> Went:
+        moment = self.history.saved.get(name)
+        if moment is None:
+            raise unknown(name, self.history.saved, f"actions.{position}.name")
+        before, log = self.timeline.run, self.timeline.entries
+        self.timeline = moment.timeline.copy()
+        pairs = zip(log, self.timeline.entries, strict=False)
+        alike = next((number for number, (one, other) in enumerate(pairs) if one != other), None)
+        kept = min(len(log), len(self.timeline.entries)) if alike is None else alike
+        return self._went(before, kept, name)
+
+    def _went(self, before: Run, kept: int, name: str | None = None) -> Went:
+        self._open.kept = min(self._open.kept, kept)
+        self._open.jumped = True
+        run = self.timeline.run
+        return Went(before.world.tick, run.world.tick, differences(before, run), name)
 
     def _close_step(self) -> None:
         """What this utterance has changed so far is the latest change: an undo takes it back first."""
@@ -156,7 +231,9 @@ class Draft:
 
     def _add_step(self, since: _Mark) -> None:
         log = self.timeline.entries
-        step = Step(tuple(since.log[since.kept :]), tuple(log[since.kept :]), since.paused, self.paused)
+        jump = Jump(since.timeline, self.timeline.copy()) if since.jumped else None
+        was = since.timeline.entries
+        step = Step(tuple(was[since.kept :]), tuple(log[since.kept :]), since.paused, self.paused, jump)
         if not step.empty:
             self.history.add(step)
 
@@ -164,20 +241,28 @@ class Draft:
         """Put the log's tail as the step left it, and replay."""
         before = self.timeline.run
         kept = len(self.timeline.entries) - len(step.before)
-        self.timeline.rewrite([*self.timeline.entries[:kept], *step.after], step.since)
+        if step.jump is None:
+            self.timeline.rewrite([*self.timeline.entries[:kept], *step.after], step.since)
+        else:
+            self.timeline = step.jump.after.copy()
+            self._jumped = True
         if self.paused == step.paused_before:
             self.paused = step.paused_after
         self._open = _Mark(self.timeline, self.paused, kept)
-        return Undone(again, differences(before, self.timeline.run))
+        changes = differences(before, self.timeline.run)
+        if before.world.tick != self.timeline.tick:
+            changes = (Change("tick", before.world.tick, self.timeline.tick), *changes)
+        return Undone(again, changes)
 
 
 class _Mark:
-    """A log as it once was, and how many of its first entries are untouched since."""
+    """A timeline as it once was, how many of its first entries are untouched since, and whether time moved."""
 
     def __init__(self, timeline: Timeline, paused: bool, kept: int | None = None) -> None:
-        self.log = list(timeline.entries)
+        self.timeline = timeline.copy()
         self.paused = paused
-        self.kept = len(self.log) if kept is None else kept
+        self.kept = len(timeline.entries) if kept is None else kept
+        self.jumped = False
 
 
 def ticks_to_run(actions: Sequence[Action]) -> int:

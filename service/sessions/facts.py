@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from service.actions import Ask
+from service.sessions.pace import PaceSet
 from sim.advice import Advice
 from sim.edit import Applied, Change
 from sim.run import Run, Tick
@@ -67,7 +68,7 @@ class Lesson:
 Answerable: TypeAlias = Asked | Advised
 """What is answered, and changes nothing."""
 
-Fact: TypeAlias = Applied | PauseSet | Stepped | Undone | Answerable
+Fact: TypeAlias = Applied | PauseSet | PaceSet | Stepped | Undone | Answerable
 
 
 def changes_of(facts: tuple[Fact, ...]) -> tuple[Change, ...]:
@@ -97,6 +98,8 @@ def _changes(fact: Fact) -> tuple[Change, ...]:
             return fact.changes
         case PauseSet():
             return (Change("paused", fact.before, fact.paused),)
+        case PaceSet():
+            return (Change("playback_speed", fact.before, fact.after),)
         case Stepped():
             return (Change("tick", fact.first_tick, fact.first_tick + len(fact.ticks)),)
         case Asked() | Advised():

@@ -37,6 +37,11 @@ class Later(Generic[Result]):
         self._owed = _WORKERS.submit(work)
         self._owed.add_done_callback(wake)
 
+    @property
+    def busy(self) -> bool:
+        """Whether work is under way, so that `settle` would have to wait."""
+        return self._owed is not None and not self._owed.done()
+
     def settle(self) -> None:
         """Take what is owed, waiting for it if it is not done yet."""
         owed, self._owed = self._owed, None

@@ -8,7 +8,8 @@ A change that was begun is finished even when whoever asked for it has gone.
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Sequence
+from collections.abc import AsyncIterator, Sequence
+from contextlib import asynccontextmanager
 from dataclasses import dataclass
 from typing import Any
 
@@ -28,6 +29,8 @@ from service.sessions.history import History
 from service.sessions.later import Later
 from service.sessions.log import Log, LogEvent
 from service.sessions.messages import changed_message, tick_message
+from service.sessions.pace import NORMAL, Pace, hurried, period_s, turn
+from service.sessions.terms import ANY_TERMS, Terms
 from service.sessions.utterance import Outcome, Utterance
 from service.sessions.watchers import Watchers
 from service.sessions.words import Words
@@ -86,6 +89,7 @@ class Session:
         self.record = record
         self.timeline = timeline
         self.paused = record.paused
+        self.pace: Pace = NORMAL
         self.sequence = 0
         self.history = History()
         self.conversation = Conversation()
@@ -115,12 +119,12 @@ class Session:
     @property
     def standing(self) -> Standing:
         """What of the session is not in its run."""
-        return Standing(self.id, self.paused, self.sequence)
+        return Standing(self.id, self.paused, self.sequence, self.pace)
 
     @property
     def period_s(self) -> float:
-        """Seconds from one tick to the next."""
-        return self.run.config.step_seconds
+        """Seconds from one turn of the clock to the next."""
+        return period_s(self.pace, self.run.config.step_seconds)
 
     def state(self) -> dict[str, Any]:
         """The present state as JSON values."""
@@ -146,10 +150,17 @@ class Session:
             self._around.clock.add(self)
 
     def tick(self) -> None:
-        """One tick of the clock."""
+        """One turn of the clock: a tick, or several where they follow each other in no time."""
         if self._changing:
             self._tick_due = True
             return
+        for _ in turn(self.pace, self.run.config.step_seconds):
+            # In real time the words of an ending are done by the next tick; in a hurry they are waited for.
+            if self._changing or self.paused or (hurried(self.pace) and self._later.busy):
+                return
+            self._tick_once()
+
+    def _tick_once(self) -> None:
         before = self.run
         try:
             tick = self.timeline.advance()
@@ -201,26 +212,38 @@ class Session:
         if any(not isinstance(action, TRIED) for action in actions):
             return all(refusal(action) is None for action in actions)
         try:
-            facts = Draft(self.timeline, self.paused, self.history).perform(self.sequence + 1, actions)
+            facts = Draft(self.timeline, self.paused, self.history, self.pace).perform(
+                self.sequence + 1, actions
+            )
         except ProblemError:
             return False
         return any(changes_of((fact,)) or not isinstance(fact, Applied) for fact in facts)
 
-    async def change(self, utterance: Utterance, *, dry_run: bool = False) -> Outcome:
+    @asynccontextmanager
+    async def held(self, terms: Terms) -> AsyncIterator[None]:
+        """Nothing is changed by anyone meanwhile. Raises `Stale`."""
+        async with self._turn:
+            terms.check(self.sequence)
+            yield
+
+    async def change(
+        self, utterance: Utterance, *, dry_run: bool = False, terms: Terms = ANY_TERMS
+    ) -> Outcome:
         """Do an utterance, all or nothing. Raises a `ProblemError`; the session is then as it was."""
         check_ticks(utterance.actions, self._around.settings.max_step_ticks)
-        task = asyncio.ensure_future(self._change(utterance, dry_run))
+        task = asyncio.ensure_future(self._change(utterance, dry_run, terms))
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
         return await asyncio.shield(task)
 
-    async def _change(self, utterance: Utterance, dry_run: bool) -> Outcome:
+    async def _change(self, utterance: Utterance, dry_run: bool, terms: Terms = ANY_TERMS) -> Outcome:
         async with self._turn:
             if self._ended:
                 raise UnknownSession
+            terms.check(self.sequence)
             self._changing = True
             try:
-                draft = Draft(self.timeline, self.paused, self.history)
+                draft = Draft(self.timeline, self.paused, self.history, self.pace)
                 facts = await self._perform(draft, utterance)
                 if dry_run:
                     return await self._told(utterance, facts, self.sequence)
@@ -229,7 +252,7 @@ class Session:
                     self.conversation.note(outcome)
                     return outcome
                 outcome = await self._told(utterance, facts, self.sequence + 1)
-                await self._save(outcome)
+                await self._save(outcome, terms)
                 self._become(draft, outcome)
                 return outcome
             finally:
@@ -253,6 +276,7 @@ class Session:
             answer=answers[-1] if answers else None,
             sequence=sequence,
             changes=changes_of(facts),
+            before=self.run,
         )
 
     async def _told(self, utterance: Utterance, facts: tuple[Fact, ...], sequence: int) -> Outcome:
@@ -263,9 +287,10 @@ class Session:
             return await to_thread.run_sync(self._outcome, utterance, facts, sequence)
         return self._outcome(utterance, facts, sequence)
 
-    async def _save(self, outcome: Outcome) -> None:
+    async def _save(self, outcome: Outcome, terms: Terms) -> None:
+        kept = () if terms.answer is None else (terms.answer(outcome),)
         try:
-            await self._around.store.append(self.id, self._entry(outcome))
+            await self._around.store.append(self.id, self._entry(outcome), *kept)
         except StoreError as error:
             _LOG.error("a change was not saved", session=self.id, error=str(error))
             raise NotSaved from error
@@ -281,6 +306,8 @@ class Session:
     def _become(self, draft: Draft, outcome: Outcome) -> None:
         """Take the draft's state and tell watchers."""
         before, began = self.run, self.timeline.tick
+        if draft.pace != self.pace:
+            self._around.clock.remove(self)  # the turn it waits for is at the old speed
         self._adopt(draft, outcome.sequence)
         self.set_paused(draft.paused)
         self.conversation.note(outcome)
@@ -297,7 +324,7 @@ class Session:
 
     def _adopt(self, draft: Draft, sequence: int) -> None:
         self.timeline, self.history = draft.timeline, draft.history
-        self.paused, self.sequence = draft.paused, sequence
+        self.paused, self.pace, self.sequence = draft.paused, draft.pace, sequence
 
     def _take_tick_due(self) -> None:
         if self._tick_due:
@@ -325,7 +352,7 @@ class Session:
             raise Invalid(f"Entry {entry.sequence} at tick {entry.tick} is out of order.")
         self._run_to(entry.tick)
         utterance = Utterance(actions=contract.load(entry.actions), text=entry.text)
-        draft = Draft(self.timeline, self.paused, self.history)
+        draft = Draft(self.timeline, self.paused, self.history, self.pace)
         outcome = self._outcome(utterance, draft.perform(entry.sequence, utterance.actions), entry.sequence)
         self._adopt(draft, entry.sequence)
         self.conversation.note(outcome)

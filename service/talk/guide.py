@@ -16,6 +16,7 @@ from service.language.corpus import sentences
 from service.language.parse_types import Understood
 from service.language.topic import Topic
 from service.sessions.availability import refusal
+from service.sessions.pace import Pace, PaceError, pace_after, sets_pace
 from service.sessions.session import Session
 from sim.actions import Adjust, Set
 from sim.config import Config
@@ -66,7 +67,7 @@ class Guide:
 
         def possible(actions: tuple[Action, ...]) -> bool:
             if session is not None:
-                return session.possible(actions) and _settable(actions, session.run.config)
+                return session.possible(actions) and _settable(actions, session.run.config, session.pace)
             return all(refusal(action) is None for action in actions)
 
         extra = [*taught, *self._by_id(topic)]
@@ -96,13 +97,16 @@ def _name(action: Action) -> str:
     return f"ask {action.about}" if isinstance(action, Ask) else action.do
 
 
-def _settable(actions: tuple[Action, ...], config: Config) -> bool:
+def _settable(actions: tuple[Action, ...], config: Config, pace: Pace) -> bool:
     """Whether settings can be set so, one after the other; cheap, where a new road would not be."""
     try:
         for action in actions:
             if isinstance(action, Set | Adjust):
-                config = setting(config, action)
-    except EditError:
+                if sets_pace(action):
+                    pace = pace_after(pace, action)
+                else:
+                    config = setting(config, action)
+    except (EditError, PaceError):
         return False
     return True
 

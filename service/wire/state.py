@@ -20,6 +20,7 @@ class Standing:
     session: str
     paused: bool
     sequence: int
+    playback_speed: float | str = 1.0
 
 
 def state_json(standing: Standing, run: Run) -> Json:
@@ -39,6 +40,7 @@ def state_json(standing: Standing, run: Run) -> Json:
         "visible_rows": config.visible_rows,
         "step_seconds": config.step_seconds,
         "paused": standing.paused,
+        "playback_speed": standing.playback_speed,
         "mode": run.mode,
         "planner": config.planner,
         "vehicles": vehicles_json(world),

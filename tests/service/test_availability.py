@@ -45,6 +45,8 @@ OFFERED: list[dict[str, Any]] = [
     {"do": "ask", "about": "metrics", "metric": "crashes"},
     {"do": "set", "parameter": "planner", "value": "astar"},
     {"do": "adjust", "parameter": "safety_buffer", "by": 1},
+    {"do": "set", "parameter": "playback_speed", "value": "max"},
+    {"do": "adjust", "parameter": "playback_speed", "factor": 2},
     {"do": "prefer", "preference": "cautious"},
     {"do": "ask", "about": "help"},
     {"do": "ask", "about": "scene", "kind": "pothole"},
@@ -56,7 +58,6 @@ BESIDE_SESSIONS = {"teach", "forget"}
 """Offered, but done to a phrasebook and to no session (test_teaching)."""
 REFUSED: list[dict[str, Any]] = [
     {"do": "set", "parameter": "weather", "value": "rain"},
-    {"do": "adjust", "parameter": "playback_speed", "factor": 2},
     {"do": "show", "view": "log"},
     {"do": "hide", "view": "log"},
     {"do": "rewind", "ticks": 2},

@@ -1,0 +1,136 @@
+"""How fast the clock plays a session: from a quarter of real time to as fast as possible.
+
+Like pause it is about the clock and no world: no digest knows it, and it is no step to undo. It is
+said by an action like any other, so it stands in the log, and comes back with it after a restart, in
+a fork and in a recording. Leaves out `step_seconds`, which is how long a tick is in the world.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Final, Literal, TypeAlias
+
+from service.actions import Action
+from sim.actions import Adjust, Set
+
+Pace: TypeAlias = float | Literal["max"]
+"""Simulated seconds in a second, or as many as there is time for."""
+
+PARAMETER: Final = "playback_speed"
+SLOWEST: Final = 0.25
+FASTEST: Final = 64.0
+NORMAL: Final = 1.0
+MAX: Final = "max"
+
+SHORTEST_TURN_S: Final = 0.004
+"""Ticks that follow each other sooner than this are taken several in a turn of the clock."""
+MAX_TURN_TICKS: Final = 8
+"""As fast as possible is this many ticks a turn at most, half of what a watcher's slot holds."""
+MAX_TURN_S: Final = 0.001
+"""How long a turn of as fast as possible may hold the clock; the tick that was begun is finished."""
+MAX_PERIOD_S: Final = 0.002
+"""From one such turn to the next: half of the time at least is the others'."""
+
+
+class PaceError(Exception):
+    """A speed that cannot be; `field` is that of the action."""
+
+    def __init__(self, message: str, field: str) -> None:
+        super().__init__(message)
+        self.message = message
+        self.field = field
+
+
+@dataclass(frozen=True, slots=True)
+class PaceSet:
+    """The clock was set to another speed, or to the one it had, at a tick."""
+
+    before: Pace
+    after: Pace
+    tick: int
+
+
+def sets_pace(action: Action) -> bool:
+    """Whether an action is about the clock's speed, and so about no world."""
+    return isinstance(action, Set | Adjust) and action.parameter == PARAMETER
+
+
+def pace_after(pace: Pace, action: Set | Adjust) -> Pace:
+    """The speed once an action is done. Raises `PaceError`."""
+    if isinstance(action, Set):
+        if action.value == MAX:
+            return MAX
+        if isinstance(action.value, str):
+            raise PaceError(f"{_range()}, not {action.value!r}.", "value")
+        return _within(float(action.value), "value")
+    if action.direction == "up":
+        return _up(pace)
+    if action.direction == "down":
+        return FASTEST if pace == MAX else _halved(float(pace))
+    now = FASTEST if pace == MAX else float(pace)
+    if action.factor is not None:
+        wanted, field = now * action.factor, "factor"
+    else:
+        wanted, field = now + (action.by or 0.0), "by"
+    if pace == MAX and wanted > now:
+        raise PaceError("It plays as fast as possible already.", field)
+    return _within(round(wanted, 9), field)
+
+
+def period_s(pace: Pace, step_seconds: float) -> float:
+    """Seconds from one turn of the clock to the next."""
+    return MAX_PERIOD_S if pace == MAX else step_seconds / float(pace) * _ticks_a_turn(pace, step_seconds)
+
+
+def turn(pace: Pace, step_seconds: float) -> Iterator[None]:
+    """Once for each tick of one turn; as fast as possible ends when the turn has become long."""
+    if pace != MAX:
+        for _ in range(_ticks_a_turn(pace, step_seconds)):
+            yield
+        return
+    began = time.monotonic()
+    for _ in range(MAX_TURN_TICKS):
+        yield
+        if time.monotonic() - began > MAX_TURN_S:
+            return
+
+
+def hurried(pace: Pace) -> bool:
+    """Whether ticks come sooner than in real time."""
+    return pace == MAX or float(pace) > NORMAL
+
+
+def said(pace: Pace) -> str:
+    """A speed for people: `4×`."""
+    return "as fast as possible" if pace == MAX else f"{float(pace):g}×"
+
+
+def _ticks_a_turn(pace: Pace, step_seconds: float) -> int:
+    return max(1, math.ceil(SHORTEST_TURN_S * float(pace) / step_seconds - 1e-9))
+
+
+def _up(pace: Pace) -> Pace:
+    if pace == MAX:
+        raise PaceError("It plays as fast as possible already.", "direction")
+    if pace == FASTEST:
+        return MAX
+    return min(FASTEST, float(pace) * 2)
+
+
+def _halved(pace: float) -> Pace:
+    if pace == SLOWEST:
+        raise PaceError(f"The playback speed is at its limit already: {said(pace)}.", "direction")
+    return max(SLOWEST, pace / 2)
+
+
+def _within(value: float, field: str) -> float:
+    if not SLOWEST <= value <= FASTEST:  # false for what is no number, too
+        raise PaceError(f"{_range()}; this would be {value:g}.", field)
+    return value
+
+
+def _range() -> str:
+    return f"The playback speed goes from {SLOWEST:g} to {FASTEST:g}, or is {MAX!r} for as fast as possible"
