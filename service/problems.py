@@ -217,8 +217,9 @@ class NotRestorable(ProblemError):
 
     status, slug, title = 503, "not-restorable", "Could not be brought back"
 
-    def __init__(self) -> None:
-        super().__init__("What is kept of this session cannot be replayed; the service's log says why.")
+    def __init__(self, entry: int | None = None) -> None:
+        at = "" if entry is None else f" It stops at entry {entry}."
+        super().__init__(f"What is kept of this session cannot be replayed; the service's log says why.{at}")
 
 
 KINDS: tuple[type[ProblemError], ...] = (

@@ -136,16 +136,26 @@ class SessionManager:
         await self._around.store.save_ticks(ticks)
 
     async def _wake(self, session_id: str) -> Session:
-        record = await self._around.store.get(session_id)
+        try:
+            record = await self._around.store.get(session_id)
+        except StoreError as error:
+            _LOG.error("a kept session cannot be read", session=session_id, error=str(error))
+            raise NotRestorable from error
         if record is None:
             raise UnknownSession
         self._check_room()
-        entries = await self._around.store.entries(session_id)
         try:
+            entries = await self._around.store.entries(session_id)
             config = Config().with_parts(**record.config)
             session = Session(record, Timeline(config), self._around)
             await to_thread.run_sync(session.replay, entries, record.tick)
-        except (ConfigError, TypeError, ReplayError) as error:
+        except ReplayError as error:
+            sequence = entries[error.position].sequence
+            _LOG.error(
+                "a kept session cannot be replayed", session=session_id, entry=sequence, error=str(error)
+            )
+            raise NotRestorable(sequence) from error
+        except (ConfigError, TypeError, StoreError) as error:
             _LOG.error("a kept session cannot be replayed", session=session_id, error=str(error))
             raise NotRestorable from error
         self._live[session_id] = session

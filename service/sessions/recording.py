@@ -24,7 +24,14 @@ def recording_json(session: Session, entries: Sequence[EntryRecord]) -> dict[str
         "version": VERSION,
         "name": session.record.name,
         "config": asdict(session.timeline.config),
-        "entries": [asdict(entry) for entry in entries if entry.sequence <= session.sequence],
+        "entries": [_entry(entry) for entry in entries if entry.sequence <= session.sequence],
         "tick": session.timeline.tick,
         "digest": session.run.world.digest(),
     }
+
+
+def _entry(entry: EntryRecord) -> dict[str, Any]:
+    """As it was said; what a world it led to is the store's to know."""
+    said = asdict(entry)
+    del said["digest"]
+    return said

@@ -252,7 +252,7 @@ class Session:
                     self.conversation.note(outcome)
                     return outcome
                 outcome = await self._told(utterance, facts, self.sequence + 1)
-                await self._save(outcome, terms)
+                await self._save(outcome, draft, terms)
                 self._become(draft, outcome)
                 return outcome
             finally:
@@ -287,20 +287,24 @@ class Session:
             return await to_thread.run_sync(self._outcome, utterance, facts, sequence)
         return self._outcome(utterance, facts, sequence)
 
-    async def _save(self, outcome: Outcome, terms: Terms) -> None:
+    async def _save(self, outcome: Outcome, draft: Draft, terms: Terms) -> None:
         kept = () if terms.answer is None else (terms.answer(outcome),)
         try:
-            await self._around.store.append(self.id, self._entry(outcome), *kept)
+            if draft.timeline.tick < self.timeline.tick:
+                # First: where time once stood must never be run on to from a log that has gone back.
+                await self._around.store.save_ticks({self.id: draft.timeline.tick})
+            await self._around.store.append(self.id, self._entry(outcome, draft), *kept)
         except StoreError as error:
             _LOG.error("a change was not saved", session=self.id, error=str(error))
             raise NotSaved from error
 
-    def _entry(self, outcome: Outcome) -> EntryRecord:
+    def _entry(self, outcome: Outcome, draft: Draft) -> EntryRecord:
         return EntryRecord(
             sequence=outcome.sequence,
             tick=self.timeline.tick,
             text=outcome.utterance.text,
             actions=contract.dump(outcome.utterance.actions),
+            digest=draft.timeline.run.world.digest(),
         )
 
     def _become(self, draft: Draft, outcome: Outcome) -> None:
@@ -355,6 +359,9 @@ class Session:
         draft = Draft(self.timeline, self.paused, self.history, self.pace)
         outcome = self._outcome(utterance, draft.perform(entry.sequence, utterance.actions), entry.sequence)
         self._adopt(draft, entry.sequence)
+        found = self.run.world.digest()
+        if entry.digest is not None and found != entry.digest:
+            raise Invalid(f"Entry {entry.sequence} ends in {found}, not in {entry.digest} as it once did.")
         self.conversation.note(outcome)
         self._line(entry.tick, "changed", outcome.reply)
         for run, part in happened_in(outcome.facts):

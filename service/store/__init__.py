@@ -26,6 +26,10 @@ def open_store(url: str) -> Store:
     """The store a URL names, not yet opened. Raises `StoreError` for a URL of no known kind."""
     if url == "memory:":
         return MemoryStore()
-    if url.startswith("sqlite:///"):
+    if url.startswith(("sqlite:///", "postgresql://", "postgresql+asyncpg://")):
         return SqlStore(url)
-    raise StoreError(f"{url!r} names no kind of database known here; use sqlite:///<file> or memory:")
+    kind = url.partition(":")[0]  # the rest may hold a password
+    raise StoreError(
+        f"{kind!r} names no kind of database known here; use sqlite:///<file>, "
+        "postgresql://<user>@<host>/<name> or memory:"
+    )

@@ -1,7 +1,7 @@
 """What a store must do, in terms of what a session is: a start and the changes said to it.
 
 A session is its configuration (seed included) and an append-only list of entries; everything else
-is replayed from those. Leaves out worlds, digests and snapshots: they are derived.
+is replayed from those. Leaves out worlds and snapshots: they are derived.
 """
 
 from __future__ import annotations
@@ -43,13 +43,15 @@ class EntryRecord:
     """One accepted change: what was done, in which order, and at which tick it took effect.
 
     `sequence` counts a session's accepted changes from 1; `actions` is JSON values in the
-    contract's form; `text` is what was said, None for typed actions.
+    contract's form; `text` is what was said, None for typed actions. `digest` is that of the world
+    after it, to know whether it was done again the same; None where it was never known.
     """
 
     sequence: int
     tick: int
     text: str | None
     actions: Sequence[Mapping[str, Any]]
+    digest: str | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -1,9 +1,7 @@
-"""The real store: SQL through SQLAlchemy Core, a SQLite file by default.
+"""The real store: SQL through SQLAlchemy Core, a SQLite file by default, PostgreSQL by URL.
 
-One connection in one process. SQLite versions before 3.51.3 can lose a WAL reset when several
-connections write, so the file is held exclusively: a second service on the same file is refused
-at its start instead of damaging it. `synchronous=FULL` makes an acknowledged change survive power
-loss, not only a crash. All calls run on the driver's own thread, never on the event loop.
+One connection in one process; `engines` says how each kind of database is held, and that a second
+service on the same one is refused at its start.
 
 Changes that arrive while one is being written are committed together (group commit): the disk is
 waited for once for all of them, and none is acknowledged before its own commit.
@@ -12,136 +10,52 @@ waited for once for all of them, and none is acknowledged before its own commit.
 from __future__ import annotations
 
 import asyncio
-import sqlite3
 from collections.abc import AsyncIterator, Mapping, Sequence
 from contextlib import asynccontextmanager
 from datetime import UTC, datetime
 from typing import Any
 
-from anyio import to_thread
-from sqlalchemy import (
-    JSON,
-    BigInteger,
-    Boolean,
-    Column,
-    DateTime,
-    Delete,
-    ForeignKey,
-    Integer,
-    LargeBinary,
-    MetaData,
-    Row,
-    String,
-    Table,
-    Text,
-    bindparam,
-    delete,
-    event,
-    func,
-    insert,
-    select,
-    update,
-)
-from sqlalchemy.engine import make_url
+from sqlalchemy import Delete, Row, bindparam, delete, func, insert, select, update
 from sqlalchemy.exc import SQLAlchemyError
-from sqlalchemy.ext.asyncio import AsyncConnection, AsyncEngine, create_async_engine
-from sqlalchemy.pool import AsyncAdaptedQueuePool
+from sqlalchemy.ext.asyncio import AsyncConnection, AsyncEngine
 
 from service.store.base import EntryRecord, KeptAnswer, PhraseRecord, SessionRecord, StoreError
-
-METADATA = MetaData()
-
-SESSIONS = Table(
-    "sessions",
-    METADATA,
-    Column("number", Integer, primary_key=True, autoincrement=True),
-    Column("id", String(64), nullable=False, unique=True),
-    Column("name", String(80)),
-    Column("created_at", DateTime, nullable=False, comment="UTC"),
-    Column("config", JSON, nullable=False),
-    Column("paused", Boolean, nullable=False, comment="how it began"),
-    Column("tick", Integer, nullable=False),
-    sqlite_autoincrement=True,
-)
-
-ENTRIES = Table(
-    "entries",
-    METADATA,
-    Column("session_id", ForeignKey("sessions.id", ondelete="CASCADE"), primary_key=True),
-    Column("sequence", Integer, primary_key=True, autoincrement=False),
-    Column("tick", Integer, nullable=False),
-    Column("text", Text),
-    Column("actions", JSON, nullable=False),
-)
-
-PHRASES = Table(
-    "phrases",
-    METADATA,
-    Column("owner", String(64), primary_key=True),
-    Column("language", String(16), primary_key=True),
-    Column("key", String(200), primary_key=True, comment="its words, as they are compared"),
-    Column("phrase", String(80), nullable=False),
-    Column("meaning", JSON, nullable=False),
-)
-
-IDEMPOTENCY = Table(
-    "idempotency",
-    METADATA,
-    Column("key", String(255), primary_key=True),
-    Column("request", String(64), nullable=False, comment="digest of what was asked"),
-    Column("at", BigInteger, nullable=False, index=True, comment="seconds since 1970"),
-    Column("status", Integer, nullable=False),
-    Column("headers", JSON, nullable=False),
-    Column("body", LargeBinary, nullable=False),
-)
-
-_BUSY_S = 1.0
-"""How long a file that another process holds is waited for."""
-
-_PRAGMAS = (
-    f"PRAGMA busy_timeout={_BUSY_S * 1000:.0f}",
-    "PRAGMA locking_mode=EXCLUSIVE",
-    "PRAGMA journal_mode=WAL",
-    "PRAGMA synchronous=FULL",
-    "PRAGMA foreign_keys=ON",
-)
+from service.store.engines import Postgres, Sqlite, kind_of, reason
+from service.store.schema import bring_up
+from service.store.tables import ENTRIES, IDEMPOTENCY, PHRASES, SESSIONS
 
 _Pending = tuple[dict[str, Any], KeptAnswer | None, "asyncio.Future[None]"]
 
 
 class SqlStore:
-    """`Store` on a SQLite file, named by URL (`sqlite:///roadtalk.db`)."""
+    """`Store` in a database named by URL (`sqlite:///roadtalk.db`, `postgresql://host/name`)."""
 
     def __init__(self, url: str) -> None:
-        self._url = make_url(url).set(drivername="sqlite+aiosqlite")
+        """Raises `StoreError` where what that kind of database needs is not installed."""
+        self._kind: Sqlite | Postgres = kind_of(url)
         self._engine: AsyncEngine | None = None
         self._pending: list[_Pending] = []
         self._writer: asyncio.Task[None] | None = None
 
     async def open(self) -> None:
-        """Open the file, making it and its tables if need be. Raises `StoreError`."""
+        """Open the database, making its tables or bringing older ones up if need be. Raises `StoreError`."""
         if self._engine is not None:
             return
-        path = self._url.database or ""
+        await self._kind.check()
+        engine = self._kind.engine()
         try:
-            await to_thread.run_sync(_check, path)
-        except (sqlite3.Error, OSError) as error:
-            raise StoreError(f"The database {path} cannot be opened: {error}") from error
-        # One connection and no overflow: callers queue for it, so writes never meet.
-        engine = create_async_engine(
-            self._url, poolclass=AsyncAdaptedQueuePool, pool_size=1, max_overflow=0, pool_timeout=30
-        )
-        event.listen(engine.sync_engine, "connect", _prepare)
-        try:
-            async with engine.begin() as connection:
-                await connection.run_sync(METADATA.create_all)
-        except (SQLAlchemyError, OSError) as error:
+            async with engine.connect() as connection:
+                await connection.run_sync(bring_up, self._kind.name)
+                await connection.commit()
+        except (SQLAlchemyError, OSError, StoreError) as error:
             await engine.dispose()
-            raise StoreError(f"The database {path} cannot be opened: {_reason(error)}") from error
+            if isinstance(error, StoreError):
+                raise
+            raise StoreError(f"{self._kind.name} cannot be opened: {reason(error)}") from error
         self._engine = engine
 
     async def close(self) -> None:
-        """Finish what is being written and let go of the file."""
+        """Finish what is being written and let go of the database."""
         if self._writer is not None:
             await asyncio.wait([self._writer])
         if self._engine is not None:
@@ -194,7 +108,9 @@ class SqlStore:
         async with self._transaction() as connection:
             rows = (await connection.execute(query)).all()
         return [
-            EntryRecord(sequence=row.sequence, tick=row.tick, text=row.text, actions=row.actions)
+            EntryRecord(
+                sequence=row.sequence, tick=row.tick, text=row.text, actions=row.actions, digest=row.digest
+            )
             for row in rows
         ]
 
@@ -314,35 +230,15 @@ class SqlStore:
             async with self._engine.begin() as connection:
                 yield connection
         except (SQLAlchemyError, OSError) as error:
-            raise StoreError(_reason(error)) from error
+            raise StoreError(reason(error)) from error
+        except ValueError as error:
+            # Reading JSON: the file was damaged in a place that its own structure does not show.
+            raise StoreError(f"what is kept cannot be read: {error}") from error
 
 
 def _one_phrase(owner: str, language: str, key: str) -> Delete:
     found = (PHRASES.c.owner == owner, PHRASES.c.language == language, PHRASES.c.key == key)
     return delete(PHRASES).where(*found)
-
-
-def _check(path: str) -> None:
-    """Raise `sqlite3.Error` where the file cannot be used, by a plain connection.
-
-    The asynchronous driver leaves its thread behind when a connection cannot be made.
-    """
-    connection = sqlite3.connect(path, timeout=_BUSY_S)
-    try:
-        connection.execute("PRAGMA schema_version").fetchone()
-    finally:
-        connection.close()
-
-
-def _prepare(connection: Any, _record: Any) -> None:
-    cursor = connection.cursor()
-    for pragma in _PRAGMAS:
-        cursor.execute(pragma)
-    cursor.close()
-
-
-def _reason(error: Exception) -> str:
-    return str(getattr(error, "orig", None) or error)
 
 
 def _session(row: Row[Any]) -> SessionRecord:
@@ -379,4 +275,5 @@ def _entry_values(session_id: str, entry: EntryRecord) -> dict[str, Any]:
         "tick": entry.tick,
         "text": entry.text,
         "actions": [dict(action) for action in entry.actions],
+        "digest": entry.digest,
     }

@@ -1,0 +1,141 @@
+"""How each kind of database is held: by one connection of one process, and durably.
+
+A session is live in one process, so a second service on the same database would believe it owns the
+same sessions: it is refused at its start. SQLite's file is locked (versions before 3.51.3 can also
+lose a WAL reset when several connections write); PostgreSQL gives an advisory lock that ends with the
+connection. What is acknowledged has reached the disk: `synchronous=FULL`, `synchronous_commit=on`.
+SQLite's calls run on the driver's own thread, never on the event loop.
+"""
+
+from __future__ import annotations
+
+import sqlite3
+from importlib.util import find_spec
+from typing import Any
+
+from anyio import to_thread
+from sqlalchemy import event
+from sqlalchemy.engine import URL, make_url
+from sqlalchemy.exc import ArgumentError, DBAPIError
+from sqlalchemy.ext.asyncio import AsyncEngine, create_async_engine
+from sqlalchemy.pool import AsyncAdaptedQueuePool
+
+from service.store.base import StoreError
+
+_BUSY_S = 1.0
+"""How long a file or a table that another process holds is waited for."""
+
+_ANSWER_S = 10.0
+"""How long a database server may take."""
+
+_LOCK = 0x0A0D7A1C
+"""The advisory lock of a service, in the database it uses."""
+
+_PRAGMAS = (
+    f"PRAGMA busy_timeout={_BUSY_S * 1000:.0f}",
+    "PRAGMA locking_mode=EXCLUSIVE",
+    "PRAGMA journal_mode=WAL",
+    "PRAGMA synchronous=FULL",
+    "PRAGMA foreign_keys=ON",
+)
+
+
+class Sqlite:
+    """A file."""
+
+    def __init__(self, url: URL) -> None:
+        self._url = url.set(drivername="sqlite+aiosqlite")
+        self._path = url.database or ""
+        self.name = f"The database {self._path}"
+
+    async def check(self) -> None:
+        """Raise `StoreError` where the file cannot be used, or is damaged.
+
+        By a plain connection: the asynchronous driver leaves its thread behind when it cannot connect.
+        """
+        try:
+            found = await to_thread.run_sync(self._check)
+        except (sqlite3.Error, OSError) as error:
+            raise StoreError(f"{self.name} cannot be opened: {error}") from error
+        if found != "ok":
+            raise StoreError(
+                f"{self.name} cannot be opened: it is damaged ({found}). It was left as it is; put a copy in "
+                "its place, or save what can be read with: sqlite3 <file> .recover"
+            )
+
+    def _check(self) -> str:
+        connection = sqlite3.connect(self._path, timeout=_BUSY_S)
+        try:
+            connection.execute("PRAGMA schema_version").fetchone()
+            return " ".join(str(connection.execute("PRAGMA quick_check(1)").fetchone()[0]).split())
+        finally:
+            connection.close()
+
+    def engine(self) -> AsyncEngine:
+        """One connection and no overflow: callers queue for it, so writes never meet."""
+        return _one_connection(self._url, _prepare_sqlite)
+
+
+class Postgres:
+    """A server, by the driver asyncpg (extra `postgres`)."""
+
+    def __init__(self, url: URL) -> None:
+        if find_spec("asyncpg") is None:
+            raise StoreError("PostgreSQL needs its driver: pip install 'roadtalk[postgres]'")
+        self._url = url.set(drivername="postgresql+asyncpg")
+        self.name = f"The database {url.database or ''} on {url.host or 'this machine'}"
+
+    async def check(self) -> None:
+        """The server checks its own files."""
+
+    def engine(self) -> AsyncEngine:
+        """See `Sqlite.engine`."""
+        server = {"application_name": "roadtalk", "lock_timeout": f"{_BUSY_S * 1000:.0f}"}
+        return _one_connection(
+            self._url,
+            _prepare_postgres,
+            connect_args={"timeout": _ANSWER_S, "command_timeout": _ANSWER_S, "server_settings": server},
+        )
+
+
+def kind_of(url: str) -> Sqlite | Postgres:
+    """The kind of database that a URL names. Raises `StoreError`."""
+    try:
+        parts = make_url(url)
+    except (ArgumentError, ValueError) as error:
+        raise StoreError("The database's URL cannot be read.") from error
+    return Sqlite(parts) if parts.get_backend_name() == "sqlite" else Postgres(parts)
+
+
+def reason(error: Exception) -> str:
+    """What a driver said, without the statement it was about."""
+    inner = error.orig if isinstance(error, DBAPIError) else None
+    said = str((inner and (inner.__cause__ or inner)) or error)
+    return said or type(error).__name__
+
+
+def _one_connection(url: URL, prepare: Any, **more: Any) -> AsyncEngine:
+    engine = create_async_engine(
+        url, poolclass=AsyncAdaptedQueuePool, pool_size=1, max_overflow=0, pool_timeout=30, **more
+    )
+    event.listen(engine.sync_engine, "connect", prepare)
+    return engine
+
+
+def _prepare_sqlite(connection: Any, _record: Any) -> None:
+    cursor = connection.cursor()
+    for pragma in _PRAGMAS:
+        cursor.execute(pragma)
+    cursor.close()
+
+
+def _prepare_postgres(connection: Any, _record: Any) -> None:
+    cursor = connection.cursor()
+    cursor.execute("SET synchronous_commit TO on")
+    cursor.execute(f"SELECT pg_try_advisory_lock({_LOCK})")
+    (held,) = cursor.fetchone()
+    cursor.close()
+    connection.commit()
+    if not held:
+        connection.close()
+        raise StoreError("The database is locked: another service uses it.")

@@ -1,0 +1,68 @@
+"""The tables as they are now. How older ones become these is told in `migrations`."""
+
+from __future__ import annotations
+
+from sqlalchemy import (
+    JSON,
+    BigInteger,
+    Boolean,
+    Column,
+    DateTime,
+    ForeignKey,
+    Integer,
+    LargeBinary,
+    MetaData,
+    String,
+    Table,
+    Text,
+)
+
+VERSION = 3
+"""Of the schema; the number of the last migration."""
+
+METADATA = MetaData()
+
+SESSIONS = Table(
+    "sessions",
+    METADATA,
+    Column("number", Integer, primary_key=True, autoincrement=True),
+    Column("id", String(64), nullable=False, unique=True),
+    Column("name", String(80)),
+    Column("created_at", DateTime, nullable=False, comment="UTC"),
+    Column("config", JSON, nullable=False),
+    Column("paused", Boolean, nullable=False, comment="how it began"),
+    Column("tick", Integer, nullable=False),
+    sqlite_autoincrement=True,
+)
+
+ENTRIES = Table(
+    "entries",
+    METADATA,
+    Column("session_id", ForeignKey("sessions.id", ondelete="CASCADE"), primary_key=True),
+    Column("sequence", Integer, primary_key=True, autoincrement=False),
+    Column("tick", Integer, nullable=False),
+    Column("text", Text),
+    Column("actions", JSON, nullable=False),
+    Column("digest", String(32), comment="of the world after it; none for what was kept before version 3"),
+)
+
+PHRASES = Table(
+    "phrases",
+    METADATA,
+    Column("owner", String(64), primary_key=True),
+    Column("language", String(16), primary_key=True),
+    Column("key", String(200), primary_key=True, comment="its words, as they are compared"),
+    Column("phrase", String(80), nullable=False),
+    Column("meaning", JSON, nullable=False),
+)
+
+IDEMPOTENCY = Table(
+    "idempotency",
+    METADATA,
+    Column("key", String(255), primary_key=True),
+    Column("request", String(64), nullable=False, comment="digest of what was asked"),
+    Column("at", BigInteger, nullable=False, index=True, comment="seconds since 1970"),
+    Column("status", Integer, nullable=False),
+    Column("headers", JSON, nullable=False),
+    Column("body", LargeBinary, nullable=False),
+)

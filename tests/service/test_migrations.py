@@ -1,0 +1,154 @@
+"""Databases of older versions are brought up, those of newer ones refused; recordings of all are replayed."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import sqlite3
+from pathlib import Path
+
+import httpx
+import pytest
+from alembic.autogenerate import compare_metadata
+from alembic.config import Config
+from alembic.migration import MigrationContext
+from alembic.script import ScriptDirectory
+
+from service.app import create_app
+from service.settings import Settings
+from service.store import SqlStore, StoreError
+from service.store.schema import MIGRATIONS
+from service.store.tables import METADATA, VERSION
+
+DATA = Path(__file__).parent.parent / "faults" / "data"
+
+
+def version(path: Path) -> str:
+    connection = sqlite3.connect(path)
+    try:
+        return str(connection.execute("SELECT version_num FROM alembic_version").fetchone()[0])
+    finally:
+        connection.close()
+
+
+async def state_of(database: Path, session: str) -> httpx.Response:
+    app = create_app(Settings(database=f"sqlite:///{database}"))
+    transport = httpx.ASGITransport(app)
+    async with (
+        app.router.lifespan_context(app),
+        httpx.AsyncClient(transport=transport, base_url="http://service") as client,
+    ):
+        return await client.get(f"/api/v1/sessions/{session}/state")
+
+
+def test_the_version_is_that_of_the_last_migration() -> None:
+    config = Config()
+    config.set_main_option("script_location", str(MIGRATIONS))
+    config.set_main_option("path_separator", "os")
+    assert ScriptDirectory.from_config(config).get_heads() == [str(VERSION)]
+
+
+async def test_the_migrations_end_in_the_tables_of_the_code(tmp_path: Path) -> None:
+    store = SqlStore(f"sqlite:///{tmp_path}/roads.db")
+    await store.open()
+    async with store._transaction() as connection:
+        differences = await connection.run_sync(
+            lambda sync: compare_metadata(MigrationContext.configure(sync), METADATA)
+        )
+    await store.close()
+    assert differences == []
+
+
+async def test_a_database_of_version_1_is_brought_up(tmp_path: Path) -> None:
+    """Written by the code before versions were; every session ends where it then stood."""
+    path = tmp_path / "roads.db"
+    shutil.copy(DATA / "version1.sqlite", path)
+    known = json.loads((DATA / "version1.json").read_text())
+    assert len(known) == 2
+    for session, stood in known.items():
+        state = (await state_of(path, session)).json()
+        assert {key: state[key] for key in stood} == stood
+    assert version(path) == str(VERSION)
+
+
+@pytest.mark.parametrize("name", ["recording-7", "recording-11"])
+async def test_old_recordings_are_replayed(name: str) -> None:
+    recording = json.loads((DATA / f"{name}.json").read_text())
+    app = create_app(Settings(database="memory:"))
+    transport = httpx.ASGITransport(app)
+    async with (
+        app.router.lifespan_context(app),
+        httpx.AsyncClient(transport=transport, base_url="http://service") as client,
+    ):
+        made = await client.post("/api/v1/sessions", json={"recording": recording, "paused": True})
+        assert made.status_code == 201, made.text
+        state = (await client.get(f"{made.headers['location']}/state")).json()
+    assert (state["digest"], state["tick"]) == (recording["digest"], recording["tick"])
+
+
+@pytest.mark.parametrize("newer", ["4711", "of the future"])
+async def test_a_newer_database_is_refused_and_left_alone(tmp_path: Path, newer: str) -> None:
+    path = tmp_path / "roads.db"
+    store = SqlStore(f"sqlite:///{path}")
+    await store.open()
+    await store.close()
+    connection = sqlite3.connect(path)
+    connection.execute("UPDATE alembic_version SET version_num = ?", (newer,))
+    connection.commit()
+    connection.close()
+
+    with pytest.raises(StoreError, match=f"newer roadtalk; this one knows versions up to {VERSION}"):
+        await store.open()
+    assert version(path) == newer
+
+
+async def test_a_migration_that_fails_leaves_the_old_version(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """All of it or nothing, also of several versions at once."""
+    path = tmp_path / "roads.db"
+    shutil.copy(DATA / "version1.sqlite", path)
+    connection = sqlite3.connect(path)
+    before = connection.execute("SELECT name FROM sqlite_master ORDER BY name").fetchall()
+    connection.close()
+
+    def fail(*_: object, **__: object) -> None:
+        raise OSError("the power went")
+
+    with monkeypatch.context() as patch:
+        patch.setattr("alembic.op.add_column", fail)
+        with pytest.raises(StoreError, match="the power went"):
+            await SqlStore(f"sqlite:///{path}").open()
+
+    connection = sqlite3.connect(path)
+    assert connection.execute("SELECT name FROM sqlite_master ORDER BY name").fetchall() == before
+    connection.close()
+    store = SqlStore(f"sqlite:///{path}")
+    await store.open()
+    await store.close()
+    assert version(path) == str(VERSION)
+
+
+async def test_another_end_than_once_names_the_entry(tmp_path: Path) -> None:
+    """As when the rules were changed, or somebody wrote in the file."""
+    path = tmp_path / "roads.db"
+    app = create_app(Settings(database=f"sqlite:///{path}"))
+    transport = httpx.ASGITransport(app)
+    async with (
+        app.router.lifespan_context(app),
+        httpx.AsyncClient(transport=transport, base_url="http://service") as client,
+    ):
+        made = await client.post("/api/v1/sessions", json={"seed": 7, "paused": True})
+        for text in ("add a pothole", "step 3", "add a pedestrian"):
+            assert (await client.post(f"{made.headers['location']}/commands", json={"text": text})).is_success
+    connection = sqlite3.connect(path)
+    digests = [row[0] for row in connection.execute("SELECT digest FROM entries ORDER BY sequence")]
+    assert len(set(digests)) == 3
+    assert {len(digest) for digest in digests} == {32}
+    connection.execute("UPDATE entries SET digest = ? WHERE sequence = 2", ("0" * 32,))
+    connection.commit()
+    connection.close()
+
+    answer = await state_of(path, made.json()["id"])
+    assert (answer.status_code, answer.json()["type"]) == (503, "/problems/not-restorable")
+    assert "entry 2" in answer.json()["detail"]
