@@ -32,6 +32,7 @@ from service.api import (
     language as language_route,
 )
 from service.api.context import Context
+from service.api.idempotency import Answers
 from service.api.views import PREFIX
 from service.llm import LanguageModel, configured
 from service.narrate import Narrator
@@ -87,12 +88,13 @@ def create_app(
         confirm=settings.llm_confirm,
         rephrase=settings.llm_rephrase,
     )
-    context = Context(settings, store, clock, listener, words, manager, CapacityLimiter(1))
+    context = Context(settings, store, clock, listener, words, manager, CapacityLimiter(1), Answers(store))
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
         await store.open()
         await phrasebook.open()
+        await context.answers.open()
         clock.start()
         try:
             yield

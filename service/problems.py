@@ -9,15 +9,18 @@
     │   └── UnknownDecision
     ├── WrongMethod        405  the route exists, the method does not
     ├── Ambiguous          409  could mean several things: `choices`
+    ├── Stale              412  the session was changed since: `sequence`
     ├── TooLarge           413  more bytes than are read
     ├── NotJson            415  the content type is not JSON
     ├── Invalid            422  fields out of range or unknown: `errors`
     │   ├── DoesNotFit          the road has no room, or no such thing
     │   ├── NotAvailable        understood, not offered by this version
     │   ├── NothingToUndo
+    │   ├── UnknownName         nothing was saved under it: `suggestions`
     │   ├── NotUnderstood       `unparsed`, `understood`, `suggestions`
     │   ├── NotAQuestion        understood, but `ask` only answers
     │   ├── NotTeachable        a phrase that cannot be taught, or forgotten
+    │   ├── KeyReused           an idempotency key that was another request's
     │   └── RecordingMismatch   replayed to another digest than it says
     ├── TooManySessions    429  the limit of live sessions is reached
     ├── Internal           500  a defect here; says nothing of its inside
@@ -125,6 +128,20 @@ class Ambiguous(ProblemError):
     status, slug, title = 409, "ambiguous", "This could mean several things"
 
 
+class Stale(ProblemError):
+    """The session was changed since the caller saw it; `sequence` is where it stands."""
+
+    status, slug, title = 412, "stale", "Changed meanwhile"
+
+    def __init__(self, sequence: int) -> None:
+        super().__init__(
+            f"The session has been changed since: it is at sequence {sequence}. "
+            "Nothing was done. Look at it again, and send that ETag as If-Match.",
+            headers={"ETag": f'"{sequence}"'},
+            sequence=sequence,
+        )
+
+
 class TooLarge(ProblemError):
     """More bytes than are read."""
 
@@ -161,6 +178,12 @@ class NothingToUndo(Invalid):
     slug, title = "nothing-to-undo", "Nothing to take back"
 
 
+class UnknownName(Invalid):
+    """Nothing was saved under this name; `suggestions` are the nearest."""
+
+    slug, title = "unknown-name", "Nothing saved under this name"
+
+
 class NotUnderstood(Invalid):
     """Words that could not be accounted for; nothing was applied."""
 
@@ -177,6 +200,19 @@ class NotTeachable(Invalid):
     """A phrase that cannot be taught, or forgotten."""
 
     slug, title = "not-teachable", "Cannot be taught"
+
+
+class KeyReused(Invalid):
+    """An idempotency key under which something else was asked before."""
+
+    slug, title = "key-reused", "This key was another request's"
+
+    def __init__(self) -> None:
+        sentence = "was used for another request; choose a new key for each thing you ask for"
+        super().__init__(
+            f"This Idempotency-Key {sentence}. Nothing was done.",
+            errors=[FieldProblem("Idempotency-Key", sentence)],
+        )
 
 
 class RecordingMismatch(Invalid):
@@ -230,15 +266,18 @@ KINDS: tuple[type[ProblemError], ...] = (
     UnknownDecision,
     WrongMethod,
     Ambiguous,
+    Stale,
     TooLarge,
     NotJson,
     Invalid,
     DoesNotFit,
     NotAvailable,
     NothingToUndo,
+    UnknownName,
     NotUnderstood,
     NotAQuestion,
     NotTeachable,
+    KeyReused,
     RecordingMismatch,
     TooManySessions,
     Internal,

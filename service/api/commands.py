@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated
 
 from fastapi import APIRouter, Body, Response
@@ -10,6 +11,7 @@ from service import actions as contract
 from service.api import bodies, examples, schemas
 from service.api.context import JSON_ONLY, Here, TheSession
 from service.api.errors import documented
+from service.api.preconditions import TheTerms, made_once
 from service.api.respond import StrictRoute, etag, json_response
 from service.api.speech import result_json
 from service.api.views import told_runs
@@ -29,7 +31,8 @@ from service.problems import (
     TooLarge,
     UnknownSession,
 )
-from service.sessions.utterance import Utterance
+from service.sessions.utterance import Outcome, Utterance
+from service.wire.state import state_json
 
 router = APIRouter(tags=["talking"], route_class=StrictRoute, dependencies=[JSON_ONLY])
 
@@ -44,15 +47,26 @@ _CHANGING = (*_ALWAYS, DoesNotFit, NotAvailable, NothingToUndo, NotTeachable, No
     responses=documented(*_CHANGING, NotUnderstood, Ambiguous),
 )
 async def say(
-    body: Annotated[bodies.Said, Body(openapi_examples=examples.SAID)], session: TheSession, here: Here
+    body: Annotated[bodies.Said, Body(openapi_examples=examples.SAID)],
+    session: TheSession,
+    here: Here,
+    terms: TheTerms,
 ) -> Response:
     """Done as a whole or not at all; one undo takes the whole back.
 
     A word that is not understood refuses it all, and says which.
     """
     heard = await here.listener.hear(body.text, session, body.language)
-    outcome = await here.listener.do(session, heard.utterance, dry_run=body.dry_run, code=body.language)
-    return json_response(result_json(outcome, heard, body.dry_run), headers=etag(outcome.sequence))
+
+    @made_once
+    def told(outcome: Outcome) -> Response:
+        return json_response(result_json(outcome, heard, body.dry_run), headers=etag(outcome.sequence))
+
+    return told(
+        await here.listener.do(
+            session, heard.utterance, dry_run=body.dry_run, code=body.language, terms=terms(told)
+        )
+    )
 
 
 @router.post(
@@ -65,11 +79,16 @@ async def act(
     body: Annotated[bodies.TypedActions, Body(openapi_examples=examples.ACTIONS)],
     session: TheSession,
     here: Here,
+    terms: TheTerms,
 ) -> Response:
     """The same as saying it, without language."""
+
+    @made_once
+    def told(outcome: Outcome) -> Response:
+        return json_response(result_json(outcome, None, body.dry_run), headers=etag(outcome.sequence))
+
     utterance = Utterance(actions=tuple(body.actions))
-    outcome = await here.listener.do(session, utterance, dry_run=body.dry_run)
-    return json_response(result_json(outcome, None, body.dry_run), headers=etag(outcome.sequence))
+    return told(await here.listener.do(session, utterance, dry_run=body.dry_run, terms=terms(told)))
 
 
 @router.post(
@@ -79,16 +98,26 @@ async def act(
     responses=documented(*_ALWAYS, NotSaved),
 )
 async def step(
-    body: Annotated[bodies.StepTicks, Body(openapi_examples=examples.STEP)], session: TheSession, here: Here
+    body: Annotated[bodies.StepTicks, Body(openapi_examples=examples.STEP)],
+    session: TheSession,
+    here: Here,
+    terms: TheTerms,
 ) -> Response:
     """Pauses, then runs the ticks as fast as it can; answers what was decided in each."""
-    before = session.run
-    outcome = await session.change(Utterance(actions=(contract.Step(ticks=body.ticks),)))
-    runs = [before, *(tick.run for tick in outcome.ticks)]
-    return json_response(
-        {"ticks": body.ticks, "decisions": told_runs(here.words, runs[:-1]), "state": session.state()},
-        headers=etag(outcome.sequence),
-    )
+
+    @made_once
+    def told(outcome: Outcome) -> Response:
+        assert outcome.before is not None
+        runs = [outcome.before, *(tick.run for tick in outcome.ticks)]
+        standing = replace(session.standing, paused=True, sequence=outcome.sequence)
+        state = state_json(standing, runs[-1])
+        return json_response(
+            {"ticks": body.ticks, "decisions": told_runs(here.words, runs[:-1]), "state": state},
+            headers=etag(outcome.sequence),
+        )
+
+    utterance = Utterance(actions=(contract.Step(ticks=body.ticks),))
+    return told(await session.change(utterance, terms=terms(told)))
 
 
 @router.post(

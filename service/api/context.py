@@ -9,6 +9,7 @@ from anyio import CapacityLimiter
 from fastapi import Depends
 from starlette.requests import HTTPConnection
 
+from service.api.idempotency import Answers
 from service.problems import NotJson
 from service.sessions.clock import Clock
 from service.sessions.manager import SessionManager
@@ -31,6 +32,8 @@ class Context:
     manager: SessionManager
     drawing: CapacityLimiter
     """one picture at a time"""
+    answers: Answers
+    """what was answered under idempotency keys"""
 
 
 def context_of(connection: HTTPConnection) -> Context:

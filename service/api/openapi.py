@@ -11,8 +11,11 @@ from typing import Any
 
 from fastapi import FastAPI
 
-from service.problems import MEDIA_TYPE
+from service.api import idempotency, preconditions
+from service.api.errors import documented
+from service.problems import KINDS, MEDIA_TYPE
 
+_PROBLEM = {"$ref": "#/components/schemas/ProblemDocument"}
 _FRAMEWORK_ERRORS = ("HTTPValidationError", "ValidationError")
 
 
@@ -30,16 +33,31 @@ def install(app: FastAPI) -> None:
 
 
 def _corrected(document: dict[str, Any]) -> dict[str, Any]:
-    for item in document["paths"].values():
-        for operation in item.values():
+    for path, item in document["paths"].items():
+        for method, operation in item.items():
             operation["responses"] = {
                 status: _as_problem(response) if status >= "4" else response
                 for status, response in operation["responses"].items()
                 if not _of_the_framework(response)
             }
+            for headers in (idempotency, preconditions):
+                headers.document(method, path, operation, _add_problems)
     for name in _FRAMEWORK_ERRORS:
         document["components"]["schemas"].pop(name, None)
     return document
+
+
+def _add_problems(operation: dict[str, Any], *slugs: str) -> None:
+    """Problems that the headers of a call bring with them, beside its own."""
+    kinds = {kind.slug: kind for kind in KINDS}
+    for status, new in documented(*(kinds[slug] for slug in slugs)).items():
+        new["content"][MEDIA_TYPE]["schema"] = _PROBLEM
+        del new["model"]
+        said = operation["responses"].setdefault(str(status), new)
+        for slug, example in new["content"][MEDIA_TYPE]["examples"].items():
+            if slug not in said["content"][MEDIA_TYPE]["examples"]:
+                said["content"][MEDIA_TYPE]["examples"][slug] = example
+                said["description"] += f" · {kinds[slug].title}"
 
 
 def _of_the_framework(response: dict[str, Any]) -> bool:

@@ -12,6 +12,7 @@ import orjson
 from fastapi import Request, Response
 from fastapi.routing import APIRoute
 
+from service.api.kept import kept_contract
 from service.problems import MEDIA_TYPE, ProblemError
 from service.wire.encode import encoded
 
@@ -46,7 +47,6 @@ class StrictRoute(APIRoute):
         handler = super().get_route_handler()
 
         async def strict(request: Request) -> Response:
-            response: Response = await handler(_StrictRequest(request.scope, request.receive))
-            return response
+            return await kept_contract(_StrictRequest(request.scope, request.receive), handler)
 
         return strict

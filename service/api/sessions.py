@@ -5,12 +5,13 @@ from __future__ import annotations
 import secrets
 from typing import Annotated
 
-from fastapi import APIRouter, Body, Query, Response
+from fastapi import APIRouter, Body, Query, Request, Response
 
 from service import actions as contract
 from service.api import bodies, examples, schemas
 from service.api.context import JSON_ONLY, Context, Here, TheSession
 from service.api.errors import documented, invalid
+from service.api.preconditions import kept_answer, made_once, matched
 from service.api.respond import StrictRoute, etag, json_response
 from service.api.views import links_json, session_json, summary_json
 from service.problems import (
@@ -30,6 +31,8 @@ from service.problems import (
     UnknownSession,
 )
 from service.sessions.manager import Recorded
+from service.sessions.session import Session
+from service.sessions.terms import Terms
 from service.settings import Settings
 from service.store import EntryRecord
 from sim.actions import Scenario
@@ -61,17 +64,26 @@ router = APIRouter(tags=["sessions"], route_class=StrictRoute)
     ),
 )
 async def make(
-    body: Annotated[bodies.NewSession, Body(openapi_examples=examples.NEW_SESSION)], here: Here
+    body: Annotated[bodies.NewSession, Body(openapi_examples=examples.NEW_SESSION)],
+    here: Here,
+    request: Request,
 ) -> Response:
     """A new road with a vehicle on it, running unless `paused`.
 
     `scenario` is a sentence; `config` any part of the configuration. With `recording` a session is
     replayed to the digest it names.
     """
+
+    @made_once
+    def told(session: Session) -> Response:
+        headers = {"Location": links_json(session.id)["self"], **etag(session.sequence)}
+        return json_response(session_json(session, here.listener.sentence(session.run.config)), 201, headers)
+
+    answer = kept_answer(request, told)
     if body.recording is None:
         config = await _config(here, body)
         try:
-            session = await here.manager.create(body.name, config, paused=bool(body.paused))
+            session = await here.manager.create(body.name, config, paused=bool(body.paused), answer=answer)
         except GenerationError as error:
             raise invalid(
                 FieldProblem(f"config.{each.field}", each.message) for each in error.problems
@@ -79,10 +91,13 @@ async def make(
     else:
         config, recorded = _recorded(here.settings, body, body.recording)
         session = await here.manager.create(
-            body.name or body.recording.name, config, paused=body.paused is not False, recorded=recorded
+            body.name or body.recording.name,
+            config,
+            paused=body.paused is not False,
+            recorded=recorded,
+            answer=answer,
         )
-    headers = {"Location": links_json(session.id)["self"], **etag(session.sequence)}
-    return json_response(session_json(session, here.listener.sentence(session.run.config)), 201, headers)
+    return told(session)
 
 
 @router.get(
@@ -129,9 +144,9 @@ async def look(session: TheSession, here: Here) -> Response:
     summary="End a session",
     responses=documented(UnknownSession, NotSaved),
 )
-async def end(session_id: str, here: Here) -> Response:
+async def end(session_id: str, here: Here, request: Request) -> Response:
     """End it and forget it; whoever watches is told."""
-    await here.manager.delete(session_id)
+    await here.manager.delete(session_id, Terms(matched(request)))
     return Response(status_code=204)
 
 

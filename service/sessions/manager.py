@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import secrets
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 
@@ -25,7 +25,8 @@ from service.problems import (
     UnknownSession,
 )
 from service.sessions.session import ReplayError, Session, Surroundings
-from service.store import EntryRecord, SessionRecord, StoreError
+from service.sessions.terms import ANY_TERMS, Terms
+from service.store import EntryRecord, KeptAnswer, SessionRecord, StoreError
 from sim.config import Config, ConfigError
 from sim.timeline import Timeline
 
@@ -61,9 +62,15 @@ class SessionManager:
         return sum(len(session.watchers) for session in self._live.values())
 
     async def create(
-        self, name: str | None, config: Config, *, paused: bool, recorded: Recorded | None = None
+        self,
+        name: str | None,
+        config: Config,
+        *,
+        paused: bool,
+        recorded: Recorded | None = None,
+        answer: Callable[[Session], KeptAnswer] | None = None,
     ) -> Session:
-        """A new session, stored. With a recording it is replayed first.
+        """A new session, stored, with an `answer` to be kept. With a recording it is replayed first.
 
         Raises `GenerationError`, `TooManySessions`, `NotSaved`,
         `RecordingMismatch` or `Invalid` for a recording that
@@ -85,8 +92,12 @@ class SessionManager:
             session = Session(record, timeline, self._around)
             if recorded is not None:
                 await self._replay(session, recorded)
+            session.paused = paused
+            kept = () if answer is None else (answer(session),)
             try:
-                session.record = await self._around.store.create(record, recorded.entries if recorded else ())
+                session.record = await self._around.store.create(
+                    record, recorded.entries if recorded else (), *kept
+                )
             except StoreError as error:
                 _LOG.error("a session was not saved", error=str(error))
                 raise NotSaved from error
@@ -118,9 +129,14 @@ class SessionManager:
         """What was said to a session, as stored."""
         return await self._around.store.entries(session.id)
 
-    async def delete(self, session_id: str) -> None:
-        """End a session and forget it. Raises `UnknownSession`."""
-        if not await self._around.store.delete(session_id):
+    async def delete(self, session_id: str, terms: Terms = ANY_TERMS) -> None:
+        """End a session and forget it. Raises `UnknownSession` or `Stale`."""
+        if terms.sequences is None:
+            found = await self._around.store.delete(session_id)
+        else:
+            async with (await self.get(session_id)).held(terms):
+                found = await self._around.store.delete(session_id)
+        if not found:
             raise UnknownSession
         session = self._live.pop(session_id, None)
         if session is not None:

@@ -8,7 +8,7 @@ A change that was begun is finished even when whoever asked for it has gone.
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncIterator, Sequence
+from collections.abc import AsyncIterator, Callable, Sequence
 from contextlib import asynccontextmanager
 from dataclasses import dataclass
 from typing import Any
@@ -18,7 +18,7 @@ from anyio import to_thread
 from pydantic import ValidationError
 
 from service import actions as contract
-from service.actions import Action, Advise, Ask, Pause, Redo, Resume, Undo
+from service.actions import Action, Advise, Ask, Load, Pause, Redo, Resume, Rewind, Undo
 from service.problems import Invalid, NotSaved, ProblemError, UnknownSession
 from service.sessions.availability import refusal
 from service.sessions.clock import Clock
@@ -48,7 +48,7 @@ from sim.timeline import PlannerSilentError, Timeline
 
 _LOG = structlog.get_logger(__name__)
 
-TRIED = (Add, Remove, SetCount, SetMode, Undo, Redo, Pause, Resume)
+TRIED = (Add, Remove, SetCount, SetMode, Undo, Redo, Pause, Resume, Rewind, Load)
 """Actions that are tried on a copy at once, to know whether they are possible."""
 
 QUICK_PLANNERS = frozenset(("priority",))
@@ -227,20 +227,35 @@ class Session:
             yield
 
     async def change(
-        self, utterance: Utterance, *, dry_run: bool = False, terms: Terms = ANY_TERMS
+        self,
+        utterance: Utterance | Callable[[Timeline], Utterance],
+        *,
+        dry_run: bool = False,
+        terms: Terms = ANY_TERMS,
     ) -> Outcome:
-        """Do an utterance, all or nothing. Raises a `ProblemError`; the session is then as it was."""
-        check_ticks(utterance.actions, self._around.settings.max_step_ticks)
+        """Do an utterance, or one made once it is its turn, all or nothing.
+
+        Raises a `ProblemError`; the session is then as it was.
+        """
+        if isinstance(utterance, Utterance):
+            check_ticks(utterance.actions, self._around.settings.max_step_ticks)
         task = asyncio.ensure_future(self._change(utterance, dry_run, terms))
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
         return await asyncio.shield(task)
 
-    async def _change(self, utterance: Utterance, dry_run: bool, terms: Terms = ANY_TERMS) -> Outcome:
+    async def _change(
+        self,
+        utterance: Utterance | Callable[[Timeline], Utterance],
+        dry_run: bool,
+        terms: Terms = ANY_TERMS,
+    ) -> Outcome:
         async with self._turn:
             if self._ended:
                 raise UnknownSession
             terms.check(self.sequence)
+            if not isinstance(utterance, Utterance):
+                utterance = utterance(self.timeline)
             self._changing = True
             try:
                 draft = Draft(self.timeline, self.paused, self.history, self.pace)

@@ -8,7 +8,7 @@ from typing import Any
 from service.actions import Action
 from service.sessions.facts import Fact, Stepped
 from sim.edit import Change
-from sim.run import Tick
+from sim.run import Run, Tick
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -29,6 +29,8 @@ class Outcome:
     answer: dict[str, Any] | None
     sequence: int
     changes: tuple[Change, ...]
+    before: Run | None = None
+    """the state in which it was said"""
 
     @property
     def ticks(self) -> list[Tick]:

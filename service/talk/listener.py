@@ -20,6 +20,7 @@ from service.language.topic import ALONE, Topic
 from service.llm.protocol import LanguageModel
 from service.problems import Ambiguous, FieldProblem, Invalid, NotAQuestion, NotUnderstood
 from service.sessions.session import Session
+from service.sessions.terms import ANY_TERMS, Terms
 from service.sessions.utterance import Outcome, Utterance
 from service.sessions.words import Words
 from service.talk.languages import DEFAULT, Languages
@@ -119,11 +120,19 @@ class Listener:
         return found
 
     async def do(
-        self, session: Session, utterance: Utterance, *, dry_run: bool = False, code: str = DEFAULT
+        self,
+        session: Session,
+        utterance: Utterance,
+        *,
+        dry_run: bool = False,
+        code: str = DEFAULT,
+        terms: Terms = ANY_TERMS,
     ) -> Outcome:
         """Do an utterance, all or nothing; a taught phrase is kept with its owner. Raises a problem."""
         if not any(isinstance(action, Teach | Forget) for action in utterance.actions):
-            return await self._reworded(await session.change(utterance, dry_run=dry_run))
+            outcome = await session.change(utterance, dry_run=dry_run, terms=terms)
+            # An answer that is kept is kept as it was made: in our own words.
+            return outcome if terms.answer else await self._reworded(outcome)
         if len(utterance.actions) > 1:
             sentence = "A phrase is taught or forgotten by itself, with nothing else in the same breath."
             raise Invalid(sentence, errors=[FieldProblem("actions", sentence)])

@@ -127,7 +127,7 @@ def test_every_status_says_what_comes_with_it(path: str, method: str, operation:
     assert expected <= set(responses)
     for status, response in responses.items():
         assert response["description"]
-        if status == "204":
+        if status in ("204", "304"):
             continue
         for kind, content in response["content"].items():
             if status.startswith("2"):

@@ -30,7 +30,7 @@ async def test_it_shows_what_is_so_now(service: Service) -> None:
     changed = await service.client.get(f"{path}/frame?view=schematic")
     assert empty.content == again.content
     assert empty.content != changed.content
-    assert (empty.headers["etag"], changed.headers["etag"]) == ('"0"', '"1"')
+    assert [each.headers["etag"][:3] for each in (empty, changed)] == ['"0-', '"1-']
 
 
 @pytest.mark.parametrize("query", ["view=moon", "format=tiff", "format="])

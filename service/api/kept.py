@@ -1,0 +1,35 @@
+"""What holds for every call alike: keys that do once, tags that say what was last seen.
+
+Stands around the handler of each route, so that no route can forget it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable
+
+from fastapi import Request, Response
+
+from service.api import idempotency, preconditions
+from service.api.context import context_of
+
+Handler = Callable[[Request], Awaitable[Response]]
+
+
+async def kept_contract(request: Request, handler: Handler) -> Response:
+    """Answer a request by its handler, if need be. Raises a `ProblemError`."""
+    context = context_of(request)
+    if request.method == "GET":
+        response = await handler(request)
+        session_id = request.path_params.get("session_id")
+        if session_id is None or response.status_code != 200 or not hasattr(response, "body"):
+            return response
+        session = await context.manager.get(session_id)
+        return preconditions.tagged(request, response, session.sequence)
+
+    async def meant(request: Request) -> Response:
+        if "if-match" in request.headers and "session_id" in request.path_params:
+            session = await context.manager.get(request.path_params["session_id"])
+            preconditions.checked(request, session.sequence)
+        return await handler(request)
+
+    return await idempotency.once(request, context.answers, meant)

@@ -1,0 +1,116 @@
+"""`ETag`, `If-Match`, `If-None-Match`: who changes a session may say what it was when last seen.
+
+A tag begins with the session's sequence. What is looked at (a GET) goes on with a digest of the answer,
+since time passes and no change is counted for that. A change asks for the sequence alone, so the tag of
+any answer about a session serves as `If-Match`.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from collections.abc import Callable
+from typing import Annotated, Any, TypeVar
+
+from fastapi import Depends, Request, Response
+
+from service.api.idempotency import Once
+from service.problems import FieldProblem, Invalid
+from service.sessions.terms import Terms
+from service.sessions.utterance import Outcome
+from service.store import KeptAnswer
+
+CHANGING = ("POST", "PATCH", "DELETE")
+"""Methods that may change something."""
+
+_TAG = re.compile(r'(W/)?"([\x21\x23-\x7e]*)"')
+_TAGS = re.compile(rf"\s*{_TAG.pattern}(\s*,\s*{_TAG.pattern})*\s*")
+_SEQUENCE = re.compile(r"([0-9]{1,15})(-[0-9a-f]+)?")
+
+OnTerms = Callable[[Callable[[Outcome], Response]], Terms]
+"""Given how an outcome is answered, the terms of a request."""
+
+
+def matched(request: Request) -> frozenset[int] | None:
+    """The sequences a session may stand at for this request; None for any. Raises `Invalid`."""
+    said = request.headers.get("if-match")
+    if said is None or said.strip() == "*":
+        return None
+    if not _TAGS.fullmatch(said):
+        message = 'must be the ETag of an answer about this session, such as "3", or *'
+        raise Invalid(f"If-Match {message}.", errors=[FieldProblem("If-Match", message)])
+    # A weak tag never matches here, and neither does one that is not ours.
+    strong = (tag for weak, tag in _TAG.findall(said) if not weak)
+    found = (_SEQUENCE.fullmatch(tag) for tag in strong)
+    return frozenset(int(each[1]) for each in found if each)
+
+
+def checked(request: Request, sequence: int) -> None:
+    """Raise `Stale` where this is not the session that the request was meant for."""
+    Terms(matched(request)).check(sequence)
+
+
+Told = TypeVar("Told")
+
+
+def made_once(told: Callable[[Told], Response]) -> Callable[[Told], Response]:
+    """An answer that is made the first time it is asked for: what is kept is what is sent."""
+    made: list[Response] = []
+
+    def again(of: Told) -> Response:
+        if not made:
+            made.append(told(of))
+        return made[0]
+
+    return again
+
+
+def kept_answer(request: Request, told: Callable[[Told], Response]) -> Callable[[Told], KeptAnswer] | None:
+    """What is to be kept with what a request does, if it came under a key."""
+    once: Once | None = getattr(request.state, "once", None)
+    return None if once is None else lambda of: once.keeping(told(of))
+
+
+def _terms(request: Request) -> OnTerms:
+    sequences = matched(request)
+    return lambda told: Terms(sequences, kept_answer(request, told))
+
+
+TheTerms = Annotated[OnTerms, Depends(_terms)]
+
+
+def tagged(request: Request, response: Response, sequence: int) -> Response:
+    """An answer about a session under its own tag, or a 304 where the caller has it already."""
+    digest = hashlib.blake2b(response.body, digest_size=8).hexdigest()
+    tag = f"{sequence}-{digest}"
+    said = request.headers.get("if-none-match")
+    if said is not None and (said.strip() == "*" or any(tag == own for _, own in _TAG.findall(said))):
+        return Response(status_code=304, headers={"ETag": f'"{tag}"'})
+    response.headers["ETag"] = f'"{tag}"'
+    return response
+
+
+def document(method: str, path: str, operation: dict[str, Any], problem: Callable[..., Any]) -> None:
+    """Tell of these headers in the documentation of a call; `problem` makes an error's documentation."""
+    if "{session_id}" not in path or path.endswith("/events/stream"):
+        return
+    parameters = operation.setdefault("parameters", [])
+    if method == "get":
+        parameters.append(
+            _header("If-None-Match", "The ETag of an answer that is at hand: 304 if it still is so.")
+        )
+        operation["responses"]["304"] = {"description": "As it was: the answer at hand still holds"}
+    else:
+        said = "An ETag of this session: done only if nothing was changed since; otherwise 412."
+        parameters.append(_header("If-Match", said))
+        problem(operation, "stale", "invalid")
+
+
+def _header(name: str, description: str) -> dict[str, Any]:
+    return {
+        "name": name,
+        "in": "header",
+        "required": False,
+        "schema": {"type": "string"},
+        "description": description,
+    }
