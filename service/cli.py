@@ -9,9 +9,8 @@ import socket
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated, Any, NoReturn
+from typing import Annotated, NoReturn
 
-import httpx
 import structlog
 import typer
 import uvicorn
@@ -19,6 +18,11 @@ from fastapi import FastAPI
 from pydantic import ValidationError
 
 from service.app import create_app
+from service.commands.doctor import doctor
+from service.commands.listing import sessions
+from service.commands.replaying import replay
+from service.commands.talking import say
+from service.commands.watching import watch
 from service.language import LanguageDataError
 from service.llm import MissingExtraError
 from service.llm.prompts import PromptError
@@ -66,6 +70,8 @@ def serve(
 
     Options win over the environment (ROADTALK_HOST, ROADTALK_PORT, ROADTALK_DATABASE). It is one
     process on purpose: several would each hold some of the sessions.
+
+    Example: roadtalk serve --port 9000
     """
     _configure_logging()
     given = {"host": host, "port": port, "database": database}
@@ -92,7 +98,10 @@ def serve(
 def check_planner(
     name: Annotated[str, typer.Argument(help="The planner's name, for instance: astar")],
 ) -> None:
-    """Try a planner's promises on many roads. Exits with 1 when one is broken."""
+    """Try a planner's promises on many roads. Exits with 1 when one is broken.
+
+    Example: roadtalk check-planner astar
+    """
     from sim.plan.checker import MAX_TOLD, check, found
 
     planner = found(name)
@@ -115,7 +124,10 @@ def language_eval(
     language: Annotated[str, typer.Option(help="The language's code.")] = "en",
     failures: Annotated[bool, typer.Option(help="Also list what was not read as labelled.")] = True,
 ) -> None:
-    """Measure how well sentences are understood. Exits with 1 when one was understood wrongly."""
+    """Measure how well sentences are understood. Exits with 1 when one was understood wrongly.
+
+    Example: roadtalk language-eval labelled.jsonl
+    """
     from service.language import Language
     from service.language.evaluate import evaluate_all, read_labelled, render
 
@@ -131,49 +143,8 @@ def language_eval(
         raise typer.Exit(1)
 
 
-@cli.command()
-def say(
-    text: Annotated[str, typer.Argument(help="What to say, for instance: add five potholes")],
-    session: Annotated[
-        str | None, typer.Option(help="A session's id; default: the newest, or a new one.")
-    ] = None,
-    url: Annotated[str, typer.Option(help="Where the service is.")] = "http://127.0.0.1:8000",
-) -> None:
-    """Say something to a session and print the reply. Exits with 1 when it is refused."""
-    try:
-        with httpx.Client(base_url=f"{url.rstrip('/')}/api/v1", timeout=30) as client:
-            answer = client.post(f"/sessions/{session or _newest(client)}/commands", json={"text": text})
-    except (httpx.HTTPError, httpx.InvalidURL) as error:
-        _fail(
-            f"There is no answer from {url} ({error}). Is the service running? Start it with: roadtalk serve"
-        )
-    said = _values(answer, url)
-    if answer.status_code == 200:
-        typer.echo(said["reply"])
-        return
-    lines = [said.get("detail", "Refused.")]
-    offers = [*said.get("suggestions", ()), *(choice["text"] for choice in said.get("choices", ()))]
-    if offers:
-        lines += ["You could say:", *(f"  {offer}" for offer in offers)]
-    _fail("\n".join(lines))
-
-
-def _newest(client: httpx.Client) -> str:
-    """The id of the newest session, or of a new one where there is none."""
-    page = client.get("/sessions", params={"limit": 1}).raise_for_status().json()
-    if page["items"]:
-        return str(page["items"][0]["id"])
-    return str(client.post("/sessions", json={}).raise_for_status().json()["id"])
-
-
-def _values(answer: httpx.Response, url: str) -> dict[str, Any]:
-    try:
-        values = answer.json()
-    except ValueError:
-        values = None
-    if not isinstance(values, dict):
-        _fail(f"What answers at {url} is not this service.")
-    return values
+for _command in (say, watch, replay, sessions, doctor):
+    cli.command()(_command)
 
 
 def server_config(app: FastAPI, settings: Settings) -> uvicorn.Config:

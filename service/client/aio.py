@@ -1,0 +1,188 @@
+"""The client for programs with an event loop: the same calls, awaited."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterator, Mapping
+from types import TracebackType
+from typing import Any, Literal, TypeVar
+
+import httpx
+from websockets.asyncio.client import connect
+
+from service.client import calls, results
+from service.client.calls import Call, Json
+from service.client.messages import FAILURES, MAX_MESSAGE_BYTES, Message, Watching
+from service.client.results import Page
+from service.client.sync import DEFAULT_URL, PATIENCE_S, TIMEOUT_S
+
+T = TypeVar("T")
+
+
+class AsyncClient:
+    """A service, over HTTP. Use it in an `async with`, or `aclose` it.
+
+    A call that changes something carries an `Idempotency-Key` and is tried once more when the
+    connection is lost. Raises what `service.client.errors` lists.
+    """
+
+    def __init__(
+        self,
+        url: str = DEFAULT_URL,
+        *,
+        api_key: str | None = None,
+        timeout_s: float = TIMEOUT_S,
+        transport: httpx.AsyncBaseTransport | None = None,
+    ) -> None:
+        self.url = calls.checked_url(url)
+        self._headers = calls.headers(api_key)
+        self._timeout_s = timeout_s
+        self._http = httpx.AsyncClient(
+            base_url=self.url, headers=self._headers, timeout=timeout_s, transport=transport
+        )
+
+    async def __aenter__(self) -> AsyncClient:
+        return self
+
+    async def __aexit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        await self.aclose()
+
+    async def aclose(self) -> None:
+        """Let go of the connections."""
+        await self._http.aclose()
+
+    async def health(self) -> results.Health:
+        """Is it alive, and what does it hold."""
+        return await self._do(calls.health())
+
+    async def parse(self, text: str, *, language: str = "en") -> results.Parsed:
+        """What a sentence means; nothing is done."""
+        return await self._do(calls.parse(text, language))
+
+    async def create(
+        self,
+        *,
+        name: str | None = None,
+        scenario: str | None = None,
+        config: Json | None = None,
+        seed: int | None = None,
+        planner: str | None = None,
+        paused: bool | None = None,
+        recording: results.Recording | Json | None = None,
+    ) -> AsyncSession:
+        """A new session, from a sentence, from figures or from a recording."""
+        call = calls.create(name, scenario, config, seed, planner, paused, recording)
+        return await self._do(call.then(lambda info: AsyncSession(self, info.id)))
+
+    async def list(self, *, after: str | None = None, limit: int = 50) -> Page[results.SessionSummary]:
+        """Sessions, newest first, a page of them."""
+        return await self._do(calls.listed(after, limit))
+
+    def session(self, session_id: str) -> AsyncSession:
+        """The session of this id; nothing is asked before it is used."""
+        return AsyncSession(self, session_id)
+
+    async def _do(self, call: Call[T]) -> T:
+        second = False
+        try:
+            response = await self._http.request(**call.request())
+        except calls.LOST as lost:
+            second = True
+            try:
+                response = await self._http.request(**call.request())
+            except httpx.TransportError as error:
+                raise calls.unreachable(self.url, error) from lost
+        except httpx.TransportError as error:
+            raise calls.unreachable(self.url, error) from error
+        return calls.answered(call, response, self._do, second=second)
+
+    async def _watch(self, session: str, after: int | None, patience_s: float) -> AsyncIterator[Message]:
+        watching = Watching(self.url, session, after, patience_s)
+        while True:
+            try:
+                async with connect(
+                    watching.address,
+                    additional_headers=self._headers,
+                    open_timeout=self._timeout_s,
+                    max_size=MAX_MESSAGE_BYTES,
+                ) as socket:
+                    while True:
+                        message = watching.take(await socket.recv())
+                        if message is not None:
+                            yield message
+            except FAILURES as error:
+                delay_s = watching.lost(error)
+                if delay_s is None:
+                    return
+                await asyncio.sleep(delay_s)
+
+
+class AsyncSession:
+    """One session of a service."""
+
+    def __init__(self, client: AsyncClient, session_id: str) -> None:
+        self.id = session_id
+        self._client = client
+
+    def __repr__(self) -> str:
+        return f"AsyncSession({self.id!r})"
+
+    async def info(self) -> results.SessionInfo:
+        """The session as it stands."""
+        return await self._client._do(calls.look(self.id))
+
+    async def say(self, text: str, *, dry_run: bool = False, language: str = "en") -> results.CommandResult:
+        """Say something; done as a whole or not at all. Raises `NotUnderstood`, `Ambiguous`."""
+        return await self._client._do(calls.say(self.id, text, dry_run, language))
+
+    async def act(self, *actions: Mapping[str, Any], dry_run: bool = False) -> results.CommandResult:
+        """Do typed actions, no language involved: `act({"do": "pause"})`."""
+        return await self._client._do(calls.act(self.id, actions, dry_run))
+
+    async def ask(self, question: str, *, language: str = "en") -> results.Answer:
+        """Ask something; nothing is changed."""
+        return await self._client._do(calls.ask(self.id, question, language))
+
+    async def step(self, ticks: int = 1) -> results.StepResult:
+        """Pause and run some ticks as fast as can be."""
+        return await self._client._do(calls.step(self.id, ticks))
+
+    async def state(self, tick: int | None = None) -> results.State:
+        """The world now, or at a past tick."""
+        return await self._client._do(calls.state(self.id, tick))
+
+    async def decisions(self, *, after: int | None = None, limit: int = 20) -> Page[results.Decision]:
+        """What was decided and why: the newest, or those after a tick."""
+        return await self._client._do(calls.decisions(self.id, after, limit))
+
+    async def decision(self, tick: int) -> results.Decision:
+        """The decision taken in the world of a tick."""
+        return await self._client._do(calls.decision(self.id, tick))
+
+    async def events(self, *, after: int | None = None, limit: int = 100) -> Page[results.LogEvent]:
+        """The log: the newest lines, or those after a number."""
+        return await self._client._do(calls.events(self.id, after, limit))
+
+    async def recording(self) -> results.Recording:
+        """The whole session as one small file."""
+        return await self._client._do(calls.recording(self.id))
+
+    async def frame(
+        self, *, view: Literal["road", "schematic"] = "road", form: Literal["png", "jpeg"] = "png"
+    ) -> results.Frame:
+        """A picture of the road as it is now."""
+        return await self._client._do(calls.frame(self.id, view, form))
+
+    def watch(self, *, after: int | None = None, patience_s: float = PATIENCE_S) -> AsyncIterator[Message]:
+        """Messages as they come, until the session is deleted.
+
+        A lost connection is opened again for up to `patience_s`, from the last change seen; the
+        first message is then a `Hello` with `resumed`.
+        """
+        return self._client._watch(self.id, after, patience_s)
+
+    async def delete(self) -> None:
+        """End it and forget it."""
+        await self._client._do(calls.delete(self.id))

@@ -1,0 +1,256 @@
+"""What is sent for each call and how its answer is read; nothing here sends anything.
+
+Both clients are thin over this, so that they cannot differ.
+"""
+
+from __future__ import annotations
+
+import secrets
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any, Generic, TypeVar
+from urllib.parse import quote
+
+import httpx
+
+from service.client import results
+from service.client.errors import Ambiguous, NotReachable, Refused, TimedOut, UnexpectedAnswer, refusal
+
+PREFIX = "/api/v1"
+T = TypeVar("T")
+U = TypeVar("U")
+Json = Mapping[str, Any]
+
+LOST = (httpx.NetworkError, httpx.RemoteProtocolError)
+"""The connection was lost: nobody knows whether the call was done."""
+
+
+@dataclass(frozen=True)
+class Call(Generic[T]):
+    """One request and the reader of its answer.
+
+    `said` names the key of the body that holds a sentence, for calls that can be ambiguous.
+    A call that changes something has a key, by which the service knows a second try.
+    """
+
+    method: str
+    path: str
+    read: Callable[[httpx.Response], T]
+    body: Json | None = None
+    params: Json = field(default_factory=dict)
+    said: str | None = None
+    key: str | None = None
+
+    def request(self) -> dict[str, Any]:
+        """What httpx is given."""
+        headers = {"Idempotency-Key": self.key} if self.key else {}
+        params = {name: value for name, value in self.params.items() if value is not None}
+        given = {"json": self.body} if self.body is not None else {}
+        return {"method": self.method, "url": self.path, "headers": headers, "params": params, **given}
+
+    def saying(self, text: str) -> Call[T]:
+        """The same with another sentence, which is another change."""
+        return replace(self, body={**(self.body or {}), str(self.said): text}, key=_key())
+
+    def then(self, made: Callable[[T], U]) -> Call[U]:
+        """The same with something made of its answer."""
+        return Call(
+            self.method,
+            self.path,
+            lambda response: made(self.read(response)),
+            self.body,
+            self.params,
+            self.said,
+            self.key,
+        )
+
+
+def answered(call: Call[T], response: httpx.Response, again: Callable[[Call[T]], Any], *, second: bool) -> T:
+    """The answer as its type. Raises `Refused` for a problem, `UnexpectedAnswer` for anything else."""
+    if response.is_success:
+        return call.read(response)
+    problem = _problem(response)
+    if second and call.method == "DELETE" and response.status_code == 404:
+        return call.read(response)  # the first try, whose answer was lost, has done it
+    if isinstance(problem, Ambiguous) and call.said is not None:
+        problem.again = lambda text: again(call.saying(text))
+    raise problem
+
+
+def unreachable(url: str, error: Exception) -> NotReachable:
+    """The exception for a call that had no answer."""
+    if isinstance(error, httpx.TimeoutException) and not isinstance(error, httpx.ConnectTimeout):
+        return TimedOut(f"{url} did not answer in time. Whether it was done is not known.")
+    said = str(error) or type(error).__name__
+    return NotReachable(
+        f"There is no answer from {url} ({said}). Is the service running? Start it with: roadtalk serve"
+    )
+
+
+def body_of(response: httpx.Response) -> Any:
+    """The JSON of an answer."""
+    try:
+        return response.json()
+    except ValueError:
+        raise UnexpectedAnswer(f"What answers at {response.url.host} is not this service.") from None
+
+
+def _problem(response: httpx.Response) -> Refused:
+    document = body_of(response)
+    if not isinstance(document, dict) or "detail" not in document:
+        raise UnexpectedAnswer(f"What answers at {response.url.host} is not this service.")
+    return refusal(document, response.status_code, response.headers)
+
+
+def _reading(kind: type[T]) -> Callable[[httpx.Response], T]:
+    def read(response: httpx.Response) -> T:
+        value: T = results.read(kind, body_of(response))
+        return value
+
+    return read
+
+
+def _paging(kind: type[T]) -> Callable[[httpx.Response], results.Page[T]]:
+    return lambda response: results.read_page(kind, body_of(response))
+
+
+def _key() -> str:
+    return secrets.token_urlsafe(16)
+
+
+def _sent(**values: Any) -> dict[str, Any]:
+    """The values that were given."""
+    return {name: value for name, value in values.items() if value is not None}
+
+
+def _own(session: str, part: str = "") -> str:
+    return f"{PREFIX}/sessions/{quote(session, safe='')}{part}"
+
+
+def health() -> Call[results.Health]:
+    """Is it alive."""
+    return Call("GET", "/healthz", _reading(results.Health))
+
+
+def parse(text: str, language: str) -> Call[results.Parsed]:
+    """What a sentence means."""
+    body = {"text": text, "language": language}
+    return Call("POST", f"{PREFIX}/parse", _reading(results.Parsed), body, said="text")
+
+
+def create(
+    name: str | None,
+    scenario: str | None,
+    config: Json | None,
+    seed: int | None,
+    planner: str | None,
+    paused: bool | None,
+    recording: results.Recording | Json | None,
+) -> Call[results.SessionInfo]:
+    """A new session."""
+    file = recording.raw if isinstance(recording, results.Recording) else recording
+    body = _sent(
+        name=name,
+        scenario=scenario,
+        config=config,
+        seed=seed,
+        planner=planner,
+        paused=paused,
+        recording=file,
+    )
+    path = f"{PREFIX}/sessions"
+    return Call("POST", path, _reading(results.SessionInfo), body, said="scenario", key=_key())
+
+
+def listed(after: str | None, limit: int) -> Call[results.Page[results.SessionSummary]]:
+    """A page of sessions."""
+    params = {"after": after, "limit": limit}
+    return Call("GET", f"{PREFIX}/sessions", _paging(results.SessionSummary), params=params)
+
+
+def look(session: str) -> Call[results.SessionInfo]:
+    """A session as it stands."""
+    return Call("GET", _own(session), _reading(results.SessionInfo))
+
+
+def delete(session: str) -> Call[None]:
+    """End a session."""
+    return Call("DELETE", _own(session), lambda _: None, key=_key())
+
+
+def say(session: str, text: str, dry_run: bool, language: str) -> Call[results.CommandResult]:
+    """Something said."""
+    body = {"text": text, "dry_run": dry_run, "language": language}
+    path = _own(session, "/commands")
+    return Call("POST", path, _reading(results.CommandResult), body, said="text", key=_key())
+
+
+def act(session: str, actions: Sequence[Json], dry_run: bool) -> Call[results.CommandResult]:
+    """Typed actions."""
+    body = {"actions": list(actions), "dry_run": dry_run}
+    return Call("POST", _own(session, "/actions"), _reading(results.CommandResult), body, key=_key())
+
+
+def ask(session: str, question: str, language: str) -> Call[results.Answer]:
+    """A question."""
+    body = {"question": question, "language": language}
+    return Call("POST", _own(session, "/ask"), _reading(results.Answer), body, said="question")
+
+
+def step(session: str, ticks: int) -> Call[results.StepResult]:
+    """Some ticks."""
+    body = {"ticks": ticks}
+    return Call("POST", _own(session, "/step"), _reading(results.StepResult), body, key=_key())
+
+
+def state(session: str, tick: int | None) -> Call[results.State]:
+    """The world at a tick."""
+    return Call("GET", _own(session, "/state"), _reading(results.State), params={"tick": tick})
+
+
+def decisions(session: str, after: int | None, limit: int) -> Call[results.Page[results.Decision]]:
+    """A page of decisions."""
+    params = {"after": after, "limit": limit}
+    return Call("GET", _own(session, "/decisions"), _paging(results.Decision), params=params)
+
+
+def decision(session: str, tick: int) -> Call[results.Decision]:
+    """One decision."""
+    return Call("GET", _own(session, f"/decisions/{tick}"), _reading(results.Decision))
+
+
+def events(session: str, after: int | None, limit: int) -> Call[results.Page[results.LogEvent]]:
+    """A page of the log."""
+    params = {"after": after, "limit": limit}
+    return Call("GET", _own(session, "/events"), _paging(results.LogEvent), params=params)
+
+
+def recording(session: str) -> Call[results.Recording]:
+    """The session as a file."""
+    return Call("GET", _own(session, "/recording"), _reading(results.Recording))
+
+
+def frame(session: str, view: str, form: str) -> Call[results.Frame]:
+    """A picture."""
+    params = {"view": view, "format": form}
+    return Call("GET", _own(session, "/frame"), _pictured, params=params)
+
+
+def _pictured(response: httpx.Response) -> results.Frame:
+    return results.Frame(response.content, response.headers.get("content-type", "").partition(";")[0])
+
+
+def checked_url(url: str) -> str:
+    """Where a service is, without a slash at its end. Raises `ValueError` for no such address."""
+    try:
+        given = httpx.URL(url)
+    except httpx.InvalidURL as error:
+        raise ValueError(f"{url!r} is no address: {error}") from None
+    if given.scheme not in ("http", "https") or not given.host:
+        raise ValueError(f"{url!r} is no address; it begins with http:// or https://")
+    return url.rstrip("/")
+
+
+def headers(api_key: str | None) -> dict[str, str]:
+    """The key goes in a header, never into an address."""
+    return {"Authorization": f"Bearer {api_key}"} if api_key else {}

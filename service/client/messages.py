@@ -1,0 +1,183 @@
+"""The stream's messages as frozen dataclasses, and what to do when a stream ends.
+
+A kind of message that is not known here is a plain `Message`, so that a newer service can be watched.
+"""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from urllib.parse import quote, urlencode
+
+from websockets.exceptions import ConnectionClosed, InvalidStatus, WebSocketException
+
+from service.client import calls, results
+from service.client.errors import NotReachable, Refused, RoadtalkError, UnexpectedAnswer, refusal
+from service.client.results import (
+    BriefDecision,
+    Cell,
+    Change,
+    Decision,
+    LogEvent,
+    Metrics,
+    SessionInfo,
+    State,
+)
+
+DELETED = 1000
+FINAL = frozenset((1002, 1003, 1007, 1008, 1009, 1010))
+"""Close codes after which a new connection would end like the one before."""
+
+FIRST_DELAY_S, MOST_DELAY_S = 0.1, 2.0
+MAX_MESSAGE_BYTES = 16 * 2**20
+"""A whole state of the largest road is below this."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Message(results.Result):
+    """Anything the stream sends."""
+
+    type: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Hello(Message):
+    """First on every connection: all there is to begin with. `resumed` after a lost connection."""
+
+    session: SessionInfo
+    state: State
+    log: tuple[LogEvent, ...]
+    decision: Decision | None
+    sequence: int
+    resumed: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tick(Message):
+    """One tick: where things went, by id; a whole `state` where a new road began."""
+
+    tick: int
+    sequence: int
+    episode: int
+    status: str
+    decision: BriefDecision | None
+    narration: str | None
+    events: tuple[LogEvent, ...]
+    metrics: Metrics
+    digest: str
+    vehicles: Mapping[str, Cell] | None = None
+    moved: Mapping[str, Cell] | None = None
+    turned: Mapping[str, str] | None = None
+    state: State | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Changed(Message):
+    """A change that was accepted, whoever made it."""
+
+    sequence: int
+    text: str | None
+    reply: str
+    changes: tuple[Change, ...]
+    events: tuple[LogEvent, ...]
+    state: State
+
+
+@dataclass(frozen=True, kw_only=True)
+class Standing(Message):
+    """A full state for a reader that was too slow: the ticks it `missed`, first and last."""
+
+    missed: tuple[int, int] | None
+    state: State
+
+
+@dataclass(frozen=True, kw_only=True)
+class Gone(Message):
+    """The session was deleted; the last message."""
+
+
+_KINDS: dict[str, type[Message]] = {
+    "hello": Hello,
+    "tick": Tick,
+    "changed": Changed,
+    "state": Standing,
+    "gone": Gone,
+}
+
+
+class Watching:
+    """One watcher's place in the stream, kept over lost connections; sends and reads nothing itself."""
+
+    def __init__(self, url: str, session: str, after: int | None, patience_s: float) -> None:
+        self._url = url
+        self._session = session
+        self._after = after
+        self._patience_s = patience_s
+        self._connected = False
+        self._problem: Refused | None = None
+        self._delay_s = FIRST_DELAY_S
+        self._lost_since: float | None = None
+
+    @property
+    def address(self) -> str:
+        """Where to connect: the last change that was seen is named, never a key."""
+        base = "ws" + self._url.removeprefix("http")
+        query = "" if self._after is None else "?" + urlencode({"after": self._after})
+        return f"{base}{calls.PREFIX}/sessions/{quote(self._session, safe='')}/stream{query}"
+
+    def take(self, data: str | bytes) -> Message | None:
+        """What was received; None for what is not for the reader. Raises `UnexpectedAnswer`."""
+        if isinstance(data, bytes):
+            return None  # pictures, which nobody asked for here
+        try:
+            values = json.loads(data)
+        except ValueError:
+            raise UnexpectedAnswer("The stream sent what is not JSON.") from None
+        if not isinstance(values, dict) or not isinstance(values.get("type"), str):
+            raise UnexpectedAnswer("The stream sent what is not a message.")
+        if values["type"] == "error":
+            self._problem = refusal(values.get("problem", {}), values.get("problem", {}).get("status", 0))
+            return None
+        message: Message = results.read(_KINDS.get(values["type"], Message), values, "the message")
+        if isinstance(message, Hello):
+            message = replace(message, resumed=self._connected)
+        self._connected, self._lost_since, self._delay_s = True, None, FIRST_DELAY_S
+        self._after = getattr(message, "sequence", self._after)
+        return message
+
+    def lost(self, error: Exception) -> float | None:
+        """After a failure: seconds to wait before the next try, or None when the stream is over.
+
+        Raises a `RoadtalkError` where another try is of no use, or patience is at its end.
+        """
+        code = error.rcvd.code if isinstance(error, ConnectionClosed) and error.rcvd else None
+        if code == DELETED:
+            return None
+        if self._problem is not None:
+            raise self._problem from error
+        if code in FINAL or (code is not None and code >= 4000):
+            raise RoadtalkError(f"The stream was closed for good: {error}.") from error
+        if isinstance(error, InvalidStatus) and error.response.status_code < 500:
+            raise _refused(error) from error
+        now = time.monotonic()
+        self._lost_since = self._lost_since or now
+        if not self._connected or now - self._lost_since > self._patience_s:
+            raise calls.unreachable(self._url, error) from error
+        delay_s, self._delay_s = self._delay_s, min(MOST_DELAY_S, 2 * self._delay_s)
+        return delay_s
+
+
+FAILURES: tuple[type[Exception], ...] = (WebSocketException, OSError, EOFError)
+"""What a connection can end with; time-outs are `OSError`s."""
+
+
+def _refused(error: InvalidStatus) -> RoadtalkError:
+    try:
+        document = json.loads(error.response.body or b"")
+    except ValueError:
+        return NotReachable(f"The stream cannot be opened: {error}.")
+    if not isinstance(document, dict):
+        return NotReachable(f"The stream cannot be opened: {error}.")
+    return refusal(document, error.response.status_code, dict(error.response.headers.raw_items()))

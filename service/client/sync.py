@@ -1,0 +1,202 @@
+"""The client for scripts and notebooks that wait for their answers."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Mapping
+from types import TracebackType
+from typing import Any, Literal, TypeVar
+
+import httpx
+from websockets.sync.client import connect
+
+from service.client import calls, html, results
+from service.client.calls import Call, Json
+from service.client.errors import RoadtalkError
+from service.client.messages import FAILURES, MAX_MESSAGE_BYTES, Message, Watching
+from service.client.results import Page
+
+T = TypeVar("T")
+DEFAULT_URL = "http://127.0.0.1:8000"
+TIMEOUT_S = 30.0
+PATIENCE_S = 30.0
+"""How long a watcher tries to come back."""
+
+
+class Client:
+    """A service, over HTTP. Use it in a `with`, or `close` it.
+
+    >>> with Client("http://127.0.0.1:8000") as client:  # doctest: +SKIP
+    ...     print(client.create(seed=11).say("add five potholes").reply)
+
+    A call that changes something carries an `Idempotency-Key` and is tried once more when the
+    connection is lost. Raises what `service.client.errors` lists.
+    """
+
+    def __init__(
+        self,
+        url: str = DEFAULT_URL,
+        *,
+        api_key: str | None = None,
+        timeout_s: float = TIMEOUT_S,
+        transport: httpx.BaseTransport | None = None,
+    ) -> None:
+        self.url = calls.checked_url(url)
+        self._headers = calls.headers(api_key)
+        self._timeout_s = timeout_s
+        self._http = httpx.Client(
+            base_url=self.url, headers=self._headers, timeout=timeout_s, transport=transport
+        )
+
+    def __enter__(self) -> Client:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Let go of the connections."""
+        self._http.close()
+
+    def health(self) -> results.Health:
+        """Is it alive, and what does it hold."""
+        return self._do(calls.health())
+
+    def parse(self, text: str, *, language: str = "en") -> results.Parsed:
+        """What a sentence means; nothing is done."""
+        return self._do(calls.parse(text, language))
+
+    def create(
+        self,
+        *,
+        name: str | None = None,
+        scenario: str | None = None,
+        config: Json | None = None,
+        seed: int | None = None,
+        planner: str | None = None,
+        paused: bool | None = None,
+        recording: results.Recording | Json | None = None,
+    ) -> Session:
+        """A new session, from a sentence, from figures or from a recording."""
+        call = calls.create(name, scenario, config, seed, planner, paused, recording)
+        return self._do(call.then(lambda info: Session(self, info.id)))
+
+    def list(self, *, after: str | None = None, limit: int = 50) -> Page[results.SessionSummary]:
+        """Sessions, newest first, a page of them."""
+        return self._do(calls.listed(after, limit))
+
+    def session(self, session_id: str) -> Session:
+        """The session of this id; nothing is asked before it is used."""
+        return Session(self, session_id)
+
+    def _do(self, call: Call[T]) -> T:
+        second = False
+        try:
+            response = self._http.request(**call.request())
+        except calls.LOST as lost:
+            second = True
+            try:
+                response = self._http.request(**call.request())
+            except httpx.TransportError as error:
+                raise calls.unreachable(self.url, error) from lost
+        except httpx.TransportError as error:
+            raise calls.unreachable(self.url, error) from error
+        return calls.answered(call, response, self._do, second=second)
+
+    def _watch(self, session: str, after: int | None, patience_s: float) -> Iterator[Message]:
+        watching = Watching(self.url, session, after, patience_s)
+        while True:
+            try:
+                with connect(
+                    watching.address,
+                    additional_headers=self._headers,
+                    open_timeout=self._timeout_s,
+                    max_size=MAX_MESSAGE_BYTES,
+                ) as socket:
+                    while True:
+                        message = watching.take(socket.recv())
+                        if message is not None:
+                            yield message
+            except FAILURES as error:
+                delay_s = watching.lost(error)
+                if delay_s is None:
+                    return
+                time.sleep(delay_s)
+
+
+class Session:
+    """One session of a service."""
+
+    def __init__(self, client: Client, session_id: str) -> None:
+        self.id = session_id
+        self._client = client
+
+    def __repr__(self) -> str:
+        return f"Session({self.id!r})"
+
+    def _repr_html_(self) -> str:
+        """The road as it is now, for notebooks; what went wrong, if it cannot be asked for."""
+        try:
+            return html.road(self.state())
+        except RoadtalkError as error:
+            return html.table(str(error), (), ())
+
+    def info(self) -> results.SessionInfo:
+        """The session as it stands."""
+        return self._client._do(calls.look(self.id))
+
+    def say(self, text: str, *, dry_run: bool = False, language: str = "en") -> results.CommandResult:
+        """Say something; done as a whole or not at all. Raises `NotUnderstood`, `Ambiguous`."""
+        return self._client._do(calls.say(self.id, text, dry_run, language))
+
+    def act(self, *actions: Mapping[str, Any], dry_run: bool = False) -> results.CommandResult:
+        """Do typed actions, no language involved: `act({"do": "pause"})`."""
+        return self._client._do(calls.act(self.id, actions, dry_run))
+
+    def ask(self, question: str, *, language: str = "en") -> results.Answer:
+        """Ask something; nothing is changed."""
+        return self._client._do(calls.ask(self.id, question, language))
+
+    def step(self, ticks: int = 1) -> results.StepResult:
+        """Pause and run some ticks as fast as can be."""
+        return self._client._do(calls.step(self.id, ticks))
+
+    def state(self, tick: int | None = None) -> results.State:
+        """The world now, or at a past tick."""
+        return self._client._do(calls.state(self.id, tick))
+
+    def decisions(self, *, after: int | None = None, limit: int = 20) -> Page[results.Decision]:
+        """What was decided and why: the newest, or those after a tick."""
+        return self._client._do(calls.decisions(self.id, after, limit))
+
+    def decision(self, tick: int) -> results.Decision:
+        """The decision taken in the world of a tick."""
+        return self._client._do(calls.decision(self.id, tick))
+
+    def events(self, *, after: int | None = None, limit: int = 100) -> Page[results.LogEvent]:
+        """The log: the newest lines, or those after a number."""
+        return self._client._do(calls.events(self.id, after, limit))
+
+    def recording(self) -> results.Recording:
+        """The whole session as one small file."""
+        return self._client._do(calls.recording(self.id))
+
+    def frame(
+        self, *, view: Literal["road", "schematic"] = "road", form: Literal["png", "jpeg"] = "png"
+    ) -> results.Frame:
+        """A picture of the road as it is now."""
+        return self._client._do(calls.frame(self.id, view, form))
+
+    def watch(self, *, after: int | None = None, patience_s: float = PATIENCE_S) -> Iterator[Message]:
+        """Messages as they come, until the session is deleted.
+
+        A lost connection is opened again for up to `patience_s`, from the last change seen; the
+        first message is then a `Hello` with `resumed`.
+        """
+        return self._client._watch(self.id, after, patience_s)
+
+    def delete(self) -> None:
+        """End it and forget it."""
+        self._client._do(calls.delete(self.id))

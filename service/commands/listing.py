@@ -1,0 +1,51 @@
+"""`sessions`: the sessions of a service as a table."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+from rich import box
+from rich.table import Table
+
+from service.client import SessionSummary
+from service.commands.terminal import URL, ApiKey, Url, console, plain, service_at
+
+
+def sessions(
+    limit: Annotated[int, typer.Option(min=1, max=200, help="How many, the newest first.")] = 20,
+    url: Url = URL,
+    api_key: ApiKey = None,
+) -> None:
+    """List sessions, newest first.
+
+    Example: roadtalk sessions --limit 5
+    """
+    with service_at(url, api_key) as client:
+        page = client.list(limit=limit)
+    if not page.items:
+        typer.echo('There are no sessions yet. Make one with: roadtalk say "where are you?"')
+        return
+    shown = console()
+    shown.print(table(page.items))
+    if page.more:
+        shown.print(f"There are more; this is the newest {len(page)}.")
+
+
+def table(items: tuple[SessionSummary, ...]) -> Table:
+    """A row for each session."""
+    made = Table(box=box.SIMPLE)
+    for name, whole in (("id", True), ("name", False), ("made (UTC)", True), ("live", True)):
+        made.add_column(name, no_wrap=whole)
+    made.add_column("tick", justify="right")
+    made.add_column("seed", justify="right")
+    for item in items:
+        made.add_row(
+            plain(item.id),
+            plain(item.name or ""),
+            item.created_at[:16].replace("T", " "),
+            "yes" if item.live else "no",
+            str(item.tick),
+            str(item.seed),
+        )
+    return made
