@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import socket
 import sqlite3
 import subprocess
 import sys
@@ -11,9 +12,11 @@ from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 
+import asyncpg
 import pytest
 
 from service.store import EntryRecord, MemoryStore, SessionRecord, SqlStore, Store, StoreError, open_store
+from tests.service.postgres import Server
 
 MOMENT = datetime(2026, 3, 29, 1, 30, 15, 250_000, tzinfo=UTC)
 
@@ -29,12 +32,22 @@ def record(name: str, **more: object) -> SessionRecord:
 
 def entry(sequence: int, tick: int = 3) -> EntryRecord:
     actions = [{"do": "add", "kind": "pothole", "count": 2, "where": {"cell": [1, 2]}}]
-    return EntryRecord(sequence=sequence, tick=tick, text="zwei Schlaglöcher ✓", actions=actions)
+    return EntryRecord(
+        sequence=sequence, tick=tick, text="zwei Schlaglöcher ✓", actions=actions, digest=f"{sequence:032x}"
+    )
 
 
-@pytest.fixture(params=["memory", "sqlite"])
+async def opened_store(kind: str, request: pytest.FixtureRequest, folder: Path) -> Store:
+    if kind == "memory":
+        return MemoryStore()
+    if kind == "sqlite":
+        return SqlStore(f"sqlite:///{folder}/roads.db")
+    return SqlStore(await request.getfixturevalue("postgres").database())
+
+
+@pytest.fixture(params=["memory", "sqlite", "postgres"])
 async def store(request: pytest.FixtureRequest, tmp_path: Path) -> AsyncIterator[Store]:
-    opened = MemoryStore() if request.param == "memory" else SqlStore(f"sqlite:///{tmp_path}/roads.db")
+    opened = await opened_store(request.param, request, tmp_path)
     await opened.open()
     yield opened
     await opened.close()
@@ -181,7 +194,64 @@ async def test_a_closed_store_says_so(tmp_path: Path) -> None:
         await SqlStore(f"sqlite:///{tmp_path}/roads.db").get("a")
 
 
+async def test_a_second_service_on_the_same_server_is_refused(postgres: Server) -> None:
+    url = await postgres.database()
+    first, second = SqlStore(url), SqlStore(url)
+    await first.open()
+    with pytest.raises(StoreError, match="locked: another service uses it"):
+        await second.open()
+    await first.close()
+    await second.open()
+    await second.close()
+
+
+async def test_a_server_that_is_not_there_is_told_without_a_password() -> None:
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        store = SqlStore(f"postgresql://me:hunter2@127.0.0.1:{free.getsockname()[1]}/roads")
+        with pytest.raises(
+            StoreError, match=r"The database roads on 127\.0\.0\.1 cannot be opened"
+        ) as caught:
+            await store.open()
+    assert "hunter2" not in str(caught.value)
+
+
+async def test_a_lost_connection_is_made_again(postgres: Server) -> None:
+    """One refusal at most; what was acknowledged is there."""
+    url = await postgres.database()
+    store = SqlStore(url)
+    await store.open()
+    await store.create(record("a"), [entry(1)])
+    await postgres.execute(
+        url.rpartition("/")[2],
+        "SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE application_name = 'roadtalk' "
+        f"AND datname = '{url.rpartition('/')[2]}'",
+    )
+    with pytest.raises(StoreError):
+        await store.append("a", entry(2))
+    await store.append("a", entry(2))
+    assert list(await store.entries("a")) == [entry(1), entry(2)]
+    await store.close()
+
+
+async def test_a_table_locked_by_another_is_told_in_time(postgres: Server) -> None:
+    url = await postgres.database()
+    store = SqlStore(url)
+    await store.open()
+    await store.create(record("a"))
+    other = await asyncpg.connect(url)
+    async with other.transaction():
+        await other.execute("LOCK TABLE entries IN ACCESS EXCLUSIVE MODE")
+        with pytest.raises(StoreError, match="lock timeout"):
+            await store.append("a", entry(1))
+    await other.close()
+    await store.append("a", entry(1))
+    assert list(await store.entries("a")) == [entry(1)]
+    await store.close()
+
+
 def test_urls_name_stores() -> None:
+    assert isinstance(open_store("postgresql+asyncpg://me:secret@here/roads"), SqlStore)
     assert isinstance(open_store("memory:"), MemoryStore)
     assert isinstance(open_store("sqlite:///x.db"), SqlStore)
     with pytest.raises(StoreError, match="mongodb"):
