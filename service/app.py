@@ -17,10 +17,14 @@ from fastapi.routing import APIRoute
 from service.api import (
     advice,
     commands,
+    config,
     edges,
     errors,
+    film,
+    forks,
     frames,
     health,
+    links,
     openapi,
     pages,
     parse,
@@ -119,7 +123,20 @@ def create_app(
     app.add_middleware(edges.BodyLimit, most=partial(_body_bytes, settings))
     app.add_middleware(edges.SecurityHeaders)
     errors.install(app)
-    for resource in (sessions, commands, watching, frames, parse, advice, language_route, stream):
+    for resource in (
+        sessions,
+        commands,
+        config,
+        watching,
+        frames,
+        film,
+        parse,
+        advice,
+        language_route,
+        stream,
+        forks,
+        links,
+    ):
         app.include_router(resource.router, prefix=PREFIX)
     app.include_router(health.router)
     openapi.install(app)

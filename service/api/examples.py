@@ -19,6 +19,14 @@ NEW_SESSION: Examples = {
         "value": {"name": "narrow", "config": {"columns": 6, "rows": 20, "potholes": 5}, "paused": True},
     },
 }
+FORK: Examples = {
+    "now": {"summary": "From here", "value": {}},
+    "past": {
+        "summary": "From a tick on, and changed",
+        "value": {"at_tick": 2, "actions": [{"do": "add", "kind": "barrier", "count": 1}], "name": "blocked"},
+    },
+}
+REWIND: Examples = {"tick": {"summary": "Back to tick 2", "value": {"tick": 2}}}
 SAID: Examples = {
     "add": {"summary": "Change the road", "value": {"text": "add five potholes"}},
     "several": {"summary": "Several at once", "value": {"text": "pause and add two cars"}},
@@ -33,6 +41,13 @@ ACTIONS: Examples = {
     "several": {
         "summary": "All or nothing",
         "value": {"actions": [{"do": "pause"}, {"do": "set_count", "kind": "vehicle", "count": 12}]},
+    },
+}
+CONFIG_PATCH: Examples = {
+    "one": {"summary": "One setting", "value": {"courtesy": 0.5}},
+    "several": {
+        "summary": "Several, done together",
+        "value": {"planner": "astar", "preferences": ["avoid_potholes"], "traffic": "heavy"},
     },
 }
 STEP: Examples = {"three": {"summary": "Three ticks", "value": {"ticks": 3}}}

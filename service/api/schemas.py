@@ -171,6 +171,28 @@ class Session(Answered):
     links: dict[str, str]
 
 
+class SavedMoment(Answered):
+    """A moment of a session that was given a name."""
+
+    name: str
+    sequence: int = Field(description="The change that named it.")
+    tick: Tick
+
+
+class SavedMoments(Answered):
+    """Moments with a name, by name."""
+
+    items: list[SavedMoment]
+
+
+class Link(Answered):
+    """A session at a tick as a piece of a URL."""
+
+    link: str = Field(description="`#/r/...` carries the session, `#/s/...` names it.")
+    tick: Tick
+    carries: bool = Field(description="Whether all is in the link, so that it needs no session kept.")
+
+
 class SessionSummary(Answered):
     """A session in a list. One that is not live is brought back when it is asked for."""
 
@@ -239,6 +261,14 @@ class CommandResult(Answered):
     sequence: int
     corrections: list[Correction]
     dry_run: bool
+
+
+class ConfigChanged(Answered):
+    """What a patch of the configuration did."""
+
+    changes: list[Change]
+    reply: str = Field(description="What was done, in a sentence or two.")
+    sequence: int
 
 
 class Saying(Answered):

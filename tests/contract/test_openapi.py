@@ -32,11 +32,13 @@ OPERATIONS = [
     for method, operation in item.items()
 ]
 POSTS = sorted(path for path, item in DOCUMENT["paths"].items() if "post" in item)
+WITH_BODY = ("post", "patch")
 ROUTES = {
     "POST /api/v1/sessions",
     "GET /api/v1/sessions",
     "GET /api/v1/sessions/{session_id}",
     "DELETE /api/v1/sessions/{session_id}",
+    "PATCH /api/v1/sessions/{session_id}/config",
     "POST /api/v1/sessions/{session_id}/commands",
     "POST /api/v1/sessions/{session_id}/actions",
     "POST /api/v1/sessions/{session_id}/step",
@@ -46,7 +48,12 @@ ROUTES = {
     "GET /api/v1/sessions/{session_id}/decisions/{tick}",
     "GET /api/v1/sessions/{session_id}/events",
     "GET /api/v1/sessions/{session_id}/recording",
+    "POST /api/v1/sessions/{session_id}/forks",
+    "POST /api/v1/sessions/{session_id}/rewind",
+    "GET /api/v1/sessions/{session_id}/saved",
+    "GET /api/v1/sessions/{session_id}/link",
     "GET /api/v1/sessions/{session_id}/frame",
+    "GET /api/v1/sessions/{session_id}/film",
     "POST /api/v1/parse",
     "POST /api/v1/advice",
     "GET /api/v1/language",
@@ -57,6 +64,7 @@ MODELS: dict[str, type] = {
     "sessions_make": schemas.Session,
     "sessions_newest": schemas.SessionPage,
     "sessions_look": schemas.Session,
+    "sessions_patch": schemas.ConfigChanged,
     "talking_say": schemas.CommandResult,
     "talking_act": schemas.CommandResult,
     "talking_step": schemas.StepResult,
@@ -69,6 +77,10 @@ MODELS: dict[str, type] = {
     "watching_decision": schemas.Decision,
     "watching_events": schemas.EventPage,
     "watching_recording": bodies.Recording,
+    "time_fork": schemas.Session,
+    "time_rewind": schemas.CommandResult,
+    "time_saved": schemas.SavedMoments,
+    "time_link": schemas.Link,
     "operating_healthz": schemas.Health,
     "operating_readyz": schemas.Ready,
 }
@@ -109,7 +121,7 @@ def test_every_call_is_described(path: str, method: str, operation: Json) -> Non
     for parameter in operation.get("parameters", []):
         assert parameter["schema"]
     body = operation.get("requestBody")
-    assert (body is not None) == (method == "post"), path
+    assert (body is not None) == (method in WITH_BODY), path
     if body:
         assert body["required"]
         assert body["content"]["application/json"]["examples"]
@@ -122,7 +134,7 @@ def test_every_status_says_what_comes_with_it(path: str, method: str, operation:
     expected = set()
     if "{session_id}" in path:
         expected |= {"404", "503"}
-    if method == "post":
+    if method in WITH_BODY:
         expected |= {"400", "413", "415", "422"}
     assert expected <= set(responses)
     for status, response in responses.items():
@@ -146,7 +158,7 @@ def test_every_status_says_what_comes_with_it(path: str, method: str, operation:
 def request_examples() -> Iterator[Any]:
     for parameter in OPERATIONS:
         path, method, operation = parameter.values
-        if method != "post":
+        if method not in WITH_BODY:
             continue
         for name, example in operation["requestBody"]["content"]["application/json"]["examples"].items():
             yield pytest.param(path, operation, example["value"], id=f"{path} {name}")
@@ -166,7 +178,7 @@ async def test_answers_have_the_documented_shape(
 ) -> None:
     identity = await new_session(client)
     body = None
-    if method == "post":
+    if method in WITH_BODY:
         body = next(iter(operation["requestBody"]["content"]["application/json"]["examples"].values()))[
             "value"
         ]
@@ -176,7 +188,7 @@ async def test_answers_have_the_documented_shape(
     if operation["operationId"] in MODELS:
         TypeAdapter(MODELS[operation["operationId"]]).validate_json(answer.content)
     else:
-        assert operation["operationId"] in ("sessions_end", "watching_frame")
+        assert operation["operationId"] in ("sessions_end", "watching_frame", "watching_moving")
 
 
 @pytest.mark.parametrize("path", POSTS)
@@ -194,7 +206,7 @@ async def test_unknown_keys_are_refused_everywhere(client: httpx.AsyncClient, pa
 async def test_an_unknown_session_is_unknown_everywhere(client: httpx.AsyncClient, path: str) -> None:
     for method, operation in DOCUMENT["paths"][path].items():
         body = None
-        if method == "post":
+        if method in WITH_BODY:
             body = next(iter(operation["requestBody"]["content"]["application/json"]["examples"].values()))[
                 "value"
             ]
