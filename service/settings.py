@@ -6,7 +6,9 @@ project reads the environment.
 
 from __future__ import annotations
 
-from pydantic import Field, HttpUrl, SecretStr, ValidationError, field_validator
+from typing import Literal
+
+from pydantic import AliasChoices, Field, HttpUrl, SecretStr, ValidationError, field_validator
 from pydantic_settings import BaseSettings, SettingsConfigDict
 
 
@@ -48,6 +50,16 @@ class Settings(BaseSettings):
         default=1_000, ge=1, le=10_000, description="Ticks one call to `step` may run."
     )
     log_events: int = Field(default=400, ge=10, description="Events a live session keeps for reading back.")
+    max_film_frames: int = Field(default=600, ge=1, le=10_000, description="Frames, and ticks, of one film.")
+    sleep_after_s: float = Field(
+        default=600.0,
+        gt=0,
+        description="Seconds after which a paused session that nobody watches or asks for sleeps.",
+    )
+    sleep_running: bool = Field(
+        default=False,
+        description="Whether running sessions that nobody watches sleep as well; they wake up paused.",
+    )
     max_malformed_messages: int = Field(
         default=20, ge=1, description="Malformed stream messages before the socket is closed."
     )
@@ -78,6 +90,41 @@ class Settings(BaseSettings):
     llm_rephrase: bool = Field(
         default=False, description="Whether a language model may put explanations in other words."
     )
+
+    api_key: SecretStr | None = Field(
+        default=None, description="Key that is asked of everyone; needed to listen beyond this machine."
+    )
+    allowed_hosts: str | None = Field(
+        default=None, description="Further names to be asked under, by commas; loopback names always are."
+    )
+    changes_per_minute: int | None = Field(
+        default=None,
+        ge=1,
+        description="Changing calls of one client in a minute; unset, 600 with a key and any number without.",
+    )
+    max_client_sessions: int | None = Field(
+        default=None, ge=1, description="Sessions one client may have; unset, only the limit of all holds."
+    )
+    max_client_cells: int | None = Field(
+        default=None, ge=12, description="Cells of all roads of one client together; unset, any number."
+    )
+    log_format: Literal["console", "json"] = Field(
+        default="console", description="How log lines are written: `console` for people, or `json`."
+    )
+    workers: int = Field(
+        default=1,
+        validation_alias=AliasChoices("roadtalk_workers", "web_concurrency", "workers"),
+        description="Processes; only 1 is taken, since each would hold some of the sessions.",
+    )
+
+    @field_validator("workers")
+    @classmethod
+    def _one_process(cls, value: int) -> int:
+        if value != 1:
+            raise ValueError(
+                "only 1 can be: sessions live in the memory of one process, so several would each hold some"
+            )
+        return value
 
     @field_validator("llm_base_url")
     @classmethod

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Annotated, cast
 
 from anyio import CapacityLimiter
@@ -10,6 +10,7 @@ from fastapi import Depends
 from starlette.requests import HTTPConnection
 
 from service.api.idempotency import Answers
+from service.api.pixels import Reels
 from service.problems import NotJson
 from service.sessions.clock import Clock
 from service.sessions.manager import SessionManager
@@ -34,6 +35,9 @@ class Context:
     """one picture at a time"""
     answers: Answers
     """what was answered under idempotency keys"""
+    filming: CapacityLimiter = field(default_factory=lambda: CapacityLimiter(1))
+    """one film at a time"""
+    reels: Reels = field(default_factory=Reels)
 
 
 def context_of(connection: HTTPConnection) -> Context:

@@ -22,13 +22,14 @@ from sim.view import encode, render
 router = APIRouter(tags=["watching"], route_class=StrictRoute)
 
 View = Literal["road", "schematic"]
-Format = Literal["png", "jpeg"]
+Format = Literal["png", "jpeg", "webp"]
 
 _PICTURE: dict[int | str, dict[str, Any]] = {
     200: {
         "description": "A picture.",
         "content": {
-            f"image/{form}": {"schema": {"type": "string", "format": "binary"}} for form in ("png", "jpeg")
+            f"image/{form}": {"schema": {"type": "string", "format": "binary"}}
+            for form in ("png", "jpeg", "webp")
         },
     }
 }

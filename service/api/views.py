@@ -27,7 +27,12 @@ def links_json(session_id: str) -> dict[str, str]:
         "decisions",
         "events",
         "recording",
+        "forks",
+        "rewind",
+        "saved",
+        "link",
         "frame",
+        "film",
         "stream",
     )
     return {"self": own, **{part: f"{own}/{part}" for part in parts}, "page": f"/#/s/{session_id}"}

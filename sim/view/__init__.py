@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from sim.world import World
 
 VIEWS = ("road", "schematic")
-FORMATS = ("png", "jpeg")
+FORMATS = ("png", "jpeg", "webp")
 MIN_SIDE_PX = 64
 """The least room for a picture."""
 
@@ -73,7 +73,9 @@ def encode(picture: pygame.Surface, form: str = "png") -> bytes:
     from sim.view.files import encoded
 
     if form not in FORMATS:
-        raise ValueError(f"pictures can be had as {' and '.join(FORMATS)}, not as {form!r}")
+        raise ValueError(
+            f"pictures can be had as {', '.join(FORMATS[:-1])} and {FORMATS[-1]}, not as {form!r}"
+        )
     return encoded(picture, form)
 
 

@@ -162,7 +162,7 @@ def test_what_is_not_offered_is_refused_by_name() -> None:
     run = with_sign(5, 6, "o")
     with pytest.raises(ValueError, match="no view called 'sky'; there are road, schematic"):
         render("sky", run)
-    with pytest.raises(ValueError, match="png and jpeg, not as 'bmp'"):
+    with pytest.raises(ValueError, match="png, jpeg and webp, not as 'bmp'"):
         encode(render("schematic", run), "bmp")
 
 
