@@ -91,7 +91,8 @@ def _path(detail: Any, sent: Any) -> str:
     """Where in what was sent: pydantic also names the types it tried, which nobody wrote."""
     kept = []
     for part in detail["loc"]:
-        if (isinstance(sent, dict) and part in sent) or (isinstance(sent, list) and isinstance(part, int)):
+        inside = isinstance(sent, list) and isinstance(part, int) and part < len(sent)
+        if inside or (isinstance(sent, dict) and part in sent):
             kept.append(str(part))
             sent = sent[part]
     if detail["type"] == "missing" and detail["loc"]:

@@ -398,6 +398,10 @@ class ProblemDocument(Answered):
     status: int
     detail: str
     errors: list[FieldProblemModel]
+    reason: Literal["not_understood", "negation", "empty", "impossible"] | None = Field(
+        None, description="Why a sentence was refused."
+    )
+    source: Literal["grammar", "llm"] | None = Field(None, description="Whose question it is.")
     unparsed: list[str] | None = None
     understood: list[str] | None = None
     suggestions: list[str] | None = None

@@ -139,3 +139,19 @@ def test_the_tree_in_the_docstring_is_the_tree() -> None:
         )
         own_status = "status" in vars(kind)
         assert (str(kind.status) in line) == own_status or kind is problems.Internal
+
+
+async def test_a_list_that_is_too_short_inside_a_list_is_named_by_its_place() -> None:
+    action = {"do": "ask", "about": "what_if", "change": []}
+    app = create_app(
+        Settings(database="memory:"), store=MemoryStore(), language=FewSentences(), clock=HandClock()
+    )
+    transport = httpx.ASGITransport(app)
+    async with (
+        app.router.lifespan_context(app),
+        httpx.AsyncClient(transport=transport, base_url="http://service") as client,
+    ):
+        location = (await client.post("/api/v1/sessions", json={"seed": 1})).headers["location"]
+        answer = await client.post(f"{location}/actions", json={"actions": [action]})
+    assert answer.status_code == 422
+    assert answer.json()["errors"][0]["field"].startswith("actions.0")
