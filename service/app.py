@@ -23,13 +23,17 @@ from service.api import (
     film,
     forks,
     frames,
+    gate,
     health,
     links,
+    metrics,
     openapi,
     pages,
     parse,
     sessions,
+    sse,
     stream,
+    tickets,
     watching,
 )
 from service.api import (
@@ -39,7 +43,9 @@ from service.api.context import Context
 from service.api.idempotency import Answers
 from service.api.views import PREFIX
 from service.llm import LanguageModel, configured
+from service.logs import RequestIds
 from service.narrate import Narrator
+from service.security.guard import Guard
 from service.sessions.clock import Clock, WheelClock
 from service.sessions.manager import SessionManager
 from service.sessions.session import Surroundings
@@ -76,8 +82,10 @@ def create_app(
     `MissingExtraError` where a language model is named and the extra for it is missing.
     """
     settings = settings or Settings()
-    store = store or open_store(settings.database)
-    clock = clock or WheelClock()
+    counted = metrics.Metrics()
+    store = metrics.timed(store or open_store(settings.database), counted.store)
+    clock = clock or WheelClock(late=counted.lateness.observe)
+    guard = Guard(settings)
     words = words or Narrator.load()
     model = model or configured(settings)
     manager = SessionManager(Surroundings(store, clock, words, settings))
@@ -120,8 +128,14 @@ def create_app(
         generate_unique_id_function=_operation_id,
     )
     app.state.context = context
+    app.state.readers = sse.Readers()
+    app.state.guard = guard
+    app.state.metrics = counted
     app.add_middleware(edges.BodyLimit, most=partial(_body_bytes, settings))
+    app.add_middleware(gate.Gate, guard=guard)
     app.add_middleware(edges.SecurityHeaders)
+    app.add_middleware(metrics.Counted, metrics=counted)
+    app.add_middleware(RequestIds)
     errors.install(app)
     for resource in (
         sessions,
@@ -134,11 +148,14 @@ def create_app(
         advice,
         language_route,
         stream,
+        sse,
+        tickets,
         forks,
         links,
     ):
         app.include_router(resource.router, prefix=PREFIX)
     app.include_router(health.router)
+    app.include_router(metrics.router)
     openapi.install(app)
     pages.install(app)
     return app

@@ -4,19 +4,18 @@ from __future__ import annotations
 
 import asyncio
 import gc
-import logging
 import socket
 import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, NoReturn
 
-import structlog
 import typer
 import uvicorn
 from fastapi import FastAPI
 from pydantic import ValidationError
 
+from service import logs
 from service.app import create_app
 from service.commands.doctor import doctor
 from service.commands.listing import sessions
@@ -26,12 +25,13 @@ from service.commands.watching import watch
 from service.language import LanguageDataError
 from service.llm import MissingExtraError
 from service.llm.prompts import PromptError
+from service.security.guard import exposed
 from service.settings import Settings
 from service.store import Store, StoreError, open_store
 from service.version import VERSION
 from sim import planner_names
 
-STOP_S = 2
+STOP_S = 1
 """How long a stopping service waits for requests under way."""
 
 cli = typer.Typer(
@@ -65,6 +65,9 @@ def serve(
     database: Annotated[
         str | None, typer.Option(help="Where sessions are kept. [default: sqlite:///roadtalk.db]")
     ] = None,
+    workers: Annotated[
+        int | None, typer.Option(help="Only 1: several would each hold some of the sessions.")
+    ] = None,
 ) -> None:
     """Run the service and its page until it is told to stop (Ctrl-C).
 
@@ -73,13 +76,17 @@ def serve(
 
     Example: roadtalk serve --port 9000
     """
-    _configure_logging()
-    given = {"host": host, "port": port, "database": database}
+    given = {"host": host, "port": port, "database": database, "workers": workers}
     try:
         settings = Settings(**{name: value for name, value in given.items() if value is not None})  # type: ignore[arg-type]
     except ValidationError as error:
         wrong = error.errors()[0]
-        _fail(f"The setting {wrong['loc'][0]} is not valid: {wrong['msg']}.")
+        said = wrong["msg"].removeprefix("Value error, ")
+        _fail(f"The setting {wrong['loc'][0]} is not valid: {said}.")
+    logs.configure(settings)
+    reason = exposed(settings)
+    if reason is not None:
+        _fail(reason)
     listener = _listener(settings.host, settings.port)
     try:
         store = open_store(settings.database)
@@ -182,6 +189,11 @@ class _Server(uvicorn.Server):
         super().__init__(config)
         self._on_ready = on_ready
 
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        """End the streams of events, which would be waited for, then stop."""
+        self.config.app.state.readers.stop()  # type: ignore[union-attr]
+        await super().shutdown(sockets)
+
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         """Begin to listen, then say so."""
         await super().startup(sockets)
@@ -201,20 +213,6 @@ def _listener(host: str, port: int) -> socket.socket:
         listener.close()
         _fail(f"Port {port} of {host} cannot be listened on: {error.strerror}. Choose another with --port.")
     return listener
-
-
-def _configure_logging() -> None:
-    """Lines for people on standard error. Here and nowhere else: a library does not configure logs."""
-    structlog.configure(
-        processors=[
-            structlog.processors.add_log_level,
-            structlog.processors.TimeStamper(fmt="iso", utc=True),
-            structlog.dev.ConsoleRenderer(colors=sys.stderr.isatty()),
-        ],
-        wrapper_class=structlog.make_filtering_bound_logger(logging.INFO),
-        logger_factory=structlog.PrintLoggerFactory(sys.stderr),
-        cache_logger_on_first_use=True,
-    )
 
 
 def _fail(message: str) -> NoReturn:

@@ -3,7 +3,8 @@
 
     ProblemError                application/problem+json
     ├── Malformed          400  the body is not JSON
-    ├── CrossSite          403  a page of another site opened the stream
+    ├── KeyNeeded          401  no key, or not the right one
+    ├── CrossSite          403  a page of another site asks
     ├── NotFound           404  no such route or resource
     │   ├── UnknownSession
     │   └── UnknownDecision
@@ -12,6 +13,7 @@
     ├── Stale              412  the session was changed since: `sequence`
     ├── TooLarge           413  more bytes than are read
     ├── NotJson            415  the content type is not JSON
+    ├── ForeignHost        421  asked under a name that is not this service's
     ├── Invalid            422  fields out of range or unknown: `errors`
     │   ├── DoesNotFit          the road has no room, or no such thing
     │   ├── NotAvailable        understood, not offered by this version
@@ -23,6 +25,8 @@
     │   ├── KeyReused           an idempotency key that was another request's
     │   └── RecordingMismatch   replayed to another digest than it says
     ├── TooManySessions    429  the limit of live sessions is reached
+    ├── TooManyChanges     429  a client asks too often: `Retry-After`
+    ├── OverQuota          429  a client has as much as it may have
     ├── Internal           500  a defect here; says nothing of its inside
     ├── NotSaved           503  the store did not take it; nothing was changed
     └── NotRestorable      503  what is kept of the session cannot be replayed
@@ -87,8 +91,20 @@ class Malformed(ProblemError):
     status, slug, title = 400, "malformed", "Not readable as JSON"
 
 
+class KeyNeeded(ProblemError):
+    """The service has a key, and the request has not."""
+
+    status, slug, title = 401, "key-needed", "A key is needed"
+
+    def __init__(self) -> None:
+        super().__init__(
+            "Send the service's key as Authorization: Bearer <key>. Nothing was done.",
+            headers={"WWW-Authenticate": "Bearer"},
+        )
+
+
 class CrossSite(ProblemError):
-    """A page of another site tried to open the stream."""
+    """A page of another site tried to change something, or to open the stream."""
 
     status, slug, title = 403, "cross-site", "Refused to a page of another site"
 
@@ -152,6 +168,18 @@ class NotJson(ProblemError):
     """The content type is not JSON."""
 
     status, slug, title = 415, "not-json", "Send JSON"
+
+
+class ForeignHost(ProblemError):
+    """The `Host` header names something else than this service."""
+
+    status, slug, title = 421, "foreign-host", "Not the name of this service"
+
+    def __init__(self) -> None:
+        super().__init__(
+            "The Host header does not name this service. Ask at 127.0.0.1 or localhost; whoever runs it "
+            "can allow other names with ROADTALK_ALLOWED_HOSTS."
+        )
 
 
 class Invalid(ProblemError):
@@ -227,6 +255,24 @@ class TooManySessions(ProblemError):
     status, slug, title = 429, "too-many-sessions", "Too many sessions"
 
 
+class TooManyChanges(ProblemError):
+    """One client changes things faster than is let through."""
+
+    status, slug, title = 429, "too-many-changes", "Too many changes"
+
+    def __init__(self, wait_s: int) -> None:
+        super().__init__(
+            f"Too many changes in a short time; nothing was done. Try again in {wait_s} s.",
+            headers={"Retry-After": str(wait_s)},
+        )
+
+
+class OverQuota(ProblemError):
+    """One client has as many sessions, or as much road, as it may have."""
+
+    status, slug, title = 429, "over-quota", "Quota reached"
+
+
 class Internal(ProblemError):
     """A defect of the service; never says more than that."""
 
@@ -260,6 +306,7 @@ class NotRestorable(ProblemError):
 
 KINDS: tuple[type[ProblemError], ...] = (
     Malformed,
+    KeyNeeded,
     CrossSite,
     NotFound,
     UnknownSession,
@@ -269,6 +316,7 @@ KINDS: tuple[type[ProblemError], ...] = (
     Stale,
     TooLarge,
     NotJson,
+    ForeignHost,
     Invalid,
     DoesNotFit,
     NotAvailable,
@@ -280,6 +328,8 @@ KINDS: tuple[type[ProblemError], ...] = (
     KeyReused,
     RecordingMismatch,
     TooManySessions,
+    TooManyChanges,
+    OverQuota,
     Internal,
     NotSaved,
     NotRestorable,

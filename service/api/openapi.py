@@ -11,7 +11,7 @@ from typing import Any
 
 from fastapi import FastAPI
 
-from service.api import idempotency, preconditions
+from service.api import gate, idempotency, preconditions
 from service.api.errors import documented
 from service.problems import KINDS, MEDIA_TYPE
 
@@ -40,8 +40,9 @@ def _corrected(document: dict[str, Any]) -> dict[str, Any]:
                 for status, response in operation["responses"].items()
                 if not _of_the_framework(response)
             }
-            for headers in (idempotency, preconditions):
+            for headers in (idempotency, preconditions, gate):
                 headers.document(method, path, operation, _add_problems)
+    document["components"]["securitySchemes"] = {"key": {"type": "http", "scheme": "bearer"}}
     for name in _FRAMEWORK_ERRORS:
         document["components"]["schemas"].pop(name, None)
     return document

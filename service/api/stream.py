@@ -2,10 +2,12 @@
 
 The server sends `hello`, then `tick` and `changed` as they happen; a reader that is too slow gets
 a full `state` and is told what it missed. The client sends `command`, `actions` and `ping`, and is
-answered under its own `id`. Nothing a client sends can do more here than over HTTP.
+answered under its own `id`; with `subscribe` it is sent pictures as binary messages
+(`service.api.pixels`), until `unsubscribe`. Nothing a client sends can do more here than over HTTP.
 
-A reader that comes back after a loss says `?after=<sequence>`, the last change it saw. It needs no
-other answer than anyone: `hello` brings the whole state and the latest lines of the log, numbered.
+A reader that comes back after a loss says `?after=<event>`, the `event` of the last message it saw, and is
+sent only what it missed, if that is still kept. Otherwise, as to anyone, `hello` brings the whole state and
+the latest lines of the log, numbered.
 
 Codes it closes with: 1000 the session was deleted, 1008 too many malformed messages, 1009 a
 message too large (by the server itself), 1012 the service stops, 4404 no such session.
@@ -14,7 +16,8 @@ message too large (by the server itself), 1012 the service stops, 4404 no such s
 from __future__ import annotations
 
 import asyncio
-from typing import Annotated, Any, Literal
+from contextlib import suppress
+from typing import Annotated, Any, Literal, TypeAlias
 from urllib.parse import urlsplit
 
 import orjson
@@ -24,17 +27,19 @@ from pydantic import Discriminator, Field, TypeAdapter, ValidationError
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from service.actions import Action
+from service.api import pixels
 from service.api.bodies import MAX_ACTIONS, Sent, Strictly
 from service.api.context import Context, context_of
 from service.api.errors import field_problems, invalid
 from service.api.respond import problem_response
 from service.api.speech import result_json
+from service.api.tickets import admitted
 from service.api.views import session_json, told_decision
 from service.problems import CrossSite, Internal, Malformed, ProblemError
 from service.sessions.messages import hello_message, state_message
 from service.sessions.session import Session
 from service.sessions.utterance import Utterance
-from service.sessions.watchers import Gone, Missed, Watcher
+from service.sessions.watchers import Gone, Missed, Watcher, stamped
 from service.talk.languages import DEFAULT
 from service.wire.encode import encoded
 
@@ -73,9 +78,24 @@ class Ping(Sent):
     type: Literal["ping"]
 
 
-_MESSAGE: TypeAdapter[Command | Actions | Ping] = TypeAdapter(
-    Annotated[Command | Actions | Ping, Discriminator("type")]
-)
+class Subscribe(Sent):
+    """Show me pictures as well; a second one takes the place of the first."""
+
+    type: Literal["subscribe"]
+    frames: pixels.Form
+    view: pixels.View = "road"
+    fps: int = Field(30, ge=1, le=60)
+    side: int = Field(480, ge=64, le=1080)
+
+
+class Unsubscribe(Sent):
+    """No more pictures."""
+
+    type: Literal["unsubscribe"]
+
+
+Message: TypeAlias = Command | Actions | Ping | Subscribe | Unsubscribe
+_MESSAGE: TypeAdapter[Message] = TypeAdapter(Annotated[Message, Discriminator("type")])
 
 
 @router.websocket("/sessions/{session_id}/stream")
@@ -86,6 +106,8 @@ async def stream(socket: WebSocket, session_id: str) -> None:
         await socket.send_denial_response(problem_response(refusal))
         return
     await socket.accept()
+    if not await admitted(socket):
+        return
     context = context_of(socket)
     try:
         session = await context.manager.get(session_id)
@@ -93,21 +115,52 @@ async def stream(socket: WebSocket, session_id: str) -> None:
         await _send(socket, _error(problem))
         await socket.close(4404 if problem.status == 404 else 1013)
         return
-    watcher = session.watchers.join()
+    missed = session.watchers.missed(socket.query_params.get("after", ""))
+    watcher = session.watchers.join(missed or ())
+    first = hello(context, session) if missed is None else None
     # Two tasks for a socket: a reader that answers, and a writer that passes on what is published.
-    writer = asyncio.create_task(_write(socket, session, watcher, _hello(context, session)))
+    writer = asyncio.create_task(_write(socket, session, watcher, first))
+    screen = _Screen(socket, context, session)
     try:
-        await _read(socket, context, session)
+        await _read(socket, context, session, screen)
     finally:
         session.watchers.leave(watcher)
+        screen.dark()
         writer.cancel()
         await asyncio.wait([writer])
 
 
-async def _write(socket: WebSocket, session: Session, watcher: Watcher, hello: bytes) -> None:
+class _Screen:
+    """Where one socket is sent pictures, once it has asked for them."""
+
+    def __init__(self, socket: WebSocket, context: Context, session: Session) -> None:
+        self._socket, self._context, self._session = socket, context, session
+        self._task: asyncio.Task[None] | None = None
+
+    def show(self, asked: Subscribe) -> None:
+        """These pictures from now on, and no others."""
+        self.dark()
+        self._task = asyncio.create_task(self._show(asked))
+
+    def dark(self) -> None:
+        """No more pictures."""
+        if self._task is not None:
+            self._task.cancel()
+            self._task = None
+
+    async def _show(self, asked: Subscribe) -> None:
+        wanted = pixels.Wanted(asked.view, asked.frames, asked.side)
+        with suppress(WebSocketDisconnect, RuntimeError):  # the client has gone; the reader hears of it
+            await self._context.reels.pass_on(
+                self._session, wanted, asked.fps, self._context.drawing, self._socket.send_bytes
+            )
+
+
+async def _write(socket: WebSocket, session: Session, watcher: Watcher, first: bytes | None) -> None:
     """Pass on what is published, at the pace of whoever reads."""
     try:
-        await _send(socket, hello)
+        if first is not None:
+            await _send(socket, first)
         while True:
             heard = await watcher.next()
             match heard:
@@ -116,7 +169,8 @@ async def _write(socket: WebSocket, session: Session, watcher: Watcher, hello: b
                     await socket.close(1000)
                     return
                 case Missed():
-                    await _send(socket, state_message(session.standing, session.run, heard))
+                    state = state_message(session.standing, session.run, heard)
+                    await _send(socket, stamped(state, session.watchers.event))
                 case notices:
                     for notice in notices:
                         await _send(socket, notice.data)
@@ -125,7 +179,7 @@ async def _write(socket: WebSocket, session: Session, watcher: Watcher, hello: b
         return
 
 
-async def _read(socket: WebSocket, context: Context, session: Session) -> None:
+async def _read(socket: WebSocket, context: Context, session: Session, screen: _Screen) -> None:
     """Answer what the client sends, in its order, until it goes or sends too much rubbish."""
     malformed = 0
     while malformed < context.settings.max_malformed_messages:
@@ -138,11 +192,11 @@ async def _read(socket: WebSocket, context: Context, session: Session) -> None:
             malformed += 1
             await _send(socket, _error(problem))
         else:
-            await _send(socket, await _answer(context, session, message))
+            await _send(socket, await _answer(context, session, message, screen))
     await socket.close(1008, "too many malformed messages")
 
 
-def _message(text: str | None) -> Command | Actions | Ping:
+def _message(text: str | None) -> Message:
     """What was sent. Raises `Malformed` or `Invalid`."""
     if text is None:
         raise Malformed("Messages are text, not binary.")
@@ -156,9 +210,15 @@ def _message(text: str | None) -> Command | Actions | Ping:
         raise invalid(field_problems(error.errors(), values)) from error
 
 
-async def _answer(context: Context, session: Session, message: Command | Actions | Ping) -> bytes:
+async def _answer(context: Context, session: Session, message: Message, screen: _Screen) -> bytes:
     """The answer to one message, under its id."""
     match message:
+        case Subscribe():
+            screen.show(message)
+            return encoded(message.model_dump() | {"type": "subscribed"})
+        case Unsubscribe():
+            screen.dark()
+            return encoded({"type": "unsubscribed"})
         case Ping():
             return encoded({"type": "pong"})
         case Command() | Actions():
@@ -184,12 +244,14 @@ async def _done(context: Context, session: Session, message: Command | Actions) 
     return result_json(outcome, heard, message.dry_run)
 
 
-def _hello(context: Context, session: Session) -> bytes:
+def hello(context: Context, session: Session) -> bytes:
+    """The first message: all there is to go on from."""
     latest = session.latest_decision()
     decision = told_decision(context.words, latest[1], latest[0]) if latest else None
     log = session.log.latest(HELLO_EVENTS)
     sentence = context.listener.sentence(session.run.config)
-    return hello_message(session_json(session, sentence), session.state(), log, decision, session.sequence)
+    told = hello_message(session_json(session, sentence), session.state(), log, decision, session.sequence)
+    return stamped(told, session.watchers.event)
 
 
 def _same_site(socket: WebSocket) -> bool:

@@ -93,11 +93,14 @@ class Lateness:
 class WheelClock:
     """The clock of a running service, on the event loop's timer.
 
-    `now` answers seconds that never run backwards.
+    `now` answers seconds that never run backwards; `late` is told the lateness of every tick in seconds.
     """
 
-    def __init__(self, now: Callable[[], float] = time.monotonic) -> None:
+    def __init__(
+        self, now: Callable[[], float] = time.monotonic, late: Callable[[float], None] | None = None
+    ) -> None:
         self._now = now
+        self._late = late
         self._loop: asyncio.AbstractEventLoop | None = None
         self._due: dict[Ticker, float] = {}
         self._slots: dict[int, list[Ticker]] = {}
@@ -191,6 +194,8 @@ class WheelClock:
         self._arm()
 
     def _record(self, lateness_s: float) -> None:
+        if self._late is not None:
+            self._late(lateness_s)
         if len(self._samples) < LATENESS_KEPT:
             self._samples.append(lateness_s)
         else:

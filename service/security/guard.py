@@ -1,0 +1,59 @@
+"""All that guards one service, made from its settings."""
+
+from __future__ import annotations
+
+from typing import Any, cast
+
+from starlette.requests import HTTPConnection
+
+from service.problems import TooManyChanges
+from service.security.bucket import Buckets
+from service.security.hosts import Hosts, loopback
+from service.security.key import Key
+from service.security.quotas import Quotas
+from service.security.tickets import Tickets
+from service.settings import Settings
+
+STRANGERS_PER_MINUTE = 600
+"""Changing calls of one client in a minute where the service has a key and nothing else was said."""
+
+
+class Guard:
+    """Key, tickets, hosts, buckets and quotas."""
+
+    def __init__(self, settings: Settings) -> None:
+        self.key = Key(settings.api_key)
+        self.tickets = Tickets()
+        self.hosts = Hosts(settings.allowed_hosts or "")
+        per_minute = settings.changes_per_minute
+        if per_minute is None and self.key.asked:
+            per_minute = STRANGERS_PER_MINUTE
+        self.buckets = Buckets(per_minute)
+        self.quotas = Quotas(settings.max_client_sessions, settings.max_client_cells)
+
+    def count_change(self, client: str) -> None:
+        """One more change of a client. Raises `TooManyChanges`."""
+        wait = self.buckets.take(client)
+        if wait:
+            raise TooManyChanges(wait)
+
+
+def guard_of(connection: HTTPConnection) -> Guard:
+    """The guard of the service that a request or socket belongs to."""
+    return cast(Guard, connection.app.state.guard)
+
+
+def client_of(scope: Any) -> str:
+    """Who asks: the address. One key is shared by all who have it, so it tells nobody apart."""
+    client = scope.get("client")
+    return "" if client is None else str(client[0])
+
+
+def exposed(settings: Settings) -> str | None:
+    """Why the service must not start like this: strangers could reach it, and no key is set."""
+    if loopback(settings.host) or Key(settings.api_key).asked:
+        return None
+    return (
+        f"{settings.host} can be reached from other machines, so a key is needed: set ROADTALK_API_KEY, "
+        "or listen on 127.0.0.1."
+    )
