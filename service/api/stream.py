@@ -36,6 +36,7 @@ from service.api.speech import result_json
 from service.api.tickets import admitted
 from service.api.views import session_json, told_decision
 from service.problems import CrossSite, Internal, Malformed, ProblemError
+from service.security.guard import client_of, guard_of
 from service.sessions.messages import hello_message, state_message
 from service.sessions.session import Session
 from service.sessions.utterance import Utterance
@@ -192,7 +193,7 @@ async def _read(socket: WebSocket, context: Context, session: Session, screen: _
             malformed += 1
             await _send(socket, _error(problem))
         else:
-            await _send(socket, await _answer(context, session, message, screen))
+            await _send(socket, await _answer(socket, context, session, message, screen))
     await socket.close(1008, "too many malformed messages")
 
 
@@ -210,7 +211,9 @@ def _message(text: str | None) -> Message:
         raise invalid(field_problems(error.errors(), values)) from error
 
 
-async def _answer(context: Context, session: Session, message: Message, screen: _Screen) -> bytes:
+async def _answer(
+    socket: WebSocket, context: Context, session: Session, message: Message, screen: _Screen
+) -> bytes:
     """The answer to one message, under its id."""
     match message:
         case Subscribe():
@@ -223,6 +226,7 @@ async def _answer(context: Context, session: Session, message: Message, screen: 
             return encoded({"type": "pong"})
         case Command() | Actions():
             try:
+                guard_of(socket).count_change(client_of(socket.scope))
                 result = await _done(context, session, message)
             except ProblemError as problem:
                 return encoded({"type": "problem", "id": message.id, "problem": problem.document()})
