@@ -122,6 +122,21 @@ class Timeline:
             if run.world.tick % self._interval == 0 and run.world.tick > self._snapshots[-1].tick:
                 self._snapshots.append(_Snapshot(run.world.tick, run, position))
 
+    def rewind(self, tick: int) -> None:
+        """Make a past tick the present; what was said or happened after it is gone. Raises `IndexError`."""
+        run = self.at(tick)
+        if tick == self.tick:
+            return
+        self.run = run
+        self.entries = self.entries[: bisect_right(self.entries, tick, key=lambda entry: entry.tick)]
+        self._snapshots = [shot for shot in self._snapshots if shot.tick <= tick]
+        self._recent.clear()
+
+    def ticks_to(self, tick: int) -> int:
+        """How many ticks are run again to know the state at a past one. Raises `IndexError`."""
+        self._check(tick)
+        return tick - self._nearest(tick)[0].world.tick
+
     def at(self, tick: int) -> Run:
         """The state at a past tick, after the actions of that tick. Raises `IndexError`."""
         self._check(tick)

@@ -68,6 +68,26 @@ class NewSession(Sent):
         None, description="Default: running, or paused when replayed from a recording."
     )
     recording: Recording | None = Field(None, description="Replay this; alone but for name and paused.")
+    link: str | None = Field(
+        None, max_length=4_096, description="Open this; alone but for name and paused. See `link`."
+    )
+
+
+class NewFork(Sent):
+    """How another session goes on from a tick of this one."""
+
+    at_tick: Tick | None = Field(None, description="Default: now.")
+    actions: Strictly[list[Action]] | None = Field(
+        None, max_length=MAX_ACTIONS, description="Done there first, together or the fork is not made."
+    )
+    name: str | None = Field(None, min_length=1, max_length=80)
+    paused: bool | None = Field(None, description="Default: as this session is.")
+
+
+class RewindTo(Sent):
+    """Where to go back to."""
+
+    tick: Tick
 
 
 class Said(Sent):

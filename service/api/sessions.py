@@ -11,6 +11,7 @@ from service import actions as contract
 from service.api import bodies, examples, schemas
 from service.api.context import JSON_ONLY, Context, Here, TheSession
 from service.api.errors import documented, invalid
+from service.api.links import Named, opened
 from service.api.preconditions import kept_answer, made_once, matched
 from service.api.respond import StrictRoute, etag, json_response
 from service.api.views import links_json, session_json, summary_json
@@ -59,8 +60,10 @@ router = APIRouter(tags=["sessions"], route_class=StrictRoute)
         NotAvailable,
         NotUnderstood,
         RecordingMismatch,
+        UnknownSession,
         TooManySessions,
         NotSaved,
+        NotRestorable,
     ),
 )
 async def make(
@@ -71,7 +74,7 @@ async def make(
     """A new road with a vehicle on it, running unless `paused`.
 
     `scenario` is a sentence; `config` any part of the configuration. With `recording` a session is
-    replayed to the digest it names.
+    replayed to the digest it names; a `link` opens what it carries, or forks the session it names.
     """
 
     @made_once
@@ -80,7 +83,14 @@ async def make(
         return json_response(session_json(session, here.listener.sentence(session.run.config)), 201, headers)
 
     answer = kept_answer(request, told)
-    if body.recording is None:
+    recording, named = _linked(here.settings, body)
+    if named is not None:
+        paused = body.paused is not False
+        parent = await here.manager.get(named.session)
+        session = await here.manager.fork(
+            parent, named.tick, name=body.name, paused=paused, answer=answer, field="link"
+        )
+    elif recording is None:
         config = await _config(here, body)
         try:
             session = await here.manager.create(body.name, config, paused=bool(body.paused), answer=answer)
@@ -89,9 +99,9 @@ async def make(
                 FieldProblem(f"config.{each.field}", each.message) for each in error.problems
             ) from error
     else:
-        config, recorded = _recorded(here.settings, body, body.recording)
+        config, recorded = _recorded(here.settings, body, recording)
         session = await here.manager.create(
-            body.name or body.recording.name,
+            body.name or recording.name,
             config,
             paused=body.paused is not False,
             recorded=recorded,
@@ -204,6 +214,18 @@ def _check_available(missing: Problem | None, field: str) -> None:
         raise NotAvailable(sentence, errors=[FieldProblem(field, sentence)])
 
 
+def _linked(settings: Settings, body: bodies.NewSession) -> tuple[bodies.Recording | None, Named | None]:
+    """The recording that was sent or is in a link, or what a link names."""
+    if body.link is None:
+        return body.recording, None
+    names = ("scenario", "config", "seed", "planner", "recording")
+    beside = [name for name in names if getattr(body, name) is not None]
+    if beside:
+        raise invalid(FieldProblem(name, "cannot stand beside a link") for name in beside)
+    found = opened(body.link, settings.max_recording_bytes)
+    return (None, found) if isinstance(found, Named) else (found, None)
+
+
 def _recorded(
     settings: Settings, body: bodies.NewSession, recording: bodies.Recording
 ) -> tuple[Config, Recorded]:
@@ -213,9 +235,10 @@ def _recorded(
         raise invalid(FieldProblem(name, "cannot stand beside a recording") for name in beside)
     if recording.tick > settings.max_recording_ticks:
         raise invalid([FieldProblem("recording.tick", f"is more than {settings.max_recording_ticks}")])
-    late = [str(number) for number, entry in enumerate(recording.entries) if entry.tick > recording.tick]
+    most = settings.max_recording_ticks
+    late = [number for number, entry in enumerate(recording.entries) if entry.tick > most]
     if late:
-        raise invalid(FieldProblem(f"recording.entries.{number}.tick", "is after the end") for number in late)
+        raise invalid(FieldProblem(f"recording.entries.{each}.tick", f"is more than {most}") for each in late)
     try:
         config = Config().with_parts(**recording.config)
     except ConfigError as error:

@@ -6,6 +6,7 @@ from service.narrate.sayings import Sayings
 from service.sessions.facts import Advised, Asked, Fact, Lesson, PauseSet, Stepped, Undone, changes_of
 from service.sessions.pace import PaceSet
 from service.sessions.pace import said as said_pace
+from service.sessions.saved import Kept, Went
 from sim.actions import Add, Adjust, Drive, Prefer, Remove, Reset, Scenario, Set, SetCount, SetMode
 from sim.edit import Applied, Change
 from sim.events import EventType
@@ -56,6 +57,14 @@ class Replies:
                 key = "redo" if fact.again else "undo"
                 told = self._diff(fact.changes)
                 return self._say(key, diff=told) if told else self._say(f"{key}_plain")
+            case Kept(name=name, tick=tick, again=again):
+                return self._say("saved_again" if again else "saved", name=name, tick=tick)
+            case Went(name=name, tick=tick):
+                return (
+                    self._say("rewound", tick=tick)
+                    if name is None
+                    else self._say("loaded", name=name, tick=tick)
+                )
             case Asked() | Advised():
                 return ""
 

@@ -30,6 +30,9 @@ _OFFERED = frozenset(
         "step",
         "undo",
         "redo",
+        "rewind",
+        "save",
+        "load",
         "teach",
         "forget",
         "advise",
@@ -41,11 +44,8 @@ _NO_WORLD = frozenset(("show", "hide", "evaluate", "find_worst", "advise", "save
 _NAMES = {
     "show": "Other views than the road",
     "hide": "Other views than the road",
-    "rewind": "Going back in time",
     "evaluate": "Running many episodes to compare planners",
     "find_worst": "Searching for the hardest road",
-    "save": "Saving under a name",
-    "load": "Loading what was saved",
     "record": "Recording pictures",
 }
 
@@ -73,7 +73,7 @@ def refusal(action: Action) -> str | None:
 
 def _imagined(action: Action) -> str | None:
     """Why nobody can be asked what if to an action; what touches no world may be, and makes no difference."""
-    if action.do in ("undo", "redo"):
+    if action.do in ("undo", "redo", "rewind", "load"):
         return _sentence("Asking what if something were taken back")
     return None if action.do in _NO_WORLD else refusal(action)
 

@@ -54,8 +54,6 @@ from sim.run import Run
 from sim.timeline import PlannerSilentError, Timeline
 
 WORLD_ACTIONS = (Add, Remove, SetCount, Scenario, Reset, SetMode, Drive, Set, Adjust, Prefer)
-
-
 STEPS = (*WORLD_ACTIONS, Rewind, Load)
 """Actions that are a step to undo."""
 
@@ -68,17 +66,19 @@ class Draft:
         self.paused = paused
         self.pace = pace
         self.history = history.copy()
+        self._jumped = False
         self._open = _Mark(self.timeline, paused)
 
     def perform(self, sequence: int, actions: Sequence[Action]) -> tuple[Fact, ...]:
         """Do the actions of one utterance. Raises a `ProblemError` naming the first that cannot be."""
         earlier, began = self.history.copy(), _Mark(self.timeline, self.paused)
         self._open = _Mark(self.timeline, self.paused)
+        self._jumped = False
         facts = []
         for position, action in enumerate(actions):
             facts.append(self._do(sequence, position, action))
             began.kept = min(began.kept, self._open.kept)
-            began.jumped = began.jumped or self._open.jumped
+            began.jumped = began.jumped or self._jumped
         if any(isinstance(action, STEPS) and not sets_pace(action) for action in actions):
             # Whatever it undid on the way, the utterance is one step.
             earlier.saved = self.history.saved
@@ -221,7 +221,7 @@ class Draft:
 
     def _went(self, before: Run, kept: int, name: str | None = None) -> Went:
         self._open.kept = min(self._open.kept, kept)
-        self._open.jumped = True
+        self._open.jumped = self._jumped = True
         run = self.timeline.run
         return Went(before.world.tick, run.world.tick, differences(before, run), name)
 
@@ -256,7 +256,7 @@ class Draft:
 
 
 class _Mark:
-    """A timeline as it once was, how many of its first entries are untouched since, and whether time moved."""
+    """A timeline as it was, how many of its first entries are untouched since, and whether time moved."""
 
     def __init__(self, timeline: Timeline, paused: bool, kept: int | None = None) -> None:
         self.timeline = timeline.copy()

@@ -7,6 +7,7 @@ from typing import TypeAlias
 
 from service.actions import Ask
 from service.sessions.pace import PaceSet
+from service.sessions.saved import Kept, Went
 from sim.advice import Advice
 from sim.edit import Applied, Change
 from sim.run import Run, Tick
@@ -68,7 +69,7 @@ class Lesson:
 Answerable: TypeAlias = Asked | Advised
 """What is answered, and changes nothing."""
 
-Fact: TypeAlias = Applied | PauseSet | PaceSet | Stepped | Undone | Answerable
+Fact: TypeAlias = Applied | PauseSet | PaceSet | Stepped | Undone | Kept | Went | Answerable
 
 
 def changes_of(facts: tuple[Fact, ...]) -> tuple[Change, ...]:
@@ -102,5 +103,7 @@ def _changes(fact: Fact) -> tuple[Change, ...]:
             return (Change("playback_speed", fact.before, fact.after),)
         case Stepped():
             return (Change("tick", fact.first_tick, fact.first_tick + len(fact.ticks)),)
-        case Asked() | Advised():
+        case Went():
+            return (Change("tick", fact.before, fact.tick), *fact.changes)
+        case Asked() | Advised() | Kept():
             return ()

@@ -9,12 +9,14 @@ from __future__ import annotations
 import asyncio
 import secrets
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from datetime import UTC, datetime
 
 import structlog
 from anyio import to_thread
 
+from service import actions as contract
+from service.actions import Action
 from service.problems import (
     FieldProblem,
     Invalid,
@@ -24,9 +26,13 @@ from service.problems import (
     TooManySessions,
     UnknownSession,
 )
+from service.sessions.draft import check_ticks
+from service.sessions.forking import way_to
+from service.sessions.pace import NORMAL
 from service.sessions.session import ReplayError, Session, Surroundings
 from service.sessions.terms import ANY_TERMS, Terms
 from service.store import EntryRecord, KeptAnswer, SessionRecord, StoreError
+from sim.actions import Set
 from sim.config import Config, ConfigError
 from sim.timeline import Timeline
 
@@ -107,6 +113,68 @@ class SessionManager:
         session.set_paused(paused)
         return session
 
+    async def fork(
+        self,
+        parent: Session,
+        at_tick: int | None,
+        actions: tuple[Action, ...] = (),
+        *,
+        name: str | None = None,
+        paused: bool | None = None,
+        answer: Callable[[Session], KeptAnswer] | None = None,
+        field: str = "at_tick",
+    ) -> Session:
+        """A new session that is `parent` up to a tick, and then changed; stored.
+
+        Raises a `ProblemError`; for a tick that has not come yet it names `field`.
+        """
+        check_ticks(actions, self._around.settings.max_step_ticks)
+        now = parent.timeline.tick
+        tick = now if at_tick is None else at_tick
+        if tick > now:
+            message = f"has not come yet: it is tick {now}"
+            raise Invalid(f"{field}: {message}.", errors=[FieldProblem(field, message)])
+        self._check_room()
+        self._making += 1
+        try:
+            pace, begins = parent.pace, parent.paused if paused is None else paused
+            way = await to_thread.run_sync(way_to, parent.timeline.copy(), tick, begins)
+            record = SessionRecord(
+                id=secrets.token_urlsafe(16),
+                name=name,
+                created_at=datetime.now(UTC),
+                config=parent.record.config,
+                paused=begins,
+                tick=tick,
+            )
+            session = Session(record, way.timeline, self._around)
+            session.begin_with(way.timeline, way.history, len(way.records))
+            said = [] if pace == NORMAL else [(Set(parameter="playback_speed", value=pace),)]
+            entries = list(way.records)
+            for each in (*said, *((actions,) if actions else ())):
+                entries.append(
+                    EntryRecord(
+                        sequence=session.sequence + 1,
+                        tick=session.timeline.tick,
+                        text=None,
+                        actions=contract.dump(each),
+                    )
+                )
+                await to_thread.run_sync(session.repeat, entries[-1])
+            session.record = replace(record, tick=session.timeline.tick)
+            session.paused = session.paused if paused is None else paused
+            kept = () if answer is None else (answer(session),)
+            try:
+                session.record = await self._around.store.create(session.record, entries, *kept)
+            except StoreError as error:
+                _LOG.error("a fork was not saved", error=str(error))
+                raise NotSaved from error
+        finally:
+            self._making -= 1
+        self._live[session.id] = session
+        session.set_paused(session.paused)
+        return session
+
     async def get(self, session_id: str) -> Session:
         """The session with this id, brought back if need be. Raises `UnknownSession`."""
         live = self._live.get(session_id)
@@ -179,12 +247,16 @@ class SessionManager:
 
     async def _replay(self, session: Session, recorded: Recorded) -> None:
         try:
-            await to_thread.run_sync(session.replay, recorded.entries, recorded.tick)
+            most = self._around.settings.max_recording_ticks
+            await to_thread.run_sync(session.replay, recorded.entries, recorded.tick, most)
         except ReplayError as error:
             field = f"recording.entries.{error.position}"
             raise Invalid(
                 "The recording cannot be replayed.", errors=[FieldProblem(field, str(error))]
             ) from error
+        if session.timeline.tick != recorded.tick:
+            ends = session.timeline.tick
+            raise RecordingMismatch(f"Replayed, it ends at tick {ends}, not at {recorded.tick}.")
         digest = session.run.world.digest()
         if digest != recorded.digest:
             raise RecordingMismatch(

@@ -23,7 +23,7 @@ from service.problems import Invalid, NotSaved, ProblemError, UnknownSession
 from service.sessions.availability import refusal
 from service.sessions.clock import Clock
 from service.sessions.conversation import Conversation
-from service.sessions.draft import Draft, check_ticks
+from service.sessions.draft import Draft, check_ticks, ticks_to_run
 from service.sessions.facts import Answerable, Asked, Fact, changes_of, happened_in
 from service.sessions.history import History
 from service.sessions.later import Later
@@ -353,20 +353,30 @@ class Session:
 
     # Replay
 
-    def replay(self, entries: Sequence[EntryRecord], tick: int) -> None:
+    def begin_with(self, timeline: Timeline, history: History, sequence: int) -> None:
+        """Begin where another session's log has led to; for a session that nobody else has yet."""
+        self.timeline, self.history, self.sequence = timeline, history, sequence
+
+    def replay(self, entries: Sequence[EntryRecord], tick: int, most: int | None = None) -> None:
         """Do again what was done, and run on to `tick`; the session then stands paused.
 
-        For a session that nobody else has yet, in any thread. Raises `ReplayError`.
+        For a session that nobody else has yet, in any thread. Raises `ReplayError`, also where more than
+        `most` ticks would have to be run: with going back, they may be more than where it ends.
         """
+        ticks = 0
         for position, entry in enumerate(entries):
             try:
-                self._replay(entry)
+                ticks += max(0, entry.tick - self.timeline.tick) + ticks_to_run(contract.load(entry.actions))
+                if most is not None and ticks > most:
+                    raise Invalid(f"More than {most} ticks would have to be run.")
+                self.repeat(entry)
             except (ProblemError, ValidationError) as error:
                 raise ReplayError(position, str(error)) from error
         self._run_to(tick)
         self.paused = True
 
-    def _replay(self, entry: EntryRecord) -> None:
+    def repeat(self, entry: EntryRecord) -> None:
+        """Do one kept utterance again. Raises `ProblemError`, or pydantic's `ValidationError`."""
         if entry.tick < self.timeline.tick or entry.sequence != self.sequence + 1:
             raise Invalid(f"Entry {entry.sequence} at tick {entry.tick} is out of order.")
         self._run_to(entry.tick)

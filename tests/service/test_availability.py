@@ -36,6 +36,9 @@ OFFERED: list[dict[str, Any]] = [
     {"do": "step", "ticks": 2},
     {"do": "undo"},
     {"do": "redo"},
+    {"do": "rewind", "ticks": 2},
+    {"do": "save", "name": "monday"},
+    {"do": "load", "name": "monday"},
     {"do": "ask", "about": "why"},
     {"do": "ask", "about": "why_not", "move": "left"},
     {"do": "ask", "about": "status"},
@@ -60,11 +63,8 @@ REFUSED: list[dict[str, Any]] = [
     {"do": "set", "parameter": "weather", "value": "rain"},
     {"do": "show", "view": "log"},
     {"do": "hide", "view": "log"},
-    {"do": "rewind", "ticks": 2},
     {"do": "evaluate", "runs": 5},
     {"do": "find_worst"},
-    {"do": "save", "name": "monday"},
-    {"do": "load", "name": "monday"},
     {"do": "record", "on": True},
     {"do": "add", "kind": "av", "count": 1},
     {"do": "remove", "kind": "av", "count": "all"},
@@ -74,6 +74,7 @@ REFUSED: list[dict[str, Any]] = [
     )),
     {"do": "ask", "about": "what_if", "change": [{"do": "set", "parameter": "weather", "value": "rain"}]},
     {"do": "ask", "about": "what_if", "change": [{"do": "pause"}, {"do": "undo"}]},
+    {"do": "ask", "about": "what_if", "change": [{"do": "rewind", "ticks": 2}]},
 ]  # fmt: skip
 
 
@@ -90,6 +91,10 @@ def test_what_is_offered_is_done(action: dict[str, Any]) -> None:
     draft.perform(1, contract.load([{"do": "add", "kind": "barrier", "count": 1}]))
     if action["do"] == "redo":
         draft.perform(2, contract.load([{"do": "undo"}]))
+    if action["do"] == "rewind":
+        draft.perform(2, contract.load([{"do": "step", "ticks": 2}]))
+    if action["do"] == "load":
+        draft.perform(2, contract.load([{"do": "save", "name": "monday"}]))
     (fact,) = draft.perform(3, (loaded,))
     assert fact is not None
 

@@ -164,7 +164,7 @@ async def test_refusals_come_under_their_id(live: Live) -> None:
                 ({"type": "command", "text": "slow down"}, "ambiguous"),
                 ({"type": "command", "text": "x" * 501}, "invalid"),
                 ({"type": "actions", "actions": [{"do": "redo"}]}, "nothing-to-undo"),
-                ({"type": "actions", "actions": [{"do": "rewind", "ticks": 3}]}, "not-available"),
+                ({"type": "actions", "actions": [{"do": "record", "on": True}]}, "not-available"),
             ]
         ):
             await send(stream, id=str(number), **message)

@@ -202,7 +202,7 @@ async def test_what_is_not_available_is_refused_all_the_same(
         ([{"do": "set", "parameter": "weather", "value": "snow"}], "not-available"),
         ([{"do": "pause"}, {"do": "remove", "kind": "barrier", "count": 3}], "does-not-fit"),
         ([{"do": "undo"}], "nothing-to-undo"),
-        ([{"do": "save", "name": "x"}], "not-available"),
+        ([{"do": "load", "name": "x"}], "unknown-name"),
         ([{"do": "pause"}, {"do": "teach", "phrase": "x", "meaning": [{"do": "pause"}]}], "invalid"),
     ],
 )

@@ -1,0 +1,105 @@
+"""Time walked from outside: `forks`, `rewind`, `saved`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import APIRouter, Body, Request, Response
+
+from service.api import bodies, examples, schemas
+from service.api.context import JSON_ONLY, Here, TheSession
+from service.api.errors import documented
+from service.api.preconditions import TheTerms, kept_answer, made_once
+from service.api.respond import StrictRoute, etag, json_response
+from service.api.speech import result_json
+from service.api.views import links_json, session_json
+from service.problems import (
+    DoesNotFit,
+    Invalid,
+    Malformed,
+    NotAvailable,
+    NothingToUndo,
+    NotJson,
+    NotRestorable,
+    NotSaved,
+    TooLarge,
+    TooManySessions,
+    UnknownName,
+    UnknownSession,
+)
+from service.sessions.rewinding import to_tick
+from service.sessions.session import Session
+from service.sessions.utterance import Outcome
+
+router = APIRouter(tags=["time"], route_class=StrictRoute)
+
+_ALWAYS = (Malformed, UnknownSession, TooLarge, NotJson, Invalid, NotRestorable, NotSaved)
+
+
+@router.post(
+    "/sessions/{session_id}/forks",
+    status_code=201,
+    response_model=schemas.Session,
+    summary="Go another way from a tick",
+    dependencies=[JSON_ONLY],
+    responses=documented(*_ALWAYS, DoesNotFit, NotAvailable, NothingToUndo, UnknownName, TooManySessions),
+)
+async def fork(
+    body: Annotated[bodies.NewFork, Body(openapi_examples=examples.FORK)],
+    session: TheSession,
+    here: Here,
+    request: Request,
+) -> Response:
+    """A new session that is the same to the bit up to a tick, and then changed; this one stays as it is.
+
+    What was undone here is not in it. It plays where this one plays, unless `paused` says otherwise.
+    """
+
+    @made_once
+    def told(made: Session) -> Response:
+        headers = {"Location": links_json(made.id)["self"], **etag(made.sequence)}
+        return json_response(session_json(made, here.listener.sentence(made.run.config)), 201, headers)
+
+    made = await here.manager.fork(
+        session,
+        body.at_tick,
+        tuple(body.actions or ()),
+        name=body.name,
+        paused=body.paused,
+        answer=kept_answer(request, told),
+    )
+    return told(made)
+
+
+@router.post(
+    "/sessions/{session_id}/rewind",
+    response_model=schemas.CommandResult,
+    summary="Go back to a tick",
+    dependencies=[JSON_ONLY],
+    responses=documented(*_ALWAYS),
+)
+async def rewind(
+    body: Annotated[bodies.RewindTo, Body(openapi_examples=examples.REWIND)],
+    session: TheSession,
+    terms: TheTerms,
+) -> Response:
+    """A past tick becomes the present, as it was after what was said at it; one undo brings all back."""
+
+    @made_once
+    def told(outcome: Outcome) -> Response:
+        return json_response(result_json(outcome, None, False), headers=etag(outcome.sequence))
+
+    return told(await session.change(to_tick(body.tick), terms=terms(told)))
+
+
+@router.get(
+    "/sessions/{session_id}/saved",
+    response_model=schemas.SavedMoments,
+    summary="Moments with a name",
+    responses=documented(UnknownSession, NotRestorable),
+)
+async def saved(session: TheSession) -> Response:
+    """What `{"do": "save", "name": ...}` has kept, by name; `{"do": "load", "name": ...}` goes there."""
+    moments = sorted(session.history.saved.values(), key=lambda moment: moment.name)
+    items = [{"name": each.name, "sequence": each.sequence, "tick": each.tick} for each in moments]
+    return json_response({"items": items}, headers=etag(session.sequence))

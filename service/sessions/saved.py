@@ -1,0 +1,64 @@
+"""Moments of a session that were given a name, to be gone back to.
+
+A name stands in the session's own log like anything else that was said, so it needs no other place, is
+there again after a restart and in a recording, and means the same moment in every replay. It outlives
+rewinding and undoing; saved again, it names the newer moment. Leaves out moments of other sessions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from rapidfuzz import process
+
+from service.problems import FieldProblem, UnknownName
+from sim.edit import Change
+from sim.timeline import Timeline
+
+MOST_NAMES = 100
+"""Names that a session may hold: each keeps a whole timeline, though states are shared."""
+
+MOST_TOLD = 3
+"""How many names are told to whoever asks for one that is not there."""
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """A named moment: how many changes had been accepted, and the timeline as it was."""
+
+    name: str
+    sequence: int
+    timeline: Timeline = field(compare=False)
+
+    @property
+    def tick(self) -> int:
+        """Where its time stood."""
+        return self.timeline.tick
+
+
+@dataclass(frozen=True, slots=True)
+class Kept:
+    """The present was given a name; `again` if the name was another moment's before."""
+
+    name: str
+    tick: int
+    again: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Went:
+    """The session went to another tick, by going back or (with a `name`) to a named moment."""
+
+    before: int
+    tick: int
+    changes: tuple[Change, ...]
+    name: str | None = None
+
+
+def unknown(name: str, names: Iterable[str], where: str) -> UnknownName:
+    """The problem of a name that nothing was saved under, with the nearest there are."""
+    near = [found for found, _, _ in process.extract(name, list(names), limit=MOST_TOLD)]
+    told = f" There is: {', '.join(near)}." if near else " Nothing has been saved here yet."
+    sentence = f"Nothing was saved as {name!r}.{told}"
+    return UnknownName(sentence, errors=[FieldProblem(where, sentence)], suggestions=near)
