@@ -6,6 +6,7 @@ default that needs no server. Nothing else constructs them.
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from functools import partial
@@ -108,9 +109,12 @@ def create_app(
         await phrasebook.open()
         await context.answers.open()
         clock.start()
+        sleeper = asyncio.create_task(manager.sleeper().run())
         try:
             yield
         finally:
+            sleeper.cancel()
+            await asyncio.wait([sleeper])
             clock.stop()
             await manager.close()
             if model is not None:

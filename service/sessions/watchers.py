@@ -7,7 +7,9 @@ is full loses what is in it, is told which ticks those were, and goes on from a 
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
+import secrets
+from collections import deque
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 SLOT_MESSAGES = 16
@@ -32,17 +34,26 @@ class Notice:
 
     tick: int
     data: bytes
+    number: int = 0
+
+
+def stamped(data: bytes, event: str) -> bytes:
+    """An encoded message with the id that a reader can come back with."""
+    return data[:-1] + b',"event":"' + event.encode() + b'"}' if data.endswith(b"}") else data
 
 
 class Watcher:
     """One reader's end. `next` waits for the next thing to send."""
 
-    def __init__(self) -> None:
-        self._waiting: list[Notice] = []
+    def __init__(self, missed: Sequence[Notice] = ()) -> None:
+        """`missed`: what it is told first."""
+        self._waiting: list[Notice] = list(missed)
         self._missed_from: int | None = None
         self._last_tick = 0
         self._gone = False
         self._ready = asyncio.Event()
+        if missed:
+            self._ready.set()
 
     def put(self, notice: Notice) -> None:
         """Hand over a message; never waits."""
@@ -79,13 +90,36 @@ class Watchers:
 
     def __init__(self) -> None:
         self._watchers: set[Watcher] = set()
+        # Numbers begin anew when the session is brought back; the token tells one count from another.
+        self._token = secrets.token_hex(4)
+        self._last = 0
+        self._kept: deque[Notice] = deque(maxlen=SLOT_MESSAGES)
+        self._unheard = SLOT_MESSAGES
+
+    @property
+    def event(self) -> str:
+        """The id of the latest message, for a reader to come back with."""
+        return self.event_of(self._last)
+
+    def event_of(self, number: int) -> str:
+        """The id of a message by its number."""
+        return f"{self._token}.{number}"
+
+    def missed(self, event: str) -> list[Notice] | None:
+        """What came after a message, if all of that is still kept; None if it is not."""
+        token, _, number = event.partition(".")
+        if token != self._token or not number.isascii() or not number.isdecimal() or len(number) > 15:
+            return None
+        since = [notice for notice in self._kept if notice.number > int(number)]
+        return since if len(since) == self._last - int(number) else None
 
     def __len__(self) -> int:
         return len(self._watchers)
 
-    def join(self) -> Watcher:
-        """A new watcher; it hears everything published from now on."""
-        watcher = Watcher()
+    def join(self, missed: Sequence[Notice] = ()) -> Watcher:
+        """A new watcher; it hears what it missed, and everything published from now on."""
+        watcher = Watcher(missed)
+        self._unheard = 0
         self._watchers.add(watcher)
         return watcher
 
@@ -94,10 +128,15 @@ class Watchers:
         self._watchers.discard(watcher)
 
     def publish(self, tick: int, encode: Callable[[], bytes]) -> None:
-        """Tell all; the message is not even made when nobody watches."""
+        """Tell all; the message is not even made when nobody watches, nor has lately."""
+        self._last += 1
         if not self._watchers:
-            return
-        notice = Notice(tick, encode())
+            self._unheard += 1
+            if self._unheard > SLOT_MESSAGES:
+                self._kept.clear()
+                return
+        notice = Notice(tick, stamped(encode(), self.event), self._last)
+        self._kept.append(notice)
         for watcher in self._watchers:
             watcher.put(notice)
 
