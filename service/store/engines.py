@@ -55,6 +55,8 @@ class Sqlite:
         """
         try:
             found = await to_thread.run_sync(self._check)
+        except UnicodeDecodeError:
+            found = "not even the fault can be told"  # SQLite's message quotes it
         except (sqlite3.Error, OSError) as error:
             raise StoreError(f"{self.name} cannot be opened: {error}") from error
         if found != "ok":

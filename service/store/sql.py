@@ -47,7 +47,7 @@ class SqlStore:
             async with engine.connect() as connection:
                 await connection.run_sync(bring_up, self._kind.name)
                 await connection.commit()
-        except (SQLAlchemyError, OSError, StoreError) as error:
+        except (SQLAlchemyError, OSError, ValueError, StoreError) as error:
             await engine.dispose()
             if isinstance(error, StoreError):
                 raise
