@@ -53,7 +53,7 @@ class Settings(BaseSettings):
     max_film_frames: int = Field(default=600, ge=1, le=10_000, description="Frames, and ticks, of one film.")
     sleep_after_s: float = Field(
         default=600.0,
-        gt=0,
+        ge=1,
         description="Seconds after which a paused session that nobody watches or asks for sleeps.",
     )
     sleep_running: bool = Field(

@@ -30,6 +30,7 @@ from service.sessions.draft import check_ticks
 from service.sessions.forking import way_to
 from service.sessions.pace import NORMAL
 from service.sessions.session import ReplayError, Session, Surroundings
+from service.sessions.sleeping import Idleness, Sleeper
 from service.sessions.terms import ANY_TERMS, Terms
 from service.store import EntryRecord, KeptAnswer, SessionRecord, StoreError
 from sim.actions import Set
@@ -56,6 +57,7 @@ class SessionManager:
         self._live: dict[str, Session] = {}
         self._waking: dict[str, asyncio.Task[Session]] = {}
         self._making = 0
+        self.idleness = Idleness()
 
     @property
     def live(self) -> int:
@@ -179,6 +181,7 @@ class SessionManager:
         """The session with this id, brought back if need be. Raises `UnknownSession`."""
         live = self._live.get(session_id)
         if live is not None:
+            self.idleness.used(session_id)
             return live
         # All who ask at once wait for the same replay.
         task = self._waking.get(session_id)
@@ -206,10 +209,41 @@ class SessionManager:
                 found = await self._around.store.delete(session_id)
         if not found:
             raise UnknownSession
+        self.idleness.forget(session_id)
         session = self._live.pop(session_id, None)
         if session is not None:
             await session.end()
             session.watchers.end()
+
+    def sleeper(self) -> Sleeper:
+        """What lets go of sessions that nobody needs."""
+        settings = self._around.settings
+        return Sleeper(
+            lambda: list(self._live.values()),
+            self._let_go,
+            self.idleness,
+            after_s=settings.sleep_after_s,
+            running=settings.sleep_running,
+        )
+
+    async def _let_go(self, sessions: list[Session], still: Callable[[Session], bool]) -> int:
+        """Let go of sessions, their ticks stored first; those that somebody came for meanwhile stay."""
+        for session in sessions:
+            self._around.clock.remove(session)
+        let_go = 0
+        try:
+            await self._around.store.save_ticks({each.id: each.timeline.tick for each in sessions})
+            for session in sessions:
+                if self._live.get(session.id) is session and still(session):
+                    session.retire()
+                    del self._live[session.id]
+                    self.idleness.forget(session.id)
+                    let_go += 1
+        finally:
+            for session in sessions:
+                if self._live.get(session.id) is session and not session.paused:
+                    self._around.clock.add(session)
+        return let_go
 
     async def close(self) -> None:
         """Remember where every clock stood."""
@@ -242,6 +276,7 @@ class SessionManager:
         except (ConfigError, TypeError, StoreError) as error:
             _LOG.error("a kept session cannot be replayed", session=session_id, error=str(error))
             raise NotRestorable from error
+        self.idleness.used(session_id)
         self._live[session_id] = session
         return session
 

@@ -195,6 +195,16 @@ class Session:
         )
         self._publish_changed(None, line.text, (), [line])
 
+    @property
+    def busy(self) -> bool:
+        """Whether something is being done to it just now."""
+        return self._turn.locked() or bool(self._tasks) or self._later.busy
+
+    def retire(self) -> None:
+        """Stand still for good; whoever still holds it must ask for the session anew."""
+        self._ended = True
+        self._around.clock.remove(self)
+
     async def end(self) -> None:
         """Stand still for good, once the change under way is done; later changes find no session."""
         async with self._turn:
