@@ -141,6 +141,10 @@ class AsyncSession:
         """Do typed actions, no language involved: `act({"do": "pause"})`."""
         return await self._client._do(calls.act(self.id, actions, dry_run))
 
+    async def configure(self, **parts: Any) -> results.ConfigChanged:
+        """Other settings, all or nothing: `configure(traffic="heavy")`; None asks for the default."""
+        return await self._client._do(calls.configure(self.id, parts))
+
     async def ask(self, question: str, *, language: str = "en") -> results.Answer:
         """Ask something; nothing is changed."""
         return await self._client._do(calls.ask(self.id, question, language))

@@ -191,6 +191,11 @@ def act(session: str, actions: Sequence[Json], dry_run: bool) -> Call[results.Co
     return Call("POST", _own(session, "/actions"), _reading(results.CommandResult), body, key=_key())
 
 
+def configure(session: str, parts: Json) -> Call[results.ConfigChanged]:
+    """Settings, as a merge patch."""
+    return Call("PATCH", _own(session, "/config"), _reading(results.ConfigChanged), parts, key=_key())
+
+
 def ask(session: str, question: str, language: str) -> Call[results.Answer]:
     """A question."""
     body = {"question": question, "language": language}

@@ -26,7 +26,7 @@ from service.client.results import (
     State,
 )
 
-DELETED = 1000
+DELETED, NO_KEY = 1000, 4401
 FINAL = frozenset((1002, 1003, 1007, 1008, 1009, 1010))
 """Close codes after which a new connection would end like the one before."""
 
@@ -155,6 +155,12 @@ class Watching:
         code = error.rcvd.code if isinstance(error, ConnectionClosed) and error.rcvd else None
         if code == DELETED:
             return None
+        if code == NO_KEY:
+            document = {
+                "type": "/problems/no-key",
+                "detail": "The stream asks for a key, or for another one.",
+            }
+            raise refusal(document, 401) from error
         if self._problem is not None:
             raise self._problem from error
         if code in FINAL or (code is not None and code >= 4000):

@@ -272,6 +272,15 @@ class CommandResult(Result):
 
 
 @dataclass(frozen=True, kw_only=True)
+class ConfigChanged(Result):
+    """What new settings did."""
+
+    changes: tuple[Change, ...]
+    reply: str
+    sequence: int
+
+
+@dataclass(frozen=True, kw_only=True)
 class StepResult(Result):
     """Ticks that were run."""
 

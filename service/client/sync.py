@@ -26,9 +26,6 @@ PATIENCE_S = 30.0
 class Client:
     """A service, over HTTP. Use it in a `with`, or `close` it.
 
-    >>> with Client("http://127.0.0.1:8000") as client:  # doctest: +SKIP
-    ...     print(client.create(seed=11).say("add five potholes").reply)
-
     A call that changes something carries an `Idempotency-Key` and is tried once more when the
     connection is lost. Raises what `service.client.errors` lists.
     """
@@ -154,6 +151,10 @@ class Session:
     def act(self, *actions: Mapping[str, Any], dry_run: bool = False) -> results.CommandResult:
         """Do typed actions, no language involved: `act({"do": "pause"})`."""
         return self._client._do(calls.act(self.id, actions, dry_run))
+
+    def configure(self, **parts: Any) -> results.ConfigChanged:
+        """Other settings, all or nothing: `configure(traffic="heavy")`; None asks for the default."""
+        return self._client._do(calls.configure(self.id, parts))
 
     def ask(self, question: str, *, language: str = "en") -> results.Answer:
         """Ask something; nothing is changed."""

@@ -1,0 +1,42 @@
+"""The service inside the test, and a service that is a process of its own."""
+
+from __future__ import annotations
+
+from collections.abc import AsyncIterator, Iterator
+
+import httpx
+import pytest
+
+from service.app import create_app
+from service.client import AsyncClient, Client
+from service.settings import Settings
+from service.store import MemoryStore
+from tests.browser.service_process import ServiceProcess
+from tests.service.fakes import HandClock
+
+
+@pytest.fixture
+async def inside() -> AsyncIterator[AsyncClient]:
+    """A client of a service that lives in this test and whose clock stands still."""
+    app = create_app(Settings(database="memory:"), store=MemoryStore(), clock=HandClock())
+    async with (
+        app.router.lifespan_context(app),
+        AsyncClient("http://service", transport=httpx.ASGITransport(app)) as client,
+    ):
+        yield client
+
+
+@pytest.fixture(scope="module")
+def process(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ServiceProcess]:
+    """One for a test module."""
+    service = ServiceProcess(tmp_path_factory.mktemp("service") / "roadtalk.db")
+    service.start()
+    yield service
+    service.kill()
+
+
+@pytest.fixture
+def client(process: ServiceProcess) -> Iterator[Client]:
+    """A client of the process."""
+    with Client(process.url) as made:
+        yield made
