@@ -14,7 +14,7 @@ from typing import Any, Literal, TextIO
 import structlog
 from starlette.datastructures import MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
-from structlog.contextvars import bound_contextvars
+from structlog.contextvars import bind_contextvars, get_contextvars
 
 from service.settings import Settings
 
@@ -100,5 +100,12 @@ class RequestIds:
                 MutableHeaders(scope=message)[HEADER] = request_id
             await send(message)
 
-        with bound_contextvars(request=request_id):
-            await self._app(scope, receive, named)
+        # Left bound: a request is a task of its own, and an error is logged outside of every middleware.
+        bind_contextvars(request=request_id)
+        await self._app(scope, receive, named)
+
+
+def request_header() -> dict[str, str]:
+    """The header with the id of the request that is being answered, where a middleware cannot add it."""
+    bound = get_contextvars().get("request")
+    return {} if bound is None else {HEADER: str(bound)}

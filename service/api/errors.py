@@ -15,6 +15,7 @@ from service.api.edges import SECURITY_HEADERS
 from service.api.examples import problem_example
 from service.api.respond import problem_response
 from service.api.schemas import ProblemDocument
+from service.logs import request_header
 from service.problems import (
     MEDIA_TYPE,
     FieldProblem,
@@ -55,7 +56,7 @@ def _respond(request: Request, error: Exception) -> Response:
         case _:
             _LOG.error("a request failed", path=request.url.path, exc_info=error)
             # Answered outside of every middleware, which therefore cannot add these.
-            return problem_response(Internal(headers=SECURITY_HEADERS))
+            return problem_response(Internal(headers=SECURITY_HEADERS | request_header()))
 
 
 def documented(*kinds: type[ProblemError]) -> dict[int | str, dict[str, Any]]:

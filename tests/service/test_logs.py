@@ -1,0 +1,85 @@
+"""Log lines can be read by people and programs, belong to a request, and keep secrets."""
+
+from __future__ import annotations
+
+import io
+import json
+from collections.abc import Iterator
+from typing import Any, Literal
+
+import httpx
+import pytest
+import structlog
+from pydantic import SecretStr
+
+from service import logs
+from service.app import create_app
+from service.settings import Settings
+from service.store import MemoryStore
+from tests.service.conftest import Service
+from tests.service.fakes import FewSentences, HandClock
+
+KEY = "a-key-of-this-test"
+
+
+@pytest.fixture(autouse=True)
+def as_before() -> Iterator[None]:
+    before = structlog.get_config()
+    yield
+    structlog.configure(**before)
+
+
+def lines(form: Literal["console", "json"], **settings: Any) -> tuple[Any, io.StringIO]:
+    to = io.StringIO()
+    logs.configure(Settings(log_format=form, **settings), to)
+    return structlog.get_logger("test"), to
+
+
+def test_json_is_one_object_a_line() -> None:
+    log, to = lines("json")
+    log.info("one", session="x\ny", count=3)
+    log.error("two", error=ValueError("odd"))
+    one, two = (json.loads(line) for line in to.getvalue().splitlines())
+    assert (one["event"], one["level"], one["session"], one["count"]) == ("one", "info", "x\ny", 3)
+    assert one["timestamp"].endswith("Z")
+    assert "odd" in two["error"]
+
+
+@pytest.mark.parametrize("form", ["console", "json"])
+def test_secrets_are_never_written(form: Literal["console", "json"]) -> None:
+    log, to = lines(form, api_key=SecretStr(KEY), llm_api_key=SecretStr("the-other"))
+    log.info(f"with {KEY} in it", api_key="p1", authorization="Bearer p2", deep={"ticket": "p3", "x": [KEY]})
+    log.info("error", error=ValueError("the-other"), monkey="seen")
+    try:
+        within = KEY[:3] + KEY[3:]
+        raise ValueError(within)
+    except ValueError:
+        log.exception("failed")
+    said = to.getvalue()
+    for secret in (KEY, "the-other", "p1", "p2", "p3"):
+        assert secret not in said
+    assert "seen" in said
+    assert "ValueError" in said
+
+
+class Broken(MemoryStore):
+    async def newest(self, limit: int, before: int | None = None) -> Any:  # noqa: ARG002 - it fails for all
+        raise ZeroDivisionError
+
+
+async def test_a_line_names_the_request_it_is_about() -> None:
+    _, to = lines("json")
+    app = create_app(Settings(database="memory:"), store=Broken(), language=FewSentences(), clock=HandClock())
+    transport = httpx.ASGITransport(app, raise_app_exceptions=False)
+    async with httpx.AsyncClient(transport=transport, base_url="http://service") as client:
+        answer = await client.get("/api/v1/sessions", headers={"X-Request-ID": "mine"})
+    assert answer.status_code == 500
+    line = json.loads(to.getvalue().splitlines()[0])
+    assert line["path"] == "/api/v1/sessions"
+    assert line["request"] == answer.headers["x-request-id"]
+    assert line["request"] != "mine"
+
+
+async def test_every_answer_has_an_id_of_its_own(service: Service) -> None:
+    ids = {(await service.client.get(path)).headers["x-request-id"] for path in ("/", "/healthz", "/nowhere")}
+    assert len(ids) == 3
