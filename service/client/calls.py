@@ -208,6 +208,20 @@ def step(session: str, ticks: int) -> Call[results.StepResult]:
     return Call("POST", _own(session, "/step"), _reading(results.StepResult), body, key=_key())
 
 
+def fork(
+    session: str, at_tick: int | None, actions: Sequence[Json], name: str | None, paused: bool | None
+) -> Call[results.SessionInfo]:
+    """Another session, the same up to a tick."""
+    body = _sent(at_tick=at_tick, actions=list(actions) or None, name=name, paused=paused)
+    return Call("POST", _own(session, "/forks"), _reading(results.SessionInfo), body, key=_key())
+
+
+def rewind(session: str, tick: int) -> Call[results.CommandResult]:
+    """Back to a tick."""
+    body = {"tick": tick}
+    return Call("POST", _own(session, "/rewind"), _reading(results.CommandResult), body, key=_key())
+
+
 def state(session: str, tick: int | None) -> Call[results.State]:
     """The world at a tick."""
     return Call("GET", _own(session, "/state"), _reading(results.State), params={"tick": tick})

@@ -110,7 +110,7 @@ _KINDS: dict[str, type[Message]] = {
 class Watching:
     """One watcher's place in the stream, kept over lost connections; sends and reads nothing itself."""
 
-    def __init__(self, url: str, session: str, after: int | None, patience_s: float) -> None:
+    def __init__(self, url: str, session: str, after: str | None, patience_s: float) -> None:
         self._url = url
         self._session = session
         self._after = after
@@ -122,7 +122,7 @@ class Watching:
 
     @property
     def address(self) -> str:
-        """Where to connect: the last change that was seen is named, never a key."""
+        """Where to connect: the last message that was seen is named, never a key."""
         base = "ws" + self._url.removeprefix("http")
         query = "" if self._after is None else "?" + urlencode({"after": self._after})
         return f"{base}{calls.PREFIX}/sessions/{quote(self._session, safe='')}/stream{query}"
@@ -144,7 +144,7 @@ class Watching:
         if isinstance(message, Hello):
             message = replace(message, resumed=self._connected)
         self._connected, self._lost_since, self._delay_s = True, None, FIRST_DELAY_S
-        self._after = getattr(message, "sequence", self._after)
+        self._after = values.get("event", self._after)
         return message
 
     def lost(self, error: Exception) -> float | None:

@@ -102,7 +102,7 @@ class Client:
             raise calls.unreachable(self.url, error) from error
         return calls.answered(call, response, self._do, second=second)
 
-    def _watch(self, session: str, after: int | None, patience_s: float) -> Iterator[Message]:
+    def _watch(self, session: str, after: str | None, patience_s: float) -> Iterator[Message]:
         watching = Watching(self.url, session, after, patience_s)
         while True:
             try:
@@ -164,6 +164,21 @@ class Session:
         """Pause and run some ticks as fast as can be."""
         return self._client._do(calls.step(self.id, ticks))
 
+    def fork(
+        self,
+        *actions: Mapping[str, Any],
+        at_tick: int | None = None,
+        name: str | None = None,
+        paused: bool | None = None,
+    ) -> Session:
+        """Another session, the same up to a tick, where these actions are done; this one stays."""
+        call = calls.fork(self.id, at_tick, actions, name, paused)
+        return self._client._do(call.then(lambda info: Session(self._client, info.id)))
+
+    def rewind(self, tick: int) -> results.CommandResult:
+        """Go back to a past tick and on from there; one undo brings all back."""
+        return self._client._do(calls.rewind(self.id, tick))
+
     def state(self, tick: int | None = None) -> results.State:
         """The world now, or at a past tick."""
         return self._client._do(calls.state(self.id, tick))
@@ -190,11 +205,12 @@ class Session:
         """A picture of the road as it is now."""
         return self._client._do(calls.frame(self.id, view, form))
 
-    def watch(self, *, after: int | None = None, patience_s: float = PATIENCE_S) -> Iterator[Message]:
+    def watch(self, *, after: str | None = None, patience_s: float = PATIENCE_S) -> Iterator[Message]:
         """Messages as they come, until the session is deleted.
 
-        A lost connection is opened again for up to `patience_s`, from the last change seen; the
-        first message is then a `Hello` with `resumed`.
+        A lost connection is opened again for up to `patience_s`. What was missed follows, where it is
+        still kept; otherwise the next message is a `Hello` with `resumed`. `after` is the `event`
+        of a message (in its `raw`), to go on from.
         """
         return self._client._watch(self.id, after, patience_s)
 

@@ -50,6 +50,15 @@ def test_a_session_from_its_making_to_its_end(client: Client, tmp_path: Path) ->
     assert session.frame(form="jpeg").save(tmp_path / "road.jpg").read_bytes()[:2] == b"\xff\xd8"
     assert session.frame().media_type == "image/png"
 
+    other = session.fork({"do": "add", "kind": "barrier", "count": 1}, at_tick=1, name="other")
+    assert other.info().name == "other"
+    assert other.state().count("barrier") == session.state(1).count("barrier") + 1
+    plain = session.fork(at_tick=1)
+    assert plain.state().digest == session.state(1).digest
+    assert plain.step(2).state.digest == stepped.state.digest
+    assert plain.rewind(1).sequence > 0
+    assert plain.state().tick == 1
+
     recording = session.recording()
     assert recording.digest == stepped.state.digest
     again = client.create(recording=recording)
@@ -120,12 +129,15 @@ async def test_the_same_awaited(inside: AsyncClient) -> None:
     assert (await session.ask("where are you?")).about == "status"
     assert (await session.step(2)).state.tick == 2
     assert (await session.state(1)).tick == 1
+    other = await session.fork(at_tick=1)
+    await other.rewind(0)
+    assert (await other.state()).tick == 0
     assert len(await session.decisions()) == 2
     assert (await session.decision(1)).tick == 1
     assert len(await session.events()) > 0
     recording = await session.recording()
     assert isinstance(recording, Recording)
-    assert (await inside.health()).sessions == 1
+    assert (await inside.health()).sessions == 2
     assert (await session.frame()).data[1:4] == b"PNG"
     await session.delete()
     with pytest.raises(UnknownSession):

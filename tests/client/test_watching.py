@@ -101,13 +101,17 @@ def watching(patience_s: float = 30) -> Watching:
     return made
 
 
-def test_it_goes_on_from_the_last_change_seen() -> None:
+def test_it_goes_on_from_the_last_message_seen() -> None:
     begun = Watching("http://service:80", "a/b", None, 30)
     assert begun.address == "ws://service:80/api/v1/sessions/a%2Fb/stream"
     with pytest.raises(RoadtalkError):
         begun.lost(OSError("nobody there"))
-    begun = Watching("https://service", "s", 5, 30)
-    assert begun.address == "wss://service/api/v1/sessions/s/stream?after=5"
+    begun = Watching("https://service", "s", "a-5", 30)
+    assert begun.address == "wss://service/api/v1/sessions/s/stream?after=a-5"
+    begun.take('{"type": "later", "sequence": 9, "event": "a-6"}')
+    assert begun.address.endswith("?after=a-6")
+    begun.take('{"type": "later", "sequence": 10}')
+    assert begun.address.endswith("?after=a-6")
 
 
 @pytest.mark.parametrize("code", [1001, 1006, 1011, 1012, 1013])
