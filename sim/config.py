@@ -168,7 +168,8 @@ class Config:
             problems.append(Problem("planner", f"must be one of {', '.join(planner_names.names())}"))
         for name, choices in LISTS.items():
             words = getattr(self, name)
-            if not isinstance(words, tuple) or not set(words) <= set(choices) or len(set(words)) < len(words):
+            fit = isinstance(words, tuple) and all(word in choices for word in words)
+            if not fit or len(set(words)) < len(words):
                 problems.append(Problem(name, f"must be a list of any of {', '.join(choices)}, each once"))
         problems += [
             Problem(name, "must be true or false")
