@@ -26,7 +26,7 @@ class Settings(BaseSettings):
     port: int = Field(default=8000, ge=0, le=65535, description="Port to listen on; 0 takes any free one.")
     database: str = Field(
         default="sqlite:///roadtalk.db",
-        description="Where sessions are kept: `sqlite:///<file>`, `postgresql://<host>/<name>`, or `memory:`.",
+        description="Where sessions are kept: `sqlite:///<file>`, `postgresql://<host>/<name>` or `memory:`.",
     )
     max_sessions: int = Field(
         default=1_000, ge=1, description="Sessions that may be live at once; one more is refused."
