@@ -62,7 +62,7 @@ def refusal(action: Action) -> str | None:
         case Scenario():
             missing = unavailable(action)
             return None if missing is None else _sentence(missing.message)
-        case (Set() | Adjust()) if sets_pace(action):
+        case Set() | Adjust() if sets_pace(action):
             return None
         case Set() | Adjust() if not offered(action):
             value = f" ({action.value})" if isinstance(action, Set) else ""
