@@ -108,6 +108,7 @@ class AsyncClient:
                     open_timeout=self._timeout_s,
                     max_size=MAX_MESSAGE_BYTES,
                 ) as socket:
+                    watching.opened()
                     while True:
                         message = watching.take(await socket.recv())
                         if message is not None:

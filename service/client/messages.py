@@ -115,7 +115,7 @@ class Watching:
         self._session = session
         self._after = after
         self._patience_s = patience_s
-        self._connected = False
+        self._connected = self._heard = False
         self._problem: Refused | None = None
         self._delay_s = FIRST_DELAY_S
         self._lost_since: float | None = None
@@ -126,6 +126,10 @@ class Watching:
         base = "ws" + self._url.removeprefix("http")
         query = "" if self._after is None else "?" + urlencode({"after": self._after})
         return f"{base}{calls.PREFIX}/sessions/{quote(self._session, safe='')}/stream{query}"
+
+    def opened(self) -> None:
+        """Connected; where nothing was missed no message says so."""
+        self._connected, self._lost_since = True, None
 
     def take(self, data: str | bytes) -> Message | None:
         """What was received; None for what is not for the reader. Raises `UnexpectedAnswer`."""
@@ -142,8 +146,8 @@ class Watching:
             return None
         message: Message = results.read(_KINDS.get(values["type"], Message), values, "the message")
         if isinstance(message, Hello):
-            message = replace(message, resumed=self._connected)
-        self._connected, self._lost_since, self._delay_s = True, None, FIRST_DELAY_S
+            message = replace(message, resumed=self._heard)
+        self._heard, self._delay_s = True, FIRST_DELAY_S
         self._after = values.get("event", self._after)
         return message
 

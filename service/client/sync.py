@@ -112,6 +112,7 @@ class Client:
                     open_timeout=self._timeout_s,
                     max_size=MAX_MESSAGE_BYTES,
                 ) as socket:
+                    watching.opened()
                     while True:
                         message = watching.take(socket.recv())
                         if message is not None:

@@ -18,6 +18,7 @@ from service.client import (
     Hello,
     Message,
     NotAllowed,
+    NotReachable,
     RoadtalkError,
     Tick,
     UnknownSession,
@@ -96,6 +97,7 @@ def closed(code: int) -> ConnectionClosedError:
 def watching(patience_s: float = 30) -> Watching:
     """One that has heard of change 7."""
     made = Watching("http://service", "s", None, patience_s)
+    made.opened()
     message = made.take(json.dumps({"type": "later", "sequence": 7}))
     assert message is not None
     return made
@@ -121,6 +123,17 @@ def test_what_is_tried_again_waits_longer_each_time(code: int) -> None:
     assert delays == [0.1, 0.2, 0.4, 0.8, 1.6, 2.0, 2.0]
     lost.take('{"type": "later"}')
     assert lost.lost(closed(code)) == 0.1
+
+
+def test_patience_begins_anew_with_every_connection() -> None:
+    lost = watching(patience_s=-1)
+    with pytest.raises(NotReachable):
+        lost.lost(closed(1012))
+    patient = watching()
+    assert patient.lost(closed(1012)) == 0.1
+    patient.opened()
+    assert patient._lost_since is None
+    assert patient.lost(closed(1012)) == 0.2  # quicker only once a message came
 
 
 def test_what_is_over_is_over() -> None:
