@@ -7,9 +7,10 @@ of moments and what "it" was do not. States and snapshots are shared with the se
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
+from typing import Any
 
 from service import actions as contract
 from service.sessions.history import History, Step
@@ -40,13 +41,10 @@ def way_to(timeline: Timeline, tick: int, paused: bool = True) -> Way:
     ]
     own.entries = [entry for group in said for entry in group]
     history = History([Step((), group, paused, paused) for group in said])
-    return Way(own, history, tuple(_record(group) for group in said))
+    # All at once: one by one takes twice as long.
+    dumped = iter(contract.dump(tuple(entry.action for entry in own.entries)))
+    return Way(own, history, tuple(_record(group, [next(dumped) for _ in group]) for group in said))
 
 
-def _record(group: Sequence[Entry]) -> EntryRecord:
-    return EntryRecord(
-        sequence=group[0].sequence,
-        tick=group[0].tick,
-        text=None,
-        actions=contract.dump(tuple(entry.action for entry in group)),
-    )
+def _record(group: Sequence[Entry], actions: Sequence[Mapping[str, Any]]) -> EntryRecord:
+    return EntryRecord(sequence=group[0].sequence, tick=group[0].tick, text=None, actions=actions)
