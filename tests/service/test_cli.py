@@ -69,7 +69,7 @@ def test_it_says_who_it_is() -> None:
     told = run("--help").stdout
     assert "serve" in told
     assert "say" in told
-    assert run("serve", "--workers", "4").returncode == 2
+    assert run("serve", "--workers", "4").returncode == 1
 
 
 def test_talking_from_a_terminal(database: Path) -> None:
