@@ -87,7 +87,7 @@ async def test_no_injection_gets_through() -> None:
                 assert answer.headers["content-type"] == "application/problem+json"
                 assert {"set-cookie", "refresh"}.isdisjoint(answer.headers)
                 tried += 1
-        assert tried >= 200
+        assert tried == 8 * len(set(SENTENCES)) >= 1_600
         assert ((await client.get(path)).json(), (await client.get(f"{path}/state")).json()) == before
         assert len((await client.get(SESSIONS)).json()["items"]) == 1
 
