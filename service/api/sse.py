@@ -64,7 +64,7 @@ class Readers:
 _DOCUMENTED: dict[int | str, dict[str, Any]] = {
     200: {
         "description": "Events, until either side ends it.",
-        "content": {MEDIA_TYPE: {"schema": {"type": "string"}}},
+        "content": {MEDIA_TYPE: {"schema": {"description": "Events with id, event and data."}}},
     }
 }
 
