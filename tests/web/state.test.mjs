@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { INITIAL, reduce } from "../../web/src/state.js";
+import { INITIAL, reduce, sceneOf } from "../../web/src/state.js";
 import { shown } from "../../web/src/talk.js";
 import { countsOf, describe, egoOf, toGo } from "../../web/src/world.js";
 import { hello, logEvent, tick, wireState } from "./fakes.mjs";
@@ -138,4 +138,15 @@ test("buttons are listed only when they changed something or were refused", () =
 test("another session starts from nothing", () => {
   const state = after(hello(), tick(), { type: "session", id: "s2" });
   assert.deepEqual(state, { ...INITIAL, session: "s2" });
+});
+
+test("an earlier tick is shown while the present goes on", () => {
+  const first = after(hello());
+  const past = { world: first.world, decision: null, narration: "then" };
+  const later = frozen([tick(), tick({ tick: 12 })].reduce(reduce, reduce(first, { type: "past", past })));
+  const scene = sceneOf(later);
+  assert.equal(later.world.tick, 12);
+  assert.deepEqual([scene.world.tick, scene.narration], [10, "then"]);
+  assert.equal(sceneOf(reduce(later, { type: "highlight", highlight: null })).world, scene.world, "not drawn anew");
+  assert.equal(sceneOf(reduce(later, { type: "past", past: null })).world, later.world);
 });

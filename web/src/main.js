@@ -12,11 +12,11 @@ import { createLoop } from "./loop.js";
 import { createPanels } from "./panels/index.js";
 import { createSession, findSession, hashOfSession, sessionInHash } from "./sessions.js";
 import { Connection } from "./socket.js";
-import { INITIAL, reduce } from "./state.js";
+import { INITIAL, reduce, sceneOf } from "./state.js";
 import { watchPreferences } from "./theme.js";
 
 /** @import { Action, ClientMessage } from "./protocol.js" */
-/** @import { State, Highlight, Event } from "./state.js" */
+/** @import { State, Highlight, Event, Past } from "./state.js" */
 
 /**
  * @typedef {object} Page  what panels may ask for
@@ -26,7 +26,8 @@ import { watchPreferences } from "./theme.js";
  * @property {(highlight: Highlight | null) => void} highlight
  * @property {() => void} startSession
  * @property {() => void} reconnect  now rather than after the pause
- * @property {() => State} state
+ * @property {() => State} state  the present, whatever tick is looked at
+ * @property {(past: Past | null) => void} look  show an earlier tick instead of the present, or (null) the present again
  */
 
 let state = INITIAL;
@@ -60,6 +61,7 @@ const page = {
   say: (text) => send(text, false, (id) => ({ type: "command", id, text })),
   act: (actions, label, quiet = false) => send(label, quiet, (id) => ({ type: "actions", id, actions })),
   highlight: (highlight) => dispatch({ type: "highlight", highlight }),
+  look: (past) => dispatch({ type: "past", past }),
   startSession: () => void startSession(),
   reconnect: () => void connection?.open(),
   state: () => state,
@@ -69,7 +71,7 @@ const panels = createPanels(page);
 const loop = createLoop({
   update() {
     const before = shown;
-    shown = state;
+    shown = sceneOf(state);
     for (const panel of panels) panel.update?.(state, before);
   },
   draw(now) {

@@ -29,7 +29,10 @@ import { worldAfter, worldOf } from "./world.js";
  * @property {Exchange[]} talk  what was said here and answered, newest last
  * @property {Highlight | null} highlight  what the reader points at
  * @property {string | null} announcement  the latest sentence worth reading aloud
+ * @property {Past | null} past  an earlier tick that is looked at instead of the present
  */
+
+/** @typedef {{world: World, decision: Decision | null, narration: string | null}} Past */
 
 /** @typedef {{ids: string[], cells: Cell[]}} Highlight */
 
@@ -39,7 +42,8 @@ import { worldAfter, worldOf } from "./world.js";
  *   | {type: "trouble", text: string}
  *   | {type: "said", id: string, text: string, quiet: boolean}
  *   | {type: "unsent", id: string}
- *   | {type: "highlight", highlight: Highlight | null}} PageEvent  what happened on this side of the wire
+ *   | {type: "highlight", highlight: Highlight | null}
+ *   | {type: "past", past: Past | null}} PageEvent  what happened on this side of the wire
  */
 
 /** @typedef {ServerMessage | PageEvent} Event */
@@ -56,6 +60,7 @@ export const INITIAL = {
   talk: [],
   highlight: null,
   announcement: null,
+  past: null,
 };
 
 /** Event types that are worth saying aloud, not only writing down. */
@@ -76,6 +81,8 @@ export function reduce(state, event) {
       return { ...state, talk: refuseExchange(state.talk, event.id, NOT_CONNECTED) };
     case "highlight":
       return { ...state, highlight: event.highlight };
+    case "past":
+      return { ...state, past: event.past, highlight: null };
     case "hello":
       return afterHello(state, event);
     case "tick":
@@ -132,8 +139,33 @@ function afterHello(state, hello) {
     decision: hello.decision ?? null,
     narration: hello.decision?.narration ?? null,
     log: logEvents(state.log, hello.log ?? []),
+    past: null,
   };
 }
+
+/**
+ * The state as it is to be shown: the present, or with the road of the tick that is looked at. The clock is the
+ * present one's: it runs on meanwhile.
+ * @param {State} state
+ * @returns {State}
+ */
+export function sceneOf(state) {
+  const { past, world } = state;
+  if (past === null || world === null) return state;
+  const { paused, mode } = world;
+  let seen = SEEN.get(past.world);
+  if (seen?.paused !== paused || seen.mode !== mode) {
+    seen = { ...past.world, paused, mode };
+    SEEN.set(past.world, seen);
+  }
+  return { ...state, ...past, world: seen };
+}
+
+/**
+ * Past worlds as they are shown: the same one as long as nothing of it changes, or it would be drawn anew each time.
+ * @type {WeakMap<World, World>}
+ */
+const SEEN = new WeakMap();
 
 /** @param {State} state @param {TickMessage} message @returns {State} */
 function afterTick(state, message) {
