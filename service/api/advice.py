@@ -7,7 +7,7 @@ from typing import Annotated
 from fastapi import APIRouter, Body, Response
 
 from service.actions import Advise
-from service.api import bodies, examples, schemas
+from service.api import bodies, examples, schemas_advice
 from service.api.context import JSON_ONLY, Context, Here
 from service.api.errors import documented, invalid
 from service.api.respond import StrictRoute, json_response
@@ -35,7 +35,7 @@ _FIGURES = ("hazard", "distance_m", "speed_kmh")
 
 @router.post(
     "/advice",
-    response_model=schemas.Advice,
+    response_model=schemas_advice.Advice,
     summary="Ask what to do about a hazard",
     dependencies=[JSON_ONLY],
     responses=documented(Malformed, Ambiguous, TooLarge, NotJson, Invalid, NotUnderstood, NotAQuestion),

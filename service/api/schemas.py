@@ -1,155 +1,21 @@
 """The documented shape of everything answered. Answers are not encoded through these.
 
-A test holds real answers against them, so that they cannot drift from `service.wire`.
+A test holds real answers against them, so that they cannot drift from `service.wire`. What a road is made
+of is in `shapes`, an advice in `schemas_advice`.
 """
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
 from service.actions import Action
 from service.api.bodies import Tick
-from service.sessions.pace import FASTEST, SLOWEST
-from sim.actions import Weather
-from sim.advice import Choice, Ending
-from sim.kinds import Kind, Mode, Move, Outcome
-
-CellPair = Annotated[
-    list[int], Field(min_length=2, max_length=2, description="[column, row], row 0 at the goal")
-]
-
-PlaybackSpeed = Annotated[
-    Annotated[float, Field(ge=SLOWEST, le=FASTEST)] | Literal["max"],
-    Field(description="How fast the clock plays it; `max` is as fast as possible. No world knows of it."),
-]
-
-
-class Answered(BaseModel):
-    """What callers are answered."""
-
-    model_config = ConfigDict(extra="forbid")
-
-
-class Vehicle(Answered):
-    """An autonomous vehicle."""
-
-    id: str
-    kind: Literal[Kind.AV]
-    cell: CellPair
-
-
-class Mover(Answered):
-    """An obstacle vehicle or a pedestrian."""
-
-    id: str
-    kind: Literal[Kind.VEHICLE, Kind.PEDESTRIAN]
-    cell: CellPair
-    heading: Literal["left", "right"]
-    disabled: bool = Field(description="Held by a pothole.")
-
-
-class Hazard(Answered):
-    """A pothole or a barrier."""
-
-    id: str
-    kind: Literal[Kind.POTHOLE, Kind.BARRIER]
-    cell: CellPair
-
-
-class CrashCause(Answered):
-    """What a crash was with: met in one cell (`hit`), or passing through one another (`swap`)."""
-
-    kind: Kind
-    how: Literal["hit", "swap"]
-    ids: list[str]
-    cell: CellPair
-
-
-class MoveCounts(Answered):
-    """How often each sort of move was made."""
-
-    forward: int
-    lateral: int
-    diagonal: int
-    stay: int
-
-
-class Metrics(Answered):
-    """Figures over the session's episodes."""
-
-    episodes: int = Field(description="Episodes that have ended.")
-    successes: int
-    crashes: int
-    stuck: int
-    success_rate: float | None
-    steps: int
-    moves: MoveCounts
-    distance_m: float
-    last_episode_ticks: int | None
-
-
-class State(Answered):
-    """The world at a tick."""
-
-    session: str
-    tick: Tick
-    time_s: float = Field(description="Simulated seconds since the session began.")
-    episode: int
-    episode_tick: int
-    status: Outcome
-    cause: CrashCause | None
-    columns: int
-    rows: int
-    visible_rows: int
-    step_seconds: float
-    paused: bool
-    playback_speed: PlaybackSpeed
-    mode: Mode
-    planner: str
-    vehicles: list[Vehicle]
-    movers: list[Mover]
-    hazards: list[Hazard]
-    metrics: Metrics
-    digest: str = Field(description="Equal exactly when two worlds are.")
-    sequence: int = Field(description="Changes the session has accepted.")
-
-
-class Option(Answered):
-    """One move as the planner saw it."""
-
-    move: Move
-    cell: CellPair | None
-    verdict: Literal["free", "blocked", "off_road"]
-    cost: float | None
-    reason: str
-    causes: list[str]
-
-
-class Decision(Answered):
-    """What was decided in the world of a tick; it leads to the next."""
-
-    tick: Tick
-    planner: str
-    move: Move
-    asked: Move | None = Field(description="What a person driving asked for.")
-    options: list[Option]
-    narration: str
-    weight: Literal[0, 1, 2] = Field(
-        description="How much there is to say: 0 nothing was in the way, 1 a way round, 2 a wait or worse."
-    )
-
-
-class LogEvent(Answered):
-    """One line of the log."""
-
-    number: int
-    tick: Tick
-    type: str
-    text: str
-    ids: list[str]
-    cell: CellPair | None
+from service.api.shapes import Answered, CellPair, LogEvent, PlaybackSpeed
+from service.api.shapes import Decision as Decision
+from service.api.shapes import State as State
+from sim.kinds import Kind, Mode, Outcome
 
 
 class Session(Answered):
@@ -407,69 +273,3 @@ class ProblemDocument(Answered):
     suggestions: list[str] | None = None
     choices: list[ChoiceModel] | None = None
     sequence: int | None = Field(None, description="Where the session stands, if it was changed meanwhile.")
-
-
-Share = Annotated[float, Field(ge=0, le=1)]
-Interval = Annotated[list[Share], Field(min_length=2, max_length=2, description="95 % interval")]
-
-
-class AdviceOption(Answered):
-    """What one choice leads to."""
-
-    option: Choice
-    chance: Share = Field(description="Of never reaching the hazard, or too slowly to be harmed.")
-    interval: Interval
-    ending: Ending = Field(description="With every quantity in the middle of its range.")
-    needs_m: float = Field(description="The distance in which it avoids the hazard.")
-    meets_kmh: float = Field(description="Speed at the hazard; 0: not reached.")
-    harm_kmh: float = Field(description="Mean speed at which harm is done; 0 counts where none is.")
-
-
-class AdvicePhysics(Answered):
-    """The physics, with every quantity in the middle of its range."""
-
-    speed_ms: float
-    time_s: float = Field(description="Until the hazard is reached if nothing is done.")
-    reaction_s: float
-    friction: float
-    deceleration_ms2: float
-    reaction_m: float
-    braking_m: float
-    stopping_m: float = Field(description="Reaction and braking: v·t + v²/(2·μ·g).")
-    stopping_most_m: float = Field(description="Enough to stop in 95 % of cases.")
-    offset_m: float = Field(description="How far to move aside.")
-    lateral_ms2: float
-    steering_s: float = Field(description="To move that far aside: sqrt(2·y/a).")
-    steering_m: float = Field(description="Driven meanwhile, reaction included.")
-    unharmed_kmh: float = Field(description="Up to this speed the hazard can be driven over.")
-
-
-class AdviceQuantity(Answered):
-    """A number that the advice rests on, and where it is from."""
-
-    name: str
-    law: Literal["lognormal", "normal", "fixed"]
-    middle: float = Field(description="Median, or mean of a normal quantity.")
-    spread: float = Field(description="Standard deviation; of the logarithm, where lognormal.")
-    unit: str
-    source: str
-
-
-class Advice(Answered):
-    """What to do about a hazard ahead, how sure that is, and the physics behind it."""
-
-    question: str
-    text: str
-    source: Literal["typed", "grammar", "llm"]
-    hazard: Kind
-    distance_m: float
-    speed_kmh: float
-    weather: Weather
-    recommendation: Choice
-    confidence: Share = Field(description="The chance of coming away unharmed by doing so.")
-    interval: Interval
-    options: list[AdviceOption]
-    physics: AdvicePhysics
-    parameters: list[AdviceQuantity]
-    samples: int
-    seed: int

@@ -8,20 +8,20 @@ from html.parser import HTMLParser
 import pytest
 from pydantic import BaseModel
 
-from service.api import schemas
+from service.api import schemas, shapes
 from service.client import AsyncClient, Frame, html, results
 from service.client.errors import UnexpectedAnswer
 
 PAIRS: list[tuple[type, type[BaseModel]]] = [
-    (results.Vehicle, schemas.Vehicle),
-    (results.Mover, schemas.Mover),
-    (results.Hazard, schemas.Hazard),
-    (results.CrashCause, schemas.CrashCause),
-    (results.Metrics, schemas.Metrics),
-    (results.State, schemas.State),
-    (results.Option, schemas.Option),
-    (results.Decision, schemas.Decision),
-    (results.LogEvent, schemas.LogEvent),
+    (results.Vehicle, shapes.Vehicle),
+    (results.Mover, shapes.Mover),
+    (results.Hazard, shapes.Hazard),
+    (results.CrashCause, shapes.CrashCause),
+    (results.Metrics, shapes.Metrics),
+    (results.State, shapes.State),
+    (results.Option, shapes.Option),
+    (results.Decision, shapes.Decision),
+    (results.LogEvent, shapes.LogEvent),
     (results.SessionInfo, schemas.Session),
     (results.SessionSummary, schemas.SessionSummary),
     (results.Change, schemas.Change),

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from pydantic import TypeAdapter
 
 from service import problems
-from service.api import bodies, schemas, tickets
+from service.api import bodies, schemas, schemas_advice, tickets
 from service.app import create_app
 from service.settings import Settings
 from service.store import MemoryStore
@@ -73,7 +73,7 @@ MODELS: dict[str, type] = {
     "talking_step": schemas.StepResult,
     "talking_ask": schemas.Answer,
     "talking_parse": schemas.Parsed,
-    "talking_advice": schemas.Advice,
+    "talking_advice": schemas_advice.Advice,
     "talking_language": schemas.LanguageGuide,
     "watching_state": schemas.State,
     "watching_decisions": schemas.DecisionPage,

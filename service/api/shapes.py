@@ -1,0 +1,149 @@
+"""The documented shape of a road's parts: what is on it, what was decided, what its log tells.
+
+`schemas` makes the answers of these.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from service.api.bodies import Tick
+from service.sessions.pace import FASTEST, SLOWEST
+from sim.kinds import Kind, Mode, Move, Outcome
+
+CellPair = Annotated[
+    list[int], Field(min_length=2, max_length=2, description="[column, row], row 0 at the goal")
+]
+
+PlaybackSpeed = Annotated[
+    Annotated[float, Field(ge=SLOWEST, le=FASTEST)] | Literal["max"],
+    Field(description="How fast the clock plays it; `max` is as fast as possible. No world knows of it."),
+]
+
+
+class Answered(BaseModel):
+    """What callers are answered."""
+
+    model_config = ConfigDict(extra="forbid")
+
+
+class Vehicle(Answered):
+    """An autonomous vehicle."""
+
+    id: str
+    kind: Literal[Kind.AV]
+    cell: CellPair
+
+
+class Mover(Answered):
+    """An obstacle vehicle or a pedestrian."""
+
+    id: str
+    kind: Literal[Kind.VEHICLE, Kind.PEDESTRIAN]
+    cell: CellPair
+    heading: Literal["left", "right"]
+    disabled: bool = Field(description="Held by a pothole.")
+
+
+class Hazard(Answered):
+    """A pothole or a barrier."""
+
+    id: str
+    kind: Literal[Kind.POTHOLE, Kind.BARRIER]
+    cell: CellPair
+
+
+class CrashCause(Answered):
+    """What a crash was with: met in one cell (`hit`), or passing through one another (`swap`)."""
+
+    kind: Kind
+    how: Literal["hit", "swap"]
+    ids: list[str]
+    cell: CellPair
+
+
+class MoveCounts(Answered):
+    """How often each sort of move was made."""
+
+    forward: int
+    lateral: int
+    diagonal: int
+    stay: int
+
+
+class Metrics(Answered):
+    """Figures over the session's episodes."""
+
+    episodes: int = Field(description="Episodes that have ended.")
+    successes: int
+    crashes: int
+    stuck: int
+    success_rate: float | None
+    steps: int
+    moves: MoveCounts
+    distance_m: float
+    last_episode_ticks: int | None
+
+
+class State(Answered):
+    """The world at a tick."""
+
+    session: str
+    tick: Tick
+    time_s: float = Field(description="Simulated seconds since the session began.")
+    episode: int
+    episode_tick: int
+    status: Outcome
+    cause: CrashCause | None
+    columns: int
+    rows: int
+    visible_rows: int
+    step_seconds: float
+    paused: bool
+    playback_speed: PlaybackSpeed
+    mode: Mode
+    planner: str
+    vehicles: list[Vehicle]
+    movers: list[Mover]
+    hazards: list[Hazard]
+    metrics: Metrics
+    digest: str = Field(description="Equal exactly when two worlds are.")
+    sequence: int = Field(description="Changes the session has accepted.")
+
+
+class Option(Answered):
+    """One move as the planner saw it."""
+
+    move: Move
+    cell: CellPair | None
+    verdict: Literal["free", "blocked", "off_road"]
+    cost: float | None
+    reason: str
+    causes: list[str]
+
+
+class Decision(Answered):
+    """What was decided in the world of a tick; it leads to the next."""
+
+    tick: Tick
+    planner: str
+    move: Move
+    asked: Move | None = Field(description="What a person driving asked for.")
+    options: list[Option]
+    narration: str
+    weight: Literal[0, 1, 2] = Field(
+        description="How much there is to say: 0 nothing was in the way, 1 a way round, 2 a wait or worse."
+    )
+
+
+class LogEvent(Answered):
+    """One line of the log."""
+
+    number: int
+    tick: Tick
+    type: str
+    text: str
+    ids: list[str]
+    cell: CellPair | None
