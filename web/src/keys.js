@@ -1,7 +1,7 @@
 // @ts-check
 /** The keyboard: what each key does when nobody is typing. */
 
-import { ACTS, HELP } from "./acts.js";
+import { HELP, perform } from "./acts.js";
 
 /** @import { Page } from "./main.js" */
 
@@ -19,10 +19,9 @@ export function watchKeys(page, words) {
     if (event.key === "/") words.focus();
     else if (event.key === "?") page.act(HELP.actions, HELP.label);
     else {
-      const act = ACTS.find(({ key }) => key === event.key);
-      if (!act || (event.repeat && act.name !== "step")) return;
-      const { turns, label } = act.now(page.state());
-      for (const actions of turns) page.act(actions, label, true);
+      const act = page.acts().find(({ key }) => key === event.key);
+      if (!act || (event.repeat && !act.repeats)) return;
+      perform(act, page);
     }
     event.preventDefault();
   });

@@ -6,6 +6,7 @@
  * become the next state, and the loop shows it with the next frame.
  */
 
+import { ACTS } from "./acts.js";
 import { byId } from "./dom.js";
 import { watchKeys } from "./keys.js";
 import { createLoop } from "./loop.js";
@@ -15,6 +16,7 @@ import { Connection } from "./socket.js";
 import { INITIAL, reduce, sceneOf } from "./state.js";
 import { watchPreferences } from "./theme.js";
 
+/** @import { Act } from "./acts.js" */
 /** @import { Action, ClientMessage } from "./protocol.js" */
 /** @import { State, Highlight, Event, Past } from "./state.js" */
 
@@ -26,6 +28,7 @@ import { watchPreferences } from "./theme.js";
  * @property {(highlight: Highlight | null) => void} highlight
  * @property {() => void} startSession
  * @property {() => void} reconnect  now rather than after the pause
+ * @property {() => Act[]} acts  all that can be done by a key or from the palette
  * @property {() => State} state  the present, whatever tick is looked at
  * @property {(past: Past | null) => void} look  show an earlier tick instead of the present, or (null) the present again
  */
@@ -64,10 +67,12 @@ const page = {
   look: (past) => dispatch({ type: "past", past }),
   startSession: () => void startSession(),
   reconnect: () => void connection?.open(),
+  acts: () => acts,
   state: () => state,
 };
 
 const panels = createPanels(page);
+const acts = [...ACTS, ...panels.flatMap((panel) => panel.acts ?? [])];
 const loop = createLoop({
   update() {
     const before = shown;

@@ -1,7 +1,7 @@
 // @ts-check
 /** The clock's buttons and the help button; the same acts as the keys (`acts.js`). */
 
-import { ACTS, HELP } from "../acts.js";
+import { ACTS, HELP, perform } from "../acts.js";
 import { icon } from "../icons.js";
 import { make, setText } from "../dom.js";
 
@@ -15,7 +15,7 @@ import { make, setText } from "../dom.js";
  * @returns {Panel}
  */
 export function createControls(host, help, page) {
-  const buttons = ACTS.map((act) => {
+  const buttons = ACTS.filter((act) => act.button).map((act) => {
     const label = make("span", { class: "control-label" });
     const picture = make("span", { class: "control-icon" });
     const button = make(
@@ -25,10 +25,7 @@ export function createControls(host, help, page) {
         type: "button",
         "data-act": act.name,
         "aria-keyshortcuts": act.key === " " ? "Space" : act.key,
-        onclick: () => {
-          const { turns, label: said } = act.now(page.state());
-          for (const actions of turns) page.act(actions, said, true);
-        },
+        onclick: () => perform(act, page),
       },
       picture,
       label,
@@ -42,12 +39,14 @@ export function createControls(host, help, page) {
     update(state) {
       const off = state.connection.phase !== "live";
       for (const entry of buttons) {
-        const { label, icon: name } = entry.act.now(state);
-        entry.button.disabled = off;
+        const doing = entry.act.now(state);
+        entry.button.disabled = off || doing === null;
+        if (doing === null) continue;
+        const { label, icon: name = "" } = doing;
         if (entry.shown === name) continue;
         entry.shown = name;
         setText(entry.label, label);
-        entry.button.title = `${label}  ${entry.act.keyName}`;
+        entry.button.title = [label, entry.act.keyName].filter(Boolean).join("  ");
         entry.button.setAttribute("aria-label", label);
         entry.picture.replaceChildren(icon(name));
       }

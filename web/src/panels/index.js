@@ -14,6 +14,7 @@ import { createStatus } from "./status.js";
 import { createTalk } from "./talk.js";
 import { createVerdict } from "./verdict.js";
 
+/** @import { Act } from "../acts.js" */
 /** @import { Page } from "../main.js" */
 /** @import { State } from "../state.js" */
 
@@ -22,6 +23,7 @@ import { createVerdict } from "./verdict.js";
  * @property {(state: State, before: State) => void} [update]  the state has changed
  * @property {(now: number) => boolean} [draw]  draw what moves; whether there is more to come
  * @property {() => void} [repaint]  size or colours have changed
+ * @property {Act[]} [acts]  what can be done with it by a key or from the palette
  */
 
 /** @param {Page} page @returns {Panel[]} */
