@@ -4,7 +4,11 @@ from __future__ import annotations
 
 import io
 import json
-from collections.abc import Iterator
+import os
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any, Literal
 
 import httpx
@@ -83,3 +87,42 @@ async def test_a_line_names_the_request_it_is_about() -> None:
 async def test_every_answer_has_an_id_of_its_own(service: Service) -> None:
     ids = {(await service.client.get(path)).headers["x-request-id"] for path in ("/", "/healthz", "/nowhere")}
     assert len(ids) == 3
+
+
+def test_lines_that_cannot_be_written_fail_nobody_and_are_told_of(tmp_path: Path) -> None:
+    """A disk that is full, then not."""
+    full, end = os.open("/dev/full", os.O_WRONLY), tmp_path / "log"
+    beside = logs.Beside(full, "json")
+    for number in range(3):
+        beside.write(f"{number}\n")
+    until(lambda: beside._lost == 3)
+    disk = os.open(end, os.O_WRONLY | os.O_CREAT)
+    os.dup2(disk, full)
+    beside.write("4\n")
+    beside.close()
+    os.close(full)
+    os.close(disk)
+    told, line = end.read_text().splitlines()
+    assert json.loads(told)["event"] == "3 lines before this one could not be written"
+    assert line == "4"
+
+
+def test_nobody_waits_for_a_reader_that_does_not_read() -> None:
+    reading, writing = os.pipe()
+    beside = logs.Beside(writing, "console", most=10)
+    began = time.monotonic()
+    for _ in range(5_000):
+        beside.write("x" * 100 + "\n")
+    assert time.monotonic() - began < 2
+    assert beside._lost > 1_000
+    os.close(reading)  # whatever waits for it fails now
+    until(beside._waiting.empty)
+    beside.close()
+    os.close(writing)
+
+
+def until(true: Callable[[], bool]) -> None:
+    end = time.monotonic() + 5
+    while not true():
+        assert time.monotonic() < end
+        threading.Event().wait(0.005)
