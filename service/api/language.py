@@ -15,6 +15,7 @@ from service.api.respond import StrictRoute, json_response
 from service.problems import Invalid, NotRestorable, UnknownSession
 from service.talk.guide import Intent
 from service.talk.languages import DEFAULT
+from service.talk.preview import Preview
 
 router = APIRouter(tags=["talking"], route_class=StrictRoute)
 
@@ -36,7 +37,10 @@ async def language(
     ] = None,
     language: Annotated[str, Query(max_length=16, description="The language's code.")] = DEFAULT,
 ) -> Response:
-    """Every intent with examples; or with `prefix`, whole sentences that begin with it and would work."""
+    """Every intent with examples; or with `prefix`, whole sentences that begin with it and would work.
+
+    With a `session` as well: what the prefix would do there if it were sent as it stands.
+    """
     listener = here.listener
     guide = listener.languages.guide(language)
     live = None if session is None else await here.manager.get(session)
@@ -53,13 +57,26 @@ async def language(
             }
             for each in taught
         ]
-        told["completions"] = []
+        told["completions"], told["preview"] = [], None
     else:
         topic = listener.topic(live, language)
         told["intents"], told["taught"] = [], []
         phrases = [each.phrase for each in taught]
         told["completions"] = [] if guide is None else guide.completions(prefix, live, topic, phrases)
+        told["preview"] = None if live is None else _preview_json(listener.foresee(prefix, live, language))
     return json_response(told)
+
+
+def _preview_json(found: Preview | None) -> dict[str, Any] | None:
+    if found is None:
+        return None
+    return {
+        "standing": found.standing,
+        "actions": contract.dump(found.actions),
+        "changes": found.changes,
+        "detail": found.detail,
+        "unparsed": found.unparsed,
+    }
 
 
 def _intent_json(intent: Intent) -> dict[str, Any]:

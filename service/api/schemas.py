@@ -161,6 +161,16 @@ class TaughtPhrase(Answered):
     sentence: str = Field(description="The sentence that says the same.")
 
 
+class Preview(Answered):
+    """What a sentence would do if it were sent as it stands."""
+
+    standing: Literal["does", "asks", "ambiguous", "not_understood", "refused"]
+    actions: list[Action]
+    changes: list[Change] = Field(description="Empty also where finding out would take long.")
+    detail: str | None = Field(description="What it would be refused or asked about with.")
+    unparsed: list[str]
+
+
 class LanguageGuide(Answered):
     """What can be said."""
 
@@ -170,6 +180,7 @@ class LanguageGuide(Answered):
     intents: list[IntentGuide] = Field(description="Empty when a prefix was given.")
     taught: list[TaughtPhrase] = Field(description="Empty when a prefix was given.")
     completions: list[str] = Field(description="Whole sentences that begin with the prefix.")
+    preview: Preview | None = Field(description="With a prefix and a session; none for an empty prefix.")
 
 
 class StepResult(Answered):

@@ -25,6 +25,7 @@ from service.sessions.utterance import Outcome, Utterance
 from service.sessions.words import Words
 from service.talk.languages import DEFAULT, Languages
 from service.talk.phrasebook import Phrasebook
+from service.talk.preview import Preview, preview
 from sim.actions import Scenario
 from sim.config import Config
 from sim.described import UndescribableError, actions_for
@@ -89,6 +90,12 @@ class Listener:
             return self.languages[DEFAULT].sentence(actions_for(config) or (Scenario(),))
         except (UndescribableError, Unsayable):
             return None
+
+    def foresee(self, text: str, session: Session, code: str = DEFAULT) -> Preview | None:
+        """What a sentence would do now; None for one that is empty, or too long to be heard."""
+        if not text.strip() or len(text) > self._most_chars:
+            return None
+        return preview(heard(self.languages[code].parse, text, self.topic(session, code)), session)
 
     async def hear(
         self, text: str, session: Session | None = None, code: str = DEFAULT, field: str = "text"
