@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import sqlite3
 from importlib.util import find_spec
+from pathlib import Path
 from typing import Any
 
 from anyio import to_thread
@@ -20,6 +21,7 @@ from sqlalchemy.exc import ArgumentError, DBAPIError
 from sqlalchemy.ext.asyncio import AsyncEngine, create_async_engine
 from sqlalchemy.pool import AsyncAdaptedQueuePool
 
+from service.store import wal
 from service.store.base import StoreError
 
 _BUSY_S = 1.0
@@ -66,9 +68,15 @@ class Sqlite:
             )
 
     def _check(self) -> str:
-        connection = sqlite3.connect(self._path, timeout=_BUSY_S)
+        path = Path(self._path)
+        # Where there is a log of changes, closing would write it into what may be damaged: only looked at.
+        how = "ro" if path.with_name(f"{path.name}-wal").exists() else "rwc"
+        connection = sqlite3.connect(f"{path.resolve().as_uri()}?mode={how}", uri=True, timeout=_BUSY_S)
         try:
             connection.execute("PRAGMA schema_version").fetchone()
+            lost = wal.defect(path)
+            if lost is not None:
+                return lost
             return " ".join(str(connection.execute("PRAGMA quick_check(1)").fetchone()[0]).split())
         finally:
             connection.close()
