@@ -19,6 +19,7 @@ from service.api import (
     advice,
     commands,
     config,
+    counterfactual,
     edges,
     errors,
     film,
@@ -156,6 +157,7 @@ def create_app(
         tickets,
         forks,
         links,
+        counterfactual,
     ):
         app.include_router(resource.router, prefix=PREFIX)
     app.include_router(health.router)

@@ -57,7 +57,7 @@ def tick_message(
     if world.episode != before.world.episode:
         message["state"] = state_json(standing, after)
     else:
-        message |= _motion(before.world, world)
+        message |= motion_json(before.world, world)
     return encoded(
         message
         | {
@@ -98,7 +98,7 @@ def state_message(standing: Standing, run: Run, missed: Missed | None) -> bytes:
     return encoded({"type": "state", "missed": told, "state": state_json(standing, run)})
 
 
-def _motion(before: World, after: World) -> dict[str, Any]:
+def motion_json(before: World, after: World) -> dict[str, Any]:
     """Where things went and which way they turned, by id; what stood still is left out."""
     was = {name: index for index, name in before.movers.items()}
     moved: dict[str, Cell] = {}

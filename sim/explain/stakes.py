@@ -52,7 +52,7 @@ def stakes(run: Run, decision: Decision, foil: Move) -> Stakes | None:
     """What `foil` would have meant instead of the move of `decision`; None if it leads off the road."""
     if decision.option(foil).cell is None or foil is decision.move:
         return None
-    other, real = _after(run, foil), _after(run, decision.move)
+    other, real = after_move(run, foil), after_move(run, decision.move)
     rest_other, rest_real = least_ticks(other), least_ticks(real)
     both = rest_other is not None and rest_real is not None
     return Stakes(
@@ -64,7 +64,7 @@ def stakes(run: Run, decision: Decision, foil: Move) -> Stakes | None:
     )
 
 
-def _after(run: Run, move: Move) -> Run:
+def after_move(run: Run, move: Move) -> Run:
     """The state after a move, judged."""
     after = commit(run.world, move, run.config)
     crashes = collisions(run.world, after)

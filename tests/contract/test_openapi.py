@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from pydantic import TypeAdapter
 
 from service import problems
-from service.api import bodies, schemas, schemas_advice, tickets
+from service.api import bodies, schemas, schemas_advice, schemas_counterfactual, tickets
 from service.app import create_app
 from service.settings import Settings
 from service.store import MemoryStore
@@ -52,6 +52,7 @@ ROUTES = {
     "POST /api/v1/sessions/{session_id}/forks",
     "POST /api/v1/sessions/{session_id}/rewind",
     "GET /api/v1/sessions/{session_id}/saved",
+    "POST /api/v1/sessions/{session_id}/counterfactual",
     "GET /api/v1/sessions/{session_id}/link",
     "GET /api/v1/sessions/{session_id}/frame",
     "GET /api/v1/sessions/{session_id}/film",
@@ -83,6 +84,7 @@ MODELS: dict[str, type] = {
     "time_fork": schemas.Session,
     "time_rewind": schemas.CommandResult,
     "time_saved": schemas.SavedMoments,
+    "time_counterfactual": schemas_counterfactual.Counterfactual,
     "time_link": schemas.Link,
     "operating_healthz": schemas.Health,
     "operating_readyz": schemas.Ready,
