@@ -17,19 +17,21 @@ import { INITIAL, reduce, sceneOf } from "./state.js";
 import { watchPreferences } from "./theme.js";
 
 /** @import { Act } from "./acts.js" */
+/** @import { Otherwise } from "./counterfactual.js" */
 /** @import { Action, ClientMessage } from "./protocol.js" */
 /** @import { State, Highlight, Event, Past } from "./state.js" */
 
 /**
  * @typedef {object} Page  what panels may ask for
  * @property {(text: string) => void} say  send a sentence
- * @property {(actions: Action[], label: string, quiet?: boolean) => void} act  send typed actions; quiet ones are
- *   listed as talk only when they changed something or were refused
+ * @property {(actions: Action[], label: string, quiet?: boolean) => string} act  send typed actions; quiet ones are
+ *   listed as talk only when they changed something or were refused. Answers the exchange's id
  * @property {(highlight: Highlight | null) => void} highlight
  * @property {() => void} startSession
  * @property {() => void} reconnect  now rather than after the pause
  * @property {() => Act[]} acts  all that can be done by a key or from the palette
  * @property {() => State} state  the present, whatever tick is looked at
+ * @property {(other: Otherwise) => void} [pick]  play what would have been beside what was
  * @property {(past: Past | null) => void} look  show an earlier tick instead of the present, or (null) the present again
  */
 
@@ -57,6 +59,7 @@ function send(label, quiet, message) {
   const id = `c${exchanges}`;
   dispatch({ type: "said", id, text: label, quiet });
   if (!connection?.send(message(id))) dispatch({ type: "unsent", id });
+  return id;
 }
 
 /** @type {Page} */

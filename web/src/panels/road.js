@@ -12,6 +12,7 @@ import { readPalette, wantsStillness } from "../theme.js";
 import { describe, egoOf } from "../world.js";
 
 /** @import { View } from "../camera.js" */
+/** @import { Places } from "../hits.js" */
 /** @import { Pose } from "../motion.js" */
 /** @import { State } from "../state.js" */
 /** @import { World } from "../world.js" */
@@ -21,7 +22,7 @@ import { describe, egoOf } from "../world.js";
 const LARGEST_RATIO = 2;
 const LONGEST_FRAME_S = 0.1;
 
-/** @param {HTMLElement} host @returns {Panel} */
+/** @param {HTMLElement} host @returns {Panel & {places: Places}} */
 export function createRoad(host) {
   const canvas = make("canvas", { class: "road-canvas", role: "img", "aria-label": "The road" });
   host.append(canvas);
@@ -47,7 +48,26 @@ export function createRoad(host) {
     return { view, tile };
   }
 
+  /** Where cells and things are on the screen. @type {Places} */
+  const places = {
+    cellAt(x, y) {
+      if (view === null || camera.top === null) return null;
+      const { left, top } = canvas.getBoundingClientRect();
+      return [Math.floor((x - left - view.left) / view.cell), Math.floor((y - top) / view.cell + camera.top)];
+    },
+    placeOf: ([column, row]) => {
+      if (view === null || camera.top === null) return null;
+      const { left, top } = canvas.getBoundingClientRect();
+      const size = view.cell;
+      return { left: left + view.left + column * size, top: top + (row - camera.top) * size, width: size, height: size };
+    },
+    poseOf: (id) => stage.pose(id, performance.now()),
+    poses: () => stage.poses(performance.now()),
+  };
+
   return {
+    places,
+
     update(next) {
       const { world } = next;
       const before = state?.world;

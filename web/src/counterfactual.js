@@ -1,0 +1,132 @@
+// @ts-check
+/** What would have been, from the service: two runs from one tick on, as worlds to be shown in step. */
+
+import { sessionPath } from "./protocol.js";
+import { moveName } from "./hits.js";
+import { worldAfter, worldOf } from "./world.js";
+
+/** @import { Action, Decision, Move, WireState, TickMessage } from "./protocol.js" */
+/** @import { World } from "./world.js" */
+
+/**
+ * @typedef {{kind: "move", tick: number, move: Move}
+ *   | {kind: "change", tick: number | null, actions: Action[], label: string}} Otherwise  what is otherwise, and when
+ */
+
+/** @typedef {{world: World, decision: Decision | null}} Frame  a world, and the decision that led to it */
+/** @typedef {{outcome: string, tick: number, driven: number, by_hand: boolean, cause: {kind: string, ids: string[]} | null}} End */
+/** @typedef {{frames: Frame[], end: End}} Side */
+
+/**
+ * @typedef {object} Beside
+ * @property {number} tick
+ * @property {Move | null} insteadOf  the move that was made, where another is asked about
+ * @property {number} saidSince
+ * @property {Side} real
+ * @property {Side} changed
+ */
+
+/** @param {Response} response */
+async function orProblem(response) {
+  if (response.ok) return response.json();
+  const problem = await response.json().catch(() => null);
+  const [error] = problem?.errors ?? [];
+  throw new Error(error?.message ?? problem?.detail ?? `The service answered ${response.status}.`);
+}
+
+/** @param {typeof fetch} http @param {string} path @param {RequestInit} [more] */
+async function call(http, path, more) {
+  let response;
+  try {
+    response = await http(path, more);
+  } catch (error) {
+    if (error instanceof Error && error.name === "AbortError") throw error;
+    throw new Error("The service cannot be reached.");
+  }
+  return orProblem(response);
+}
+
+/**
+ * Both runs. Throws an `Error` whose message a person can read.
+ * @param {string} session
+ * @param {Otherwise} other
+ * @param {typeof fetch} [http]
+ * @returns {Promise<Beside>}
+ */
+export async function fetchBeside(session, other, http = fetch) {
+  const what = other.kind === "move" ? { move: other.move } : { actions: other.actions };
+  const body = JSON.stringify(other.tick === null ? what : { ...what, at_tick: other.tick });
+  const headers = { "content-type": "application/json" };
+  const told = await call(http, `${sessionPath(session)}/counterfactual`, { method: "POST", headers, body });
+  return {
+    tick: told.at_tick,
+    insteadOf: told.instead_of,
+    saidSince: told.said_since,
+    real: { frames: framesOf(told.real), end: told.real.end },
+    changed: { frames: framesOf(told.changed), end: told.changed.end },
+  };
+}
+
+/**
+ * A decision with its whole trace.
+ * @param {string} session
+ * @param {number} tick
+ * @param {AbortSignal} [signal]
+ * @param {typeof fetch} [http]
+ * @returns {Promise<Decision>}
+ */
+export function fetchDecision(session, tick, signal, http = fetch) {
+  return call(http, `${sessionPath(session)}/decisions/${tick}`, { signal });
+}
+
+/** @param {{state: WireState, ticks: any[]}} side @returns {Frame[]} */
+function framesOf({ state, ticks }) {
+  let world = { ...worldOf(state), paused: false };
+  /** @type {Frame[]} */
+  const frames = [{ world, decision: null }];
+  for (const tick of ticks) {
+    const { cause, decision } = tick;
+    const events = cause ? [{ type: "crashed", ids: cause.ids, cell: cause.cell }] : [];
+    const message = /** @type {TickMessage} */ ({ ...tick, metrics: world.metrics, events });
+    world = { ...worldAfter(world, message), paused: false };
+    frames.push({ world, decision });
+  }
+  return frames;
+}
+
+/**
+ * How a run ends, in a few words.
+ * @param {End} end
+ */
+export function endWords({ outcome, driven, tick, cause, by_hand }) {
+  const ticks = driven === 1 ? "1 tick" : `${driven} ticks`;
+  if (outcome === "success") return `arrives after ${ticks}`;
+  if (outcome === "crash") return `crashes ${cause ? `into a ${cause.kind} ` : ""}at tick ${tick}`;
+  if (by_hand) return "waits for you to drive";
+  return outcome === "stuck" ? `is stuck after ${ticks}` : "goes on too long to tell";
+}
+
+/**
+ * What is otherwise, as the beginning of a sentence.
+ * @param {Otherwise} other
+ * @param {Beside} found
+ */
+export function titleOf(other, found) {
+  if (other.kind === "change") return other.label;
+  const went = other.move === "stay" ? "stayed" : `gone ${moveName(other.move)}`;
+  return `If it had ${went} at tick ${found.tick}`;
+}
+
+/**
+ * The first tick at which the two are driven differently; null where they never are.
+ * @param {Beside} found
+ * @returns {{at: number, tick: number, real: Move, changed: Move} | null}
+ */
+export function partOf({ real, changed }) {
+  const most = Math.min(real.frames.length, changed.frames.length);
+  for (let at = 1; at < most; at++) {
+    const [one, other] = [real.frames[at].decision, changed.frames[at].decision];
+    if (one && other && one.move !== other.move) return { at, tick: one.tick, real: one.move, changed: other.move };
+  }
+  return null;
+}
