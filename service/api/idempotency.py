@@ -156,13 +156,16 @@ async def once(request: Request, answers: Answers, handler: Handler) -> Response
 def document(method: str, path: str, operation: dict[str, Any], problem: Callable[..., Any]) -> None:
     """Tell of the header in the documentation of a call; `problem` makes an error's documentation."""
     if not _keyed(method.upper(), path):
+        if method != "get":
+            why = "ending twice is ending once" if method == "delete" else "nothing is changed"
+            operation["description"] += f"\n\n`{HEADER}` is not looked at: {why}."
         return
     operation.setdefault("parameters", []).append(
         {
             "name": HEADER,
             "in": "header",
             "required": False,
-            "schema": {"type": "string", "minLength": 1, "maxLength": 255},
+            "schema": {"type": "string", "minLength": 1, "maxLength": 255, "pattern": "^[!-~]+$"},
             "description": "Chosen by you: done once under this key, and answered the same for 24 hours.",
         }
     )

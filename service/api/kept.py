@@ -19,6 +19,7 @@ async def kept_contract(request: Request, handler: Handler) -> Response:
     """Answer a request by its handler, if need be. Raises a `ProblemError`."""
     context = context_of(request)
     if request.method == "GET":
+        preconditions.before(None)
         response = await handler(request)
         session_id = request.path_params.get("session_id")
         if session_id is None or response.status_code != 200 or not hasattr(response, "body"):
@@ -26,10 +27,10 @@ async def kept_contract(request: Request, handler: Handler) -> Response:
         session = await context.manager.get(session_id)
         return preconditions.tagged(request, response, session.sequence)
 
-    async def meant(request: Request) -> Response:
-        if "if-match" in request.headers and "session_id" in request.path_params:
-            session = await context.manager.get(request.path_params["session_id"])
-            preconditions.checked(request, session.sequence)
-        return await handler(request)
+    async def is_meant() -> None:
+        session = await context.manager.get(request.path_params["session_id"])
+        preconditions.checked(request, session.sequence)
 
-    return await idempotency.once(request, context.answers, meant)
+    asked = "if-match" in request.headers and "session_id" in request.path_params
+    preconditions.before(is_meant if asked else None)
+    return await idempotency.once(request, context.answers, handler)

@@ -1,17 +1,18 @@
 """The OpenAPI document, put right where the framework says what this service does not do.
 
 It documents a 422 of its own shape for every call with a parameter, and errors as plain JSON; here
-every error is a problem document, and a call answers the statuses it names and no others.
+every error is a problem document, and a call answers the statuses it names and no others. What only the
+running service knows, the languages it speaks, is written in as well.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from fastapi import FastAPI
 
-from service.api import gate, idempotency, preconditions
+from service.api import gate, idempotency, leads, preconditions
 from service.api.errors import documented
 from service.problems import KINDS, MEDIA_TYPE
 
@@ -22,17 +23,18 @@ _FRAMEWORK_ERRORS = ("HTTPValidationError", "ValidationError")
 def install(app: FastAPI) -> None:
     """Serve the corrected document; it is made once."""
     generate: Callable[[], dict[str, Any]] = app.openapi
+    languages: Sequence[str] = app.state.context.listener.languages.codes
     made: list[dict[str, Any]] = []
 
     def corrected() -> dict[str, Any]:
         if not made:
-            made.append(_corrected(generate()))
+            made.append(_corrected(generate(), languages))
         return made[0]
 
     app.openapi = corrected  # type: ignore[method-assign]
 
 
-def _corrected(document: dict[str, Any]) -> dict[str, Any]:
+def _corrected(document: dict[str, Any], languages: Sequence[str]) -> dict[str, Any]:
     for path, item in document["paths"].items():
         for method, operation in item.items():
             operation["responses"] = {
@@ -42,10 +44,25 @@ def _corrected(document: dict[str, Any]) -> dict[str, Any]:
             }
             for headers in (idempotency, preconditions, gate):
                 headers.document(method, path, operation, _add_problems)
+    leads.document(document["paths"])
+    _name_languages(document, languages)
     document["components"]["securitySchemes"] = {"key": {"type": "http", "scheme": "bearer"}}
     for name in _FRAMEWORK_ERRORS:
         document["components"]["schemas"].pop(name, None)
     return document
+
+
+def _name_languages(document: dict[str, Any], languages: Sequence[str]) -> None:
+    """Wherever a language is chosen, which there are."""
+    schemas = document["components"]["schemas"].values()
+    said = [schema.get("properties", {}).get("language") for schema in schemas]
+    for item in document["paths"].values():
+        for operation in item.values():
+            named = (each for each in operation.get("parameters", []) if each["name"] == "language")
+            said += [parameter["schema"] for parameter in named]
+    for schema in said:
+        if schema and schema.pop("maxLength", None):  # in answers it has none
+            schema["enum"] = list(languages)
 
 
 def _add_problems(operation: dict[str, Any], *slugs: str) -> None:

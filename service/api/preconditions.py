@@ -3,14 +3,19 @@
 A tag begins with the session's sequence. What is looked at (a GET) goes on with a digest of the answer,
 since time passes and no change is counted for that. A change asks for the sequence alone, so the tag of
 any answer about a session serves as `If-Match`.
+
+`If-Match` is looked at after all that a request must be by its form, and before anything is done (RFC 9110,
+13.2.1): a bad body is 422 whatever the tag says.
 """
 
 from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Callable
-from typing import Annotated, Any, TypeVar
+from collections.abc import Awaitable, Callable
+from contextvars import ContextVar
+from functools import wraps
+from typing import Annotated, Any, ParamSpec, TypeVar
 
 from fastapi import Depends, Request, Response
 
@@ -25,6 +30,8 @@ CHANGING = ("POST", "PATCH", "DELETE")
 
 _TAG = re.compile(r'(W/)?"([\x21\x23-\x7e]*)"')
 _TAGS = re.compile(rf"\s*{_TAG.pattern}(\s*,\s*{_TAG.pattern})*\s*")
+_DOCUMENTED = r'^(\*|(W/)?"[!#-~]*"(, ?(W/)?"[!#-~]*")*)$'
+"""What may stand in `If-Match`, in words that every reader of schemas knows."""
 _SEQUENCE = re.compile(r"([0-9]{1,15})(-[0-9a-f]+)?")
 
 OnTerms = Callable[[Callable[[Outcome], Response]], Terms]
@@ -48,6 +55,31 @@ def matched(request: Request) -> frozenset[int] | None:
 def checked(request: Request, sequence: int) -> None:
     """Raise `Stale` where this is not the session that the request was meant for."""
     Terms(matched(request)).check(sequence)
+
+
+_BEFORE: ContextVar[Callable[[], Awaitable[None]] | None] = ContextVar("before", default=None)
+"""What is to be looked at between a request's form and what it asks for."""
+
+Given = ParamSpec("Given")
+Made = TypeVar("Made")
+
+
+def before(check: Callable[[], Awaitable[None]] | None) -> None:
+    """What is looked at once the request that is being handled is known to be well formed; None: nothing."""
+    _BEFORE.set(check)
+
+
+def checked_first(endpoint: Callable[Given, Awaitable[Made]]) -> Callable[Given, Awaitable[Made]]:
+    """An endpoint that is reached only if what was asked for by `before` holds."""
+
+    @wraps(endpoint)
+    async def meant(*args: Given.args, **given: Given.kwargs) -> Made:
+        check = _BEFORE.get()
+        if check is not None:
+            await check()
+        return await endpoint(*args, **given)
+
+    return meant
 
 
 Told = TypeVar("Told")
@@ -92,25 +124,33 @@ def tagged(request: Request, response: Response, sequence: int) -> Response:
 
 def document(method: str, path: str, operation: dict[str, Any], problem: Callable[..., Any]) -> None:
     """Tell of these headers in the documentation of a call; `problem` makes an error's documentation."""
+    responses = operation["responses"]
+    if "201" in responses:
+        where = {"Location": _told("Where what was made is."), "ETag": _told("Its version, for `If-Match`.")}
+        responses["201"]["headers"] = where
     if "{session_id}" not in path or path.endswith("/events/stream"):
+        if method not in ("get", "head"):
+            operation["description"] += "\n\n`If-Match` is not looked at: this changes no session."
         return
     parameters = operation.setdefault("parameters", [])
     if method == "get":
-        parameters.append(
-            _header("If-None-Match", "The ETag of an answer that is at hand: 304 if it still is so.")
-        )
-        operation["responses"]["304"] = {"description": "As it was: the answer at hand still holds"}
+        told = "The ETag of an answer that is at hand: 304 if it still is so; anything else is ignored."
+        parameters.append(_header("If-None-Match", told, {"type": "string"}))
+        responses["304"] = {"description": "As it was: the answer at hand still holds"}
     else:
-        said = "An ETag of this session: done only if nothing was changed since; otherwise 412."
-        parameters.append(_header("If-Match", said))
+        told = "An ETag of this session, or several: done only if nothing was changed since; otherwise 412."
+        schema = {"type": "string", "pattern": _DOCUMENTED, "examples": ["*"]}
+        parameters.append(_header("If-Match", told, schema))
         problem(operation, "stale", "invalid")
+        responses["412"]["headers"] = {"ETag": _told("Where the session stands.")}
+    if "200" in responses:
+        responses["200"]["headers"] = {"ETag": _told("The session's version, for `If-Match`.")}
 
 
-def _header(name: str, description: str) -> dict[str, Any]:
-    return {
-        "name": name,
-        "in": "header",
-        "required": False,
-        "schema": {"type": "string"},
-        "description": description,
-    }
+def _header(name: str, description: str, schema: dict[str, Any]) -> dict[str, Any]:
+    return {"name": name, "in": "header", "required": False, "schema": schema, "description": description}
+
+
+def _told(description: str) -> dict[str, Any]:
+    """A header of an answer."""
+    return {"description": description, "required": True, "schema": {"type": "string", "minLength": 1}}

@@ -19,6 +19,7 @@ def links_json(session_id: str) -> dict[str, str]:
     """Where everything of a session is."""
     own = f"{PREFIX}/sessions/{session_id}"
     parts = (
+        "config",
         "state",
         "commands",
         "actions",
@@ -35,7 +36,8 @@ def links_json(session_id: str) -> dict[str, str]:
         "film",
         "stream",
     )
-    return {"self": own, **{part: f"{own}/{part}" for part in parts}, "page": f"/#/s/{session_id}"}
+    named = {"self": own, "events_stream": f"{own}/events/stream", "page": f"/#/s/{session_id}"}
+    return named | {part: f"{own}/{part}" for part in parts}
 
 
 def session_json(session: Session, sentence: str | None) -> dict[str, Any]:
