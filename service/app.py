@@ -36,6 +36,7 @@ from service.api import (
     sse,
     stream,
     tickets,
+    timeline,
     watching,
 )
 from service.api import (
@@ -157,6 +158,7 @@ def create_app(
         tickets,
         forks,
         links,
+        timeline,
         counterfactual,
     ):
         app.include_router(resource.router, prefix=PREFIX)
