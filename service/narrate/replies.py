@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from service.narrate.sayings import Sayings
-from service.sessions.facts import Advised, Asked, Fact, Lesson, PauseSet, Stepped, Undone, changes_of
+from service.sessions.facts import Advised, Asked, Fact, Lesson, PauseSet, Stepped, Undone, Viewed, changes_of
 from service.sessions.pace import PaceSet
 from service.sessions.pace import said as said_pace
 from service.sessions.saved import Kept, Went
@@ -65,6 +65,9 @@ class Replies:
                     if name is None
                     else self._say("loaded", name=name, tick=tick)
                 )
+            case Viewed(view=view, shown=shown):
+                name = self._sayings.say("replies", "views", view)
+                return self._say("shown" if shown else "hidden", view=name)
             case Asked() | Advised():
                 return ""
 

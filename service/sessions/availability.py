@@ -6,7 +6,7 @@ the same. What a scenario may name is the world's rule.
 
 from __future__ import annotations
 
-from service.actions import Action, Ask
+from service.actions import Action, Ask, Hide, Show
 from service.sessions.pace import sets_pace
 from sim.actions import Add, Adjust, Drive, Remove, Reset, Scenario, Set, SetCount, SetMode
 from sim.kinds import Kind
@@ -25,6 +25,8 @@ _OFFERED = frozenset(
         "set",
         "adjust",
         "prefer",
+        "show",
+        "hide",
         "pause",
         "resume",
         "step",
@@ -42,8 +44,6 @@ _NO_WORLD = frozenset(("show", "hide", "evaluate", "find_worst", "advise", "save
 """Actions that leave the road as it is, whether this version has them or not."""
 
 _NAMES = {
-    "show": "Other views than the road",
-    "hide": "Other views than the road",
     "evaluate": "Running many episodes to compare planners",
     "find_worst": "Searching for the hardest road",
     "record": "Recording pictures",
@@ -59,6 +59,8 @@ def refusal(action: Action) -> str | None:
     match action:
         case Add(kind=Kind.AV) | Remove(kind=Kind.AV) | SetCount(kind=Kind.AV):
             return "More or fewer autonomous vehicles are not available yet; there is always one."
+        case Show(view="sensors") | Hide(view="sensors"):
+            return "A view of the sensors is not available yet: there are none, the vehicle sees everything."
         case Scenario():
             missing = unavailable(action)
             return None if missing is None else _sentence(missing.message)

@@ -15,19 +15,21 @@ from service.actions import (
     Advise,
     Ask,
     Forget,
+    Hide,
     Load,
     Pause,
     Redo,
     Resume,
     Rewind,
     Save,
+    Show,
     Teach,
     Undo,
 )
 from service.actions import Step as StepTicks
 from service.problems import DoesNotFit, FieldProblem, Invalid, NotAvailable, NothingToUndo, ProblemError
 from service.sessions import availability
-from service.sessions.facts import Advised, Asked, Fact, PauseSet, Stepped, Undone
+from service.sessions.facts import Advised, Asked, Fact, PauseSet, Stepped, Undone, Viewed
 from service.sessions.history import History, Step
 from service.sessions.pace import NORMAL, Pace, PaceError, PaceSet, pace_after, sets_pace
 from service.sessions.rewinding import Jump, go_back
@@ -106,6 +108,8 @@ class Draft:
                 return Asked(action, self.timeline.copy())
             case Advise():
                 return self._advise(position, action)
+            case Show() | Hide():
+                return Viewed(action.view, isinstance(action, Show))
             case Pause() | Resume():
                 return self._set_paused(isinstance(action, Pause))
             case StepTicks():

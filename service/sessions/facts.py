@@ -56,6 +56,14 @@ class Advised:
 
 
 @dataclass(frozen=True, slots=True)
+class Viewed:
+    """A view is to be shown or hidden where the session is watched; the session itself stays as it is."""
+
+    view: str
+    shown: bool
+
+
+@dataclass(frozen=True, slots=True)
 class Lesson:
     """A phrase that was taught or forgotten, and the sentence that says the same."""
 
@@ -69,7 +77,7 @@ class Lesson:
 Answerable: TypeAlias = Asked | Advised
 """What is answered, and changes nothing."""
 
-Fact: TypeAlias = Applied | PauseSet | PaceSet | Stepped | Undone | Kept | Went | Answerable
+Fact: TypeAlias = Applied | PauseSet | PaceSet | Stepped | Undone | Kept | Went | Viewed | Answerable
 
 
 def changes_of(facts: tuple[Fact, ...]) -> tuple[Change, ...]:
@@ -80,6 +88,11 @@ def changes_of(facts: tuple[Fact, ...]) -> tuple[Change, ...]:
             first = merged.get(change.path, change)
             merged[change.path] = Change(change.path, first.before, change.after)
     return tuple(change for change in merged.values() if change.before != change.after)
+
+
+def views_of(facts: tuple[Fact, ...]) -> dict[str, bool]:
+    """Which views are to be shown and which hidden; of one that is named twice, the last word."""
+    return {fact.view: fact.shown for fact in facts if isinstance(fact, Viewed)}
 
 
 def happened_in(facts: tuple[Fact, ...]) -> list[tuple[Run, Applied | Tick]]:
@@ -105,5 +118,5 @@ def _changes(fact: Fact) -> tuple[Change, ...]:
             return (Change("tick", fact.first_tick, fact.first_tick + len(fact.ticks)),)
         case Went():
             return (Change("tick", fact.before, fact.tick), *fact.changes)
-        case Asked() | Advised() | Kept():
+        case Asked() | Advised() | Kept() | Viewed():
             return ()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from service.sessions.log import LogEvent
@@ -77,10 +77,13 @@ def changed_message(
     reply: str,
     changes: Sequence[Change],
     lines: Sequence[LogEvent],
+    views: Mapping[str, bool] | None = None,
 ) -> bytes:
-    """A change that was accepted, whoever made it."""
+    """A change that was accepted, whoever made it; `views` are those to be shown (true) or hidden."""
+    told: Json = {"views": views} if views else {}
     return encoded(
-        {
+        told
+        | {
             "type": "changed",
             "sequence": standing.sequence,
             "text": text,

@@ -8,7 +8,7 @@ A change that was begun is finished even when whoever asked for it has gone.
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncIterator, Callable, Sequence
+from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from contextlib import asynccontextmanager
 from dataclasses import dataclass
 from typing import Any
@@ -18,13 +18,13 @@ from anyio import to_thread
 from pydantic import ValidationError
 
 from service import actions as contract
-from service.actions import Action, Advise, Ask, Load, Pause, Redo, Resume, Rewind, Undo
+from service.actions import Action, Advise, Ask, Hide, Load, Pause, Redo, Resume, Rewind, Show, Undo
 from service.problems import Invalid, NotSaved, ProblemError, UnknownSession
 from service.sessions.availability import refusal
 from service.sessions.clock import Clock
 from service.sessions.conversation import Conversation
 from service.sessions.draft import Draft, check_ticks, ticks_to_run
-from service.sessions.facts import Answerable, Asked, Fact, changes_of, happened_in
+from service.sessions.facts import Answerable, Asked, Fact, changes_of, happened_in, views_of
 from service.sessions.history import History
 from service.sessions.later import Later
 from service.sessions.log import Log, LogEvent
@@ -50,6 +50,9 @@ _LOG = structlog.get_logger(__name__)
 
 TRIED = (Add, Remove, SetCount, SetMode, Undo, Redo, Pause, Resume, Rewind, Load)
 """Actions that are tried on a copy at once, to know whether they are possible."""
+
+CHANGES_NOTHING = Ask | Advise | Show | Hide
+"""Actions that leave the session as it is, and are not kept when nothing else is said with them."""
 
 QUICK_PLANNERS = frozenset(("priority",))
 """Planners that decide in so little time that an answer from hundreds of decisions is at once."""
@@ -272,9 +275,11 @@ class Session:
                 facts = await self._perform(draft, utterance)
                 if dry_run:
                     return await self._told(utterance, facts, self.sequence)
-                if all(isinstance(action, Ask | Advise) for action in utterance.actions):
+                if all(isinstance(action, CHANGES_NOTHING) for action in utterance.actions):
                     outcome = await self._told(utterance, facts, self.sequence)
                     self.conversation.note(outcome)
+                    if views := views_of(facts):
+                        self._publish_changed(utterance.text, outcome.reply, (), (), views)
                     return outcome
                 outcome = await self._told(utterance, facts, self.sequence + 1)
                 await self._save(outcome, draft, terms)
@@ -349,7 +354,8 @@ class Session:
             else:
                 lines += noted
             before = run
-        self._publish_changed(outcome.utterance.text, outcome.reply, outcome.changes, lines)
+        text, views = outcome.utterance.text, views_of(outcome.facts)
+        self._publish_changed(text, outcome.reply, outcome.changes, lines, views)
 
     def _adopt(self, draft: Draft, sequence: int) -> None:
         self.timeline, self.history = draft.timeline, draft.history
@@ -438,8 +444,14 @@ class Session:
         self.watchers.publish(tick.run.world.tick, message)
 
     def _publish_changed(
-        self, text: str | None, reply: str, changes: Sequence[Change], lines: Sequence[LogEvent]
+        self,
+        text: str | None,
+        reply: str,
+        changes: Sequence[Change],
+        lines: Sequence[LogEvent],
+        views: Mapping[str, bool] | None = None,
     ) -> None:
-        self.watchers.publish(
-            self.timeline.tick, lambda: changed_message(self.standing, self.run, text, reply, changes, lines)
-        )
+        def message() -> bytes:
+            return changed_message(self.standing, self.run, text, reply, changes, lines, views)
+
+        self.watchers.publish(self.timeline.tick, message)

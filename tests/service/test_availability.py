@@ -31,6 +31,8 @@ OFFERED: list[dict[str, Any]] = [
     {"do": "reset"},
     {"do": "mode", "mode": "manual"},
     {"do": "drive", "move": "left"},
+    {"do": "show", "view": "log"},
+    {"do": "hide", "view": "path"},
     {"do": "pause"},
     {"do": "resume"},
     {"do": "step", "ticks": 2},
@@ -61,8 +63,8 @@ BESIDE_SESSIONS = {"teach", "forget"}
 """Offered, but done to a phrasebook and to no session (test_teaching)."""
 REFUSED: list[dict[str, Any]] = [
     {"do": "set", "parameter": "weather", "value": "rain"},
-    {"do": "show", "view": "log"},
-    {"do": "hide", "view": "log"},
+    {"do": "show", "view": "sensors"},
+    {"do": "hide", "view": "sensors"},
     {"do": "evaluate", "runs": 5},
     {"do": "find_worst"},
     {"do": "record", "on": True},

@@ -182,9 +182,9 @@ async def test_without_confirming_it_is_done_and_marked(opening: Opening, action
 @pytest.mark.parametrize(
     ("actions", "slug"),
     [
-        ([{"do": "show", "view": "log"}], "not-available"),
-        ([{"do": "show", "view": "occupancy"}, {"do": "ask", "about": "next"}], "not-available"),
-        ([{"do": "hide", "view": "path"}], "not-available"),
+        ([{"do": "show", "view": "sensors"}], "not-available"),
+        ([{"do": "show", "view": "sensors"}, {"do": "ask", "about": "next"}], "not-available"),
+        ([{"do": "hide", "view": "sensors"}], "not-available"),
     ],
 )
 async def test_what_is_not_available_is_refused_all_the_same(

@@ -243,7 +243,7 @@ async def test_a_negated_phrase_is_not_done(talk: Talk) -> None:
 
 
 @pytest.mark.parametrize(
-    "meaning", ["make it rain", "show the log", "pause and make it snow", "hide the path"]
+    "meaning", ["make it rain", "show the sensors", "pause and make it snow", "hide the sensors"]
 )
 async def test_a_meaning_that_is_not_available_is_refused(talk: Talk, meaning: str) -> None:
     problem = await talk.refused(f"when I say splunge, I mean {meaning}", "not-available")
