@@ -75,7 +75,7 @@ def test_keys_are_letters_while_typing(visit: Visit) -> None:
     visitor.page.keyboard.press("Escape")
     expect(visitor.words).not_to_be_focused()
     visitor.page.keyboard.press("?")
-    expect(visitor.last_exchange("What can I say?").locator(".reply")).to_be_visible()
+    expect(visitor.page.get_by_role("dialog", name="What can I say?")).to_be_visible()
 
 
 def test_space_on_a_button_presses_it_once(visit: Visit) -> None:

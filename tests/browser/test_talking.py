@@ -87,13 +87,6 @@ def test_an_unavailable_wish_is_refused_saying_so(visit: Visit) -> None:
     expect(exchange.locator(".reply")).to_contain_text("not available yet")
 
 
-def test_help_says_what_can_be_said(visit: Visit) -> None:
-    visitor = visit()
-    visitor.page.locator("#help").click()
-    exchange = visitor.last_exchange("What can I say?")
-    expect(exchange.locator(".reply")).to_contain_text("add five potholes")
-
-
 def test_the_log_tells_ticks_quietly_and_follows_until_scrolled(visit: Visit) -> None:
     visitor = visit(viewport={"width": 1100, "height": 600})
     visitor.script.act({"do": "pause"})

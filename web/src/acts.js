@@ -81,6 +81,3 @@ export const ACTS = [
     now: () => ({ label: "Reset", icon: "reset", turns: [[{ do: "reset" }]] }),
   },
 ];
-
-/** The question what can be said. */
-export const HELP = { label: "What can I say?", actions: [{ do: "ask", about: "help" }] };

@@ -1,7 +1,7 @@
 // @ts-check
 /** The keyboard: what each key does when nobody is typing. */
 
-import { HELP, perform } from "./acts.js";
+import { perform } from "./acts.js";
 
 /** @import { Page } from "./main.js" */
 
@@ -17,7 +17,6 @@ export function watchKeys(page, words) {
     if (target?.closest(TYPING)) return;
     if (target?.closest(PRESSABLE) && (event.key === " " || event.key === "Enter")) return;
     if (event.key === "/") words.focus();
-    else if (event.key === "?") page.act(HELP.actions, HELP.label);
     else {
       const act = page.acts().find(({ key }) => key === event.key);
       if (!act || (event.repeat && !act.repeats)) return;

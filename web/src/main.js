@@ -9,6 +9,9 @@
 import { ACTS } from "./acts.js";
 import { byId } from "./dom.js";
 import { watchKeys } from "./keys.js";
+import { spoken } from "./language.js";
+import { words } from "./http.js";
+import { openLink, placeInHash } from "./links.js";
 import { createLoop } from "./loop.js";
 import { createPanels } from "./panels/index.js";
 import { createSession, findSession, hashOfSession, sessionInHash } from "./sessions.js";
@@ -19,11 +22,12 @@ import { watchPreferences } from "./theme.js";
 /** @import { Act } from "./acts.js" */
 /** @import { Otherwise } from "./counterfactual.js" */
 /** @import { Action, ClientMessage } from "./protocol.js" */
-/** @import { State, Highlight, Event, Past } from "./state.js" */
+/** @import { State, Highlight, Event, Notice, Past } from "./state.js" */
 
 /**
  * @typedef {object} Page  what panels may ask for
  * @property {(text: string) => void} say  send a sentence
+ * @property {(text: string) => void} put  let a sentence stand in the box, to be read over and sent
  * @property {(actions: Action[], label: string, quiet?: boolean) => string} act  send typed actions; quiet ones are
  *   listed as talk only when they changed something or were refused. Answers the exchange's id
  * @property {(highlight: Highlight | null) => void} highlight
@@ -32,6 +36,8 @@ import { watchPreferences } from "./theme.js";
  * @property {() => Act[]} acts  all that can be done by a key or from the palette
  * @property {() => State} state  the present, whatever tick is looked at
  * @property {(other: Otherwise) => void} [pick]  play what would have been beside what was
+ * @property {(notice: Notice | null) => void} tell  a passing line over the page, read aloud as well
+ * @property {(tick: number | null) => void} [lookAt]  show this tick as soon as it is known; null: the present
  * @property {(past: Past | null) => void} look  show an earlier tick instead of the present, or (null) the present again
  */
 
@@ -64,9 +70,16 @@ function send(label, quiet, message) {
 
 /** @type {Page} */
 const page = {
-  say: (text) => send(text, false, (id) => ({ type: "command", id, text })),
+  say: (text) => send(text, false, (id) => ({ type: "command", id, text, language: spoken() })),
+  put(text) {
+    const words = /** @type {HTMLInputElement} */ (byId("words"));
+    words.value = text;
+    words.focus();
+    words.dispatchEvent(new Event("input"));
+  },
   act: (actions, label, quiet = false) => send(label, quiet, (id) => ({ type: "actions", id, actions })),
   highlight: (highlight) => dispatch({ type: "highlight", highlight }),
+  tell: (notice) => dispatch({ type: "notice", notice }),
   look: (past) => dispatch({ type: "past", past }),
   startSession: () => void startSession(),
   reconnect: () => void connection?.open(),
@@ -80,7 +93,7 @@ const loop = createLoop({
   update() {
     const before = shown;
     shown = sceneOf(state);
-    for (const panel of panels) panel.update?.(state, before);
+    for (const panel of panels) panel.update?.(shown, before);
   },
   draw(now) {
     let moving = false;
@@ -91,6 +104,8 @@ const loop = createLoop({
 
 /** Follow the session that the address names, or start one when it names none. */
 function followAddress() {
+  const place = placeInHash(location.hash);
+  if (place && "carried" in place) return void openCarried(place.carried);
   const id = sessionInHash(location.hash);
   if (id === null) return startSession();
   if (id === connection?.session) return;
@@ -111,6 +126,19 @@ async function startSession() {
     location.hash = hashOfSession(session.id);
   } catch (error) {
     dispatch({ type: "trouble", text: error instanceof Error ? error.message : String(error) });
+  }
+}
+
+/** A session out of the address itself; it takes the link's place, so that going back does not make another. @param {string} link */
+async function openCarried(link) {
+  connection?.close();
+  connection = null;
+  dispatch({ type: "session", id: "" });
+  try {
+    const { id } = await openLink(link);
+    location.replace(hashOfSession(id));
+  } catch (error) {
+    dispatch({ type: "trouble", text: `This link does not open. ${words(error)}` });
   }
 }
 

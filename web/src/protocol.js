@@ -40,6 +40,7 @@
  * @property {number} visible_rows
  * @property {number} step_seconds
  * @property {boolean} paused
+ * @property {number | "max"} [playback_speed]
  * @property {string} mode
  * @property {string} planner
  * @property {{id: string, kind: string, cell: Cell}[]} vehicles  autonomous ones
@@ -129,7 +130,7 @@
 /** @typedef {{type: "error", problem: Problem} | {type: "gone"} | {type: "pong"} | {type: "unknown"}} OtherMessage */
 /** @typedef {HelloMessage | TickMessage | ChangedMessage | StateMessage | ResultMessage | ProblemMessage | OtherMessage} ServerMessage */
 
-/** @typedef {{type: "command", id: string, text: string} | {type: "actions", id: string, actions: Action[]} | {type: "ping"}} ClientMessage */
+/** @typedef {{type: "command", id: string, text: string, language?: string} | {type: "actions", id: string, actions: Action[]} | {type: "ping"}} ClientMessage */
 
 const API = "/api/v1";
 
@@ -177,6 +178,9 @@ export function decode(text) {
 export function encode(message) {
   return JSON.stringify(message);
 }
+
+/** What can be said, as a path. */
+export const GUIDE_PATH = `${API}/language`;
 
 /** The sessions of the service, as a path. */
 export const SESSIONS_PATH = `${API}/sessions`;

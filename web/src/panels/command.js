@@ -1,15 +1,18 @@
 // @ts-check
-/** The box to talk in: Enter sends, ↑ and ↓ bring back what was said, Escape clears. */
+/** The box to talk in: Enter sends, Tab completes, ↑ and ↓ bring back what was said, Escape clears. */
 
 import { make } from "../dom.js";
 import { History, localHistory } from "../history.js";
 import { icon } from "../icons.js";
+import { createMicrophone } from "./speech.js";
+import { createSuggest } from "./suggest.js";
 
 /** @import { Page } from "../main.js" */
 /** @import { Panel } from "./index.js" */
 
 /** Well beyond what the service takes, so that it is the one to say that a text is too long. */
 const LONGEST_TEXT = 2_000;
+const RESTING = "Enter sends · ↑ brings back · Ctrl K for everything";
 
 /**
  * @param {HTMLElement} host  a form
@@ -33,7 +36,9 @@ export function createCommand(host, page) {
   });
   const hint = make("kbd", { class: "hint", "aria-hidden": "true" }, "/");
   const send = make("button", { class: "button strong icon send", type: "submit", "aria-label": "Send" }, icon("send"));
-  host.append(make("div", { class: "words-box" }, words, hint), send);
+  const suggest = createSuggest(words, page, RESTING);
+  const microphone = createMicrophone(page.put);
+  host.append(suggest.list, make("div", { class: "words-box" }, words, hint), microphone ?? "", send, suggest.line);
 
   host.addEventListener("submit", (event) => {
     event.preventDefault();
@@ -41,12 +46,14 @@ export function createCommand(host, page) {
     if (text === "") return;
     history.add(text);
     words.value = "";
+    suggest.close();
     page.say(text);
   });
 
   words.addEventListener("keydown", (event) => {
     if (event.isComposing) return;
-    if (event.key === "ArrowUp") bring(history.back(words.value));
+    if (suggest.key(event)) event.preventDefault();
+    else if (event.key === "ArrowUp") bring(history.back(words.value));
     else if (event.key === "ArrowDown") bring(history.forth());
     else if (event.key === "Escape") {
       if (words.value === "") words.blur();
@@ -61,6 +68,7 @@ export function createCommand(host, page) {
     if (text === null) return;
     words.value = text;
     words.setSelectionRange(text.length, text.length);
+    suggest.close();
   }
 
   return {

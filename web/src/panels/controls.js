@@ -1,7 +1,7 @@
 // @ts-check
-/** The clock's buttons and the help button; the same acts as the keys (`acts.js`). */
+/** The clock's buttons; the same acts as the keys (`acts.js`). */
 
-import { ACTS, HELP, perform } from "../acts.js";
+import { ACTS, perform } from "../acts.js";
 import { icon } from "../icons.js";
 import { make, setText } from "../dom.js";
 
@@ -10,11 +10,10 @@ import { make, setText } from "../dom.js";
 
 /**
  * @param {HTMLElement} host
- * @param {HTMLElement} help
  * @param {Page} page
  * @returns {Panel}
  */
-export function createControls(host, help, page) {
+export function createControls(host, page) {
   const buttons = ACTS.filter((act) => act.button).map((act) => {
     const label = make("span", { class: "control-label" });
     const picture = make("span", { class: "control-icon" });
@@ -33,7 +32,6 @@ export function createControls(host, help, page) {
     host.append(button);
     return { act, button, label, picture, shown: "" };
   });
-  help.addEventListener("click", () => page.act(HELP.actions, HELP.label));
 
   return {
     update(state) {

@@ -7,9 +7,12 @@ import { createCaption } from "./caption.js";
 import { createCommand } from "./command.js";
 import { createConnectionBadge } from "./connection.js";
 import { createControls } from "./controls.js";
+import { createHelp } from "./help.js";
 import { createLog } from "./log.js";
+import { createPalette } from "./palette.js";
 import { createRoad } from "./road.js";
 import { createSchematic } from "./schematic.js";
+import { createReader } from "./speech.js";
 import { createStatus } from "./status.js";
 import { createTalk } from "./talk.js";
 import { createVerdict } from "./verdict.js";
@@ -35,11 +38,14 @@ export function createPanels(page) {
     createSchematic(byId("schematic")),
     createStatus(byId("status")),
     createCaption(byId("caption")),
-    createControls(byId("controls"), byId("help"), page),
+    createControls(byId("controls"), page),
     createLog(byId("log")),
     createTalk(byId("talk"), page),
     createCommand(byId("command"), page),
     createConnectionBadge(byId("connection"), page),
     createAnnouncer(byId("announcer")),
+    createReader(),
+    createPalette(/** @type {HTMLDialogElement} */ (byId("palette")), page),
+    createHelp(byId("help"), page),
   ];
 }

@@ -1,0 +1,27 @@
+// @ts-check
+/** What the reader has chosen, kept in the browser where that is allowed, and for this visit where it is not. */
+
+import { localHistory } from "./history.js";
+
+const PREFIX = "roadtalk.";
+/** @type {Map<string, string>} */
+const here = new Map();
+
+/** @param {string} name @param {string} [otherwise] @returns {string} */
+export function preference(name, otherwise = "") {
+  try {
+    return here.get(name) ?? localHistory()?.getItem(PREFIX + name) ?? otherwise;
+  } catch {
+    return otherwise;
+  }
+}
+
+/** @param {string} name @param {string} value */
+export function prefer(name, value) {
+  here.set(name, value);
+  try {
+    localHistory()?.setItem(PREFIX + name, value);
+  } catch {
+    // Full or forbidden: it holds for this visit.
+  }
+}
