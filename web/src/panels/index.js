@@ -3,11 +3,14 @@
 
 import { byId } from "../dom.js";
 import { createAnnouncer } from "./announcer.js";
+import { createBeside } from "./beside.js";
+import { createBubble } from "./bubble.js";
 import { createCaption } from "./caption.js";
 import { createCommand } from "./command.js";
 import { createConnectionBadge } from "./connection.js";
 import { createControls } from "./controls.js";
 import { createHelp } from "./help.js";
+import { createHands } from "./hands.js";
 import { createLog } from "./log.js";
 import { createPalette } from "./palette.js";
 import { createRoad } from "./road.js";
@@ -32,8 +35,10 @@ import { createVerdict } from "./verdict.js";
 /** @param {Page} page @returns {Panel[]} */
 export function createPanels(page) {
   byId("new-session").addEventListener("click", () => page.startSession());
+  const road = createRoad(byId("road"));
+  const bubble = createBubble(byId("bubble"), page);
   return [
-    createRoad(byId("road")),
+    road,
     createVerdict(byId("road"), page),
     createSchematic(byId("schematic")),
     createStatus(byId("status")),
@@ -44,6 +49,9 @@ export function createPanels(page) {
     createCommand(byId("command"), page),
     createConnectionBadge(byId("connection"), page),
     createAnnouncer(byId("announcer")),
+    createBeside(byId("beside"), page),
+    bubble,
+    ...createHands(byId("road"), road.places, byId("log"), page, bubble),
     createReader(),
     createPalette(/** @type {HTMLDialogElement} */ (byId("palette")), page),
     createHelp(byId("help"), page),
