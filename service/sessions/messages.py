@@ -57,17 +57,13 @@ def tick_message(
     if world.episode != before.world.episode:
         message["state"] = state_json(standing, after)
     else:
-        message |= motion_json(before.world, world)
-    return encoded(
-        message
-        | {
-            "decision": None if decision is None else brief_decision_json(decision),
-            "narration": narration,
-            "events": lines,
-            "metrics": metrics_json(after.metrics),
-            "digest": world.digest(),
-        }
-    )
+        message.update(motion_json(before.world, world))
+    message["decision"] = None if decision is None else brief_decision_json(decision)
+    message["narration"] = narration
+    message["events"] = lines
+    message["metrics"] = metrics_json(after.metrics)
+    message["digest"] = world.digest()
+    return encoded(message)
 
 
 def changed_message(
@@ -80,19 +76,19 @@ def changed_message(
     views: Mapping[str, bool] | None = None,
 ) -> bytes:
     """A change that was accepted, whoever made it; `views` are those to be shown (true) or hidden."""
-    told: Json = {"views": views} if views else {}
-    return encoded(
-        told
-        | {
-            "type": "changed",
-            "sequence": standing.sequence,
-            "text": text,
-            "reply": reply,
-            "changes": changes,
-            "events": lines,
-            "state": state_json(standing, run),
-        }
-    )
+    # The type stands first: readers of events take its name from there.
+    told: Json = {
+        "type": "changed",
+        "sequence": standing.sequence,
+        "text": text,
+        "reply": reply,
+        "changes": changes,
+        "events": lines,
+        "state": state_json(standing, run),
+    }
+    if views:
+        told["views"] = views
+    return encoded(told)
 
 
 def state_message(standing: Standing, run: Run, missed: Missed | None) -> bytes:
@@ -103,15 +99,18 @@ def state_message(standing: Standing, run: Run, missed: Missed | None) -> bytes:
 
 def motion_json(before: World, after: World) -> dict[str, Any]:
     """Where things went and which way they turned, by id; what stood still is left out."""
-    was = {name: index for index, name in before.movers.items()}
+    names, olds = [*after.movers.values()], [*before.movers]
+    if names != [*before.movers.values()]:  # not two ticks of one road
+        was = {name: index for index, name in before.movers.items()}
+        olds = [was.get(name, -1) for name in names]
+    columns, right_before, right_after = after.road.columns, before.right, after.right
     moved: dict[str, Cell] = {}
     turned: dict[str, str] = {}
-    for index, name in after.movers.items():
-        old = was.get(name)
+    for old, index, name in zip(olds, after.movers, names, strict=True):
         if old != index:
-            moved[name] = after.road.cell(index)
-        faces_right = after.right >> index & 1
-        if old is not None and before.right >> old & 1 != faces_right:
+            moved[name] = (index % columns, index // columns)
+        faces_right = right_after >> index & 1
+        if old >= 0 and right_before >> old & 1 != faces_right:
             turned[name] = "right" if faces_right else "left"
     vehicles = {after.id_at(index, Kind.AV): after.road.cell(index) for index in after.avs}
     return {"vehicles": vehicles, "moved": moved, "turned": turned}

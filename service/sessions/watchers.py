@@ -39,7 +39,7 @@ class Notice:
 
 def stamped(data: bytes, event: str) -> bytes:
     """An encoded message with the id that a reader can come back with."""
-    return data[:-1] + b',"event":"' + event.encode() + b'"}' if data.endswith(b"}") else data
+    return b'%b,"event":"%b"}' % (data[:-1], event.encode()) if data.endswith(b"}") else data
 
 
 class Watcher:
@@ -51,9 +51,7 @@ class Watcher:
         self._missed_from: int | None = None
         self._last_tick = 0
         self._gone = False
-        self._ready = asyncio.Event()
-        if missed:
-            self._ready.set()
+        self._wake: asyncio.Future[None] | None = None
 
     def put(self, notice: Notice) -> None:
         """Hand over a message; never waits."""
@@ -64,17 +62,21 @@ class Watcher:
             else:
                 self._missed_from = self._waiting[0].tick
                 self._waiting.clear()
-        self._ready.set()
+        self._ready()
 
     def end(self) -> None:
         """The session is no more."""
         self._gone = True
-        self._ready.set()
+        self._ready()
 
     async def next(self) -> list[Notice] | Missed | Gone:
-        """Messages in order; or that some were missed; or that there will be no more."""
-        await self._ready.wait()
-        self._ready.clear()
+        """Messages in order; or that some were missed; or that there will be no more. For one at a time."""
+        while not self._waiting and self._missed_from is None and not self._gone:
+            self._wake = asyncio.get_running_loop().create_future()
+            try:
+                await self._wake
+            finally:
+                self._wake = None
         if self._gone:
             return Gone()
         if self._missed_from is not None:
@@ -83,6 +85,10 @@ class Watcher:
             return missed
         notices, self._waiting = self._waiting, []
         return notices
+
+    def _ready(self) -> None:
+        if self._wake is not None and not self._wake.done():
+            self._wake.set_result(None)
 
 
 class Watchers:
