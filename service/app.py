@@ -27,6 +27,7 @@ from service.api import (
     frames,
     gate,
     health,
+    insight,
     links,
     metrics,
     openapi,
@@ -159,6 +160,7 @@ def create_app(
         forks,
         links,
         timeline,
+        insight,
         counterfactual,
     ):
         app.include_router(resource.router, prefix=PREFIX)

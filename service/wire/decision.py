@@ -21,7 +21,7 @@ def decision_json(decision: Decision, narration: str) -> dict[str, Any]:
 
 
 def brief_decision_json(decision: Decision) -> dict[str, Any]:
-    """A decision without its options.
+    """A decision with only those of its options that were not free.
 
     `reason` and `causes` are those of the most preferred move: why it was taken, or what kept the
     vehicle from it.
@@ -34,6 +34,11 @@ def brief_decision_json(decision: Decision) -> dict[str, Any]:
         "reason": preferred.reason,
         "causes": preferred.causes,
         "weight": decision.weight,
+        "blocked": [
+            {"move": option.move, "reason": option.reason, "causes": option.causes}
+            for option in decision.options
+            if option.reason.blocks
+        ],
     }
 
 

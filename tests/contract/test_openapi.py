@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from pydantic import TypeAdapter
 
 from service import problems
-from service.api import bodies, schemas, schemas_advice, schemas_counterfactual, tickets, timeline
+from service.api import bodies, insight, schemas, schemas_advice, schemas_counterfactual, tickets, timeline
 from service.app import create_app
 from service.settings import Settings
 from service.store import MemoryStore
@@ -54,6 +54,8 @@ ROUTES = {
     "GET /api/v1/sessions/{session_id}/saved",
     "POST /api/v1/sessions/{session_id}/counterfactual",
     "GET /api/v1/sessions/{session_id}/link",
+    "GET /api/v1/sessions/{session_id}/forecast",
+    "GET /api/v1/sessions/{session_id}/regret",
     "GET /api/v1/sessions/{session_id}/timeline",
     "GET /api/v1/sessions/{session_id}/changes",
     "GET /api/v1/sessions/{session_id}/moments",
@@ -89,6 +91,8 @@ MODELS: dict[str, type] = {
     "time_saved": schemas.SavedMoments,
     "time_counterfactual": schemas_counterfactual.Counterfactual,
     "time_link": schemas.Link,
+    "watching_forecast": insight.Expected,
+    "watching_regrets": insight.Judged,
     "time_timeline": timeline.TimelinePage,
     "time_changes": timeline.RoadChanges,
     "time_moments": timeline.Moments,

@@ -97,6 +97,15 @@ async def test_following_ticks_is_the_state(live: Live) -> None:
             message = await receive(stream)
             assert message["type"] == "tick"
             told.append(message["narration"])
+            if (decision := message["decision"]) is not None:
+                options = (await live.client.get(f"{live.path}/decisions/{decision['tick']}")).json()[
+                    "options"
+                ]
+                assert decision["blocked"] == [
+                    {key: option[key] for key in ("move", "reason", "causes")}
+                    for option in options
+                    if option["verdict"] != "free"
+                ]
             state = follow(state, message)
             actual = await live.state()
             for part in ("vehicles", "tick", "status"):

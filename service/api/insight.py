@@ -1,0 +1,133 @@
+"""What is expected and what was lost: `forecast`, `regret`. Beside the live path, for who asks.
+
+Leaves out what the vehicle itself will do (`/ask` about `next`), and reasons (`decisions`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Any
+
+from anyio import to_thread
+from fastapi import APIRouter, Query, Response
+from pydantic import Field
+
+from service.api.bodies import Tick
+from service.api.context import TheSession
+from service.api.errors import documented, invalid
+from service.api.respond import StrictRoute, json_response
+from service.api.shapes import Answered, CellPair
+from service.problems import FieldProblem, Invalid, NotRestorable, UnknownSession
+from sim.forecast import foretell
+from sim.kinds import Move
+from sim.optimum.regret import regret
+from sim.perceive import perceive
+from sim.run import decide
+from sim.timeline import Timeline
+
+router = APIRouter(tags=["watching"], route_class=StrictRoute)
+
+MOST_AHEAD = 16
+"""Ticks that are foretold at most."""
+MOST_JUDGED = 200
+"""Decisions that are judged at most in one answer, each against the best that could have been done."""
+
+_MOST = 2**53 - 1
+
+
+class ExpectedTick(Answered):
+    """Where movers are expected to be at a tick to come."""
+
+    tick: Tick
+    movers: dict[str, CellPair] = Field(description="Their cells, by id.")
+
+
+class Expected(Answered):
+    """What is expected of the movers."""
+
+    tick: Tick = Field(description="The tick it is told at.")
+    exact: bool = Field(description="Whether it is sure: false where who gives way is left to chance.")
+    ahead: list[ExpectedTick]
+
+
+class JudgedDecision(Answered):
+    """A decision against the best that could have been done at its moment."""
+
+    tick: Tick
+    move: Move
+    blocked: int = Field(description="How many of the six moves would have ended badly or off the road.")
+    ticks: int | None = Field(description="Ticks lost; null where the goal is, or was, out of reach.")
+    cost: int | None = Field(description="Cost lost, by the configuration's charges; null as for `ticks`.")
+    lost: bool = Field(description="Whether the goal could be reached before the move, and not after it.")
+
+
+class Judged(Answered):
+    """Decisions in a row, each with its regret."""
+
+    first: Tick = Field(alias="from")
+    now: Tick = Field(description="The session's present tick.")
+    items: list[JudgedDecision] = Field(description="None for ticks at which a result stood.")
+    more: bool
+
+
+@router.get(
+    "/sessions/{session_id}/forecast",
+    response_model=Expected,
+    summary="Where movers are expected next",
+    responses=documented(UnknownSession, Invalid, NotRestorable),
+)
+async def forecast(
+    session: TheSession, ticks: Annotated[int, Query(ge=1, le=MOST_AHEAD, description="How far ahead.")] = 1
+) -> Response:
+    """Movers rolled out by the rules of motion from the present on, as the planners see it.
+
+    The first tick is exact; later ones suppose that nobody gives way to the vehicle.
+    """
+    run = session.run
+    percept = perceive(run.world, run.config)
+    expected = foretell(percept, ticks)
+    road, now = run.world.road, run.world.tick
+    ahead = [
+        {
+            "tick": now + each + 1,
+            "movers": {name: road.cell(cell) for cell, name in expected.slices.movers(each).items()},
+        }
+        for each in range(ticks)
+    ]
+    return json_response({"tick": now, "exact": ticks == 1 or run.config.courtesy == 0.0, "ahead": ahead})
+
+
+@router.get(
+    "/sessions/{session_id}/regret",
+    response_model=Judged,
+    summary="What decisions cost against the best",
+    responses=documented(UnknownSession, Invalid, NotRestorable),
+)
+async def regrets(
+    session: TheSession,
+    first: Annotated[int, Query(alias="from", ge=0, le=_MOST, description="First tick.")] = 0,
+    limit: Annotated[int, Query(ge=1, le=MOST_JUDGED)] = 60,
+) -> Response:
+    """Each decision against the optimum of its own moment, which is searched for here and now."""
+    way = session.timeline.copy()
+    if first > way.tick:
+        raise invalid([FieldProblem("from", f"has not come yet: it is tick {way.tick}")])
+    stop = min(way.tick, first + limit)
+    items = await to_thread.run_sync(lambda: list(_judged(way, first, stop)))
+    return json_response({"from": first, "now": way.tick, "items": items, "more": stop < way.tick})
+
+
+def _judged(way: Timeline, first: int, stop: int) -> Iterator[dict[str, Any]]:
+    for run in way.between(first, stop):
+        decision = decide(run)
+        if decision is None:
+            continue
+        loss = regret(run, decision.move)
+        yield {
+            "tick": run.world.tick,
+            "move": decision.move,
+            "blocked": sum(option.reason.blocks for option in decision.options),
+            "ticks": loss.ticks,
+            "cost": loss.cost,
+            "lost": loss.lost,
+        }
