@@ -22,23 +22,29 @@ from service.client.errors import (
     UnexpectedAnswer,
     UnknownSession,
 )
+from service.client.media import Film, Frame, Picture
 from service.client.messages import Changed, Gone, Hello, Message, Standing, Tick
+from service.client.reading import Page
 from service.client.results import (
     Answer,
     CommandResult,
     Decision,
-    Frame,
+    Link,
     LogEvent,
-    Page,
     Recording,
+    SavedMoment,
+    SavedMoments,
     SessionInfo,
     SessionSummary,
     State,
     StepResult,
+    Ticket,
 )
 from service.client.sync import Client, Session
+from service.client.unbound import Advice, Guide
 
 __all__ = [
+    "Advice",
     "Ambiguous",
     "Answer",
     "AsyncClient",
@@ -48,10 +54,13 @@ __all__ = [
     "Client",
     "CommandResult",
     "Decision",
+    "Film",
     "Frame",
     "Gone",
+    "Guide",
     "Hello",
     "Invalid",
+    "Link",
     "LogEvent",
     "Message",
     "NotAllowed",
@@ -59,9 +68,12 @@ __all__ = [
     "NotReachable",
     "NotUnderstood",
     "Page",
+    "Picture",
     "Recording",
     "Refused",
     "RoadtalkError",
+    "SavedMoment",
+    "SavedMoments",
     "Session",
     "SessionInfo",
     "SessionSummary",
@@ -69,6 +81,7 @@ __all__ = [
     "State",
     "StepResult",
     "Tick",
+    "Ticket",
     "TimedOut",
     "TooMany",
     "Unavailable",

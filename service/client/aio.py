@@ -10,10 +10,10 @@ from typing import Any, Literal, TypeVar
 import httpx
 from websockets.asyncio.client import connect
 
-from service.client import calls, results
+from service.client import calls, media, results, unbound
 from service.client.calls import Call, Json
 from service.client.messages import FAILURES, MAX_MESSAGE_BYTES, Message, Watching
-from service.client.results import Page
+from service.client.reading import Page
 from service.client.sync import DEFAULT_URL, PATIENCE_S, TIMEOUT_S
 
 T = TypeVar("T")
@@ -61,6 +61,26 @@ class AsyncClient:
         """What a sentence means; nothing is done."""
         return await self._do(calls.parse(text, language))
 
+    async def advice(
+        self,
+        text: str | None = None,
+        *,
+        hazard: str | None = None,
+        distance_m: float | None = None,
+        speed_kmh: float | None = None,
+        weather: str | None = None,
+    ) -> unbound.Advice:
+        """What to do about a hazard ahead: `advice("pothole 2m ahead, speed 40 km/h")`, or in figures."""
+        return await self._do(calls.advice(text, hazard, distance_m, speed_kmh, weather))
+
+    async def guide(self, prefix: str | None = None, *, language: str = "en") -> unbound.Guide:
+        """What can be said; with `prefix`, how a sentence that was begun could go on."""
+        return await self._do(calls.guide(prefix, None, language))
+
+    async def ticket(self) -> results.Ticket:
+        """Lets one socket in that cannot send the key, such as a page's."""
+        return await self._do(calls.ticket())
+
     async def create(
         self,
         *,
@@ -71,9 +91,10 @@ class AsyncClient:
         planner: str | None = None,
         paused: bool | None = None,
         recording: results.Recording | Json | None = None,
+        link: results.Link | str | None = None,
     ) -> AsyncSession:
-        """A new session, from a sentence, from figures or from a recording."""
-        call = calls.create(name, scenario, config, seed, planner, paused, recording)
+        """A new session, from a sentence, from figures, from a recording or from a link."""
+        call = calls.create(name, scenario, config, seed, planner, paused, recording, link)
         return await self._do(call.then(lambda info: AsyncSession(self, info.id)))
 
     async def list(self, *, after: str | None = None, limit: int = 50) -> Page[results.SessionSummary]:
@@ -150,6 +171,34 @@ class AsyncSession:
         """Ask something; nothing is changed."""
         return await self._client._do(calls.ask(self.id, question, language))
 
+    async def pause(self) -> results.CommandResult:
+        """The clock stands still."""
+        return await self.act({"do": "pause"})
+
+    async def resume(self) -> results.CommandResult:
+        """The clock goes on."""
+        return await self.act({"do": "resume"})
+
+    async def speed(self, speed: float | Literal["max"]) -> results.CommandResult:
+        """How fast the clock plays it, 0.25 to 10, or `"max"` for as fast as possible."""
+        return await self.act({"do": "set", "parameter": "playback_speed", "value": speed})
+
+    async def save(self, name: str) -> results.CommandResult:
+        """Give this moment a name."""
+        return await self.act({"do": "save", "name": name})
+
+    async def load(self, name: str) -> results.CommandResult:
+        """Go back to a moment that was given a name."""
+        return await self.act({"do": "load", "name": name})
+
+    async def saved(self) -> results.SavedMoments:
+        """The moments that were given a name."""
+        return await self._client._do(calls.saved(self.id))
+
+    async def link(self, tick: int | None = None) -> results.Link:
+        """This session at a tick as a piece of a URL; `Client.create(link=...)` opens it."""
+        return await self._client._do(calls.link(self.id, tick))
+
     async def step(self, ticks: int = 1) -> results.StepResult:
         """Pause and run some ticks as fast as can be."""
         return await self._client._do(calls.step(self.id, ticks))
@@ -190,10 +239,24 @@ class AsyncSession:
         return await self._client._do(calls.recording(self.id))
 
     async def frame(
-        self, *, view: Literal["road", "schematic"] = "road", form: Literal["png", "jpeg"] = "png"
-    ) -> results.Frame:
+        self, *, view: Literal["road", "schematic"] = "road", form: Literal["png", "jpeg", "webp"] = "png"
+    ) -> media.Frame:
         """A picture of the road as it is now."""
         return await self._client._do(calls.frame(self.id, view, form))
+
+    async def film(
+        self,
+        first: int | None = None,
+        last: int | None = None,
+        *,
+        form: Literal["gif", "mp4"] = "gif",
+        fps: int = 10,
+        view: Literal["road", "schematic"] = "road",
+        side: int = 480,
+    ) -> media.Film:
+        """A stretch of ticks as a moving picture; not said, the latest 20."""
+        call = calls.film(self.id, first, last, format=form, fps=fps, view=view, side=side)
+        return await self._client._do(call)
 
     def watch(self, *, after: str | None = None, patience_s: float = PATIENCE_S) -> AsyncIterator[Message]:
         """Messages as they come, until the session is deleted.

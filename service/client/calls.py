@@ -5,6 +5,7 @@ Both clients are thin over this, so that they cannot differ.
 
 from __future__ import annotations
 
+import os
 import secrets
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -13,10 +14,12 @@ from urllib.parse import quote
 
 import httpx
 
-from service.client import results
+from service.client import media, reading, results, unbound
 from service.client.errors import Ambiguous, NotReachable, Refused, TimedOut, UnexpectedAnswer, refusal
 
 PREFIX = "/api/v1"
+KEY_VARIABLE = "ROADTALK_API_KEY"
+"""Where the key is looked for that was not said; an empty one says that there is none."""
 T = TypeVar("T")
 U = TypeVar("U")
 Json = Mapping[str, Any]
@@ -104,14 +107,14 @@ def _problem(response: httpx.Response) -> Refused:
 
 def _reading(kind: type[T]) -> Callable[[httpx.Response], T]:
     def read(response: httpx.Response) -> T:
-        value: T = results.read(kind, body_of(response))
+        value: T = reading.read(kind, body_of(response))
         return value
 
     return read
 
 
-def _paging(kind: type[T]) -> Callable[[httpx.Response], results.Page[T]]:
-    return lambda response: results.read_page(kind, body_of(response))
+def _paging(kind: type[T]) -> Callable[[httpx.Response], reading.Page[T]]:
+    return lambda response: reading.read_page(kind, body_of(response))
 
 
 def _key() -> str:
@@ -146,6 +149,7 @@ def create(
     planner: str | None,
     paused: bool | None,
     recording: results.Recording | Json | None,
+    link: results.Link | str | None,
 ) -> Call[results.SessionInfo]:
     """A new session."""
     file = recording.raw if isinstance(recording, results.Recording) else recording
@@ -157,12 +161,13 @@ def create(
         planner=planner,
         paused=paused,
         recording=file,
+        link=link.link if isinstance(link, results.Link) else link,
     )
     path = f"{PREFIX}/sessions"
     return Call("POST", path, _reading(results.SessionInfo), body, said="scenario", key=_key())
 
 
-def listed(after: str | None, limit: int) -> Call[results.Page[results.SessionSummary]]:
+def listed(after: str | None, limit: int) -> Call[reading.Page[results.SessionSummary]]:
     """A page of sessions."""
     params = {"after": after, "limit": limit}
     return Call("GET", f"{PREFIX}/sessions", _paging(results.SessionSummary), params=params)
@@ -227,7 +232,7 @@ def state(session: str, tick: int | None) -> Call[results.State]:
     return Call("GET", _own(session, "/state"), _reading(results.State), params={"tick": tick})
 
 
-def decisions(session: str, after: int | None, limit: int) -> Call[results.Page[results.Decision]]:
+def decisions(session: str, after: int | None, limit: int) -> Call[reading.Page[results.Decision]]:
     """A page of decisions."""
     params = {"after": after, "limit": limit}
     return Call("GET", _own(session, "/decisions"), _paging(results.Decision), params=params)
@@ -238,7 +243,7 @@ def decision(session: str, tick: int) -> Call[results.Decision]:
     return Call("GET", _own(session, f"/decisions/{tick}"), _reading(results.Decision))
 
 
-def events(session: str, after: int | None, limit: int) -> Call[results.Page[results.LogEvent]]:
+def events(session: str, after: int | None, limit: int) -> Call[reading.Page[results.LogEvent]]:
     """A page of the log."""
     params = {"after": after, "limit": limit}
     return Call("GET", _own(session, "/events"), _paging(results.LogEvent), params=params)
@@ -249,14 +254,63 @@ def recording(session: str) -> Call[results.Recording]:
     return Call("GET", _own(session, "/recording"), _reading(results.Recording))
 
 
-def frame(session: str, view: str, form: str) -> Call[results.Frame]:
+def frame(session: str, view: str, form: str) -> Call[media.Frame]:
     """A picture."""
     params = {"view": view, "format": form}
-    return Call("GET", _own(session, "/frame"), _pictured, params=params)
+    return Call("GET", _own(session, "/frame"), _seen(media.Frame), params=params)
 
 
-def _pictured(response: httpx.Response) -> results.Frame:
-    return results.Frame(response.content, response.headers.get("content-type", "").partition(";")[0])
+def film(session: str, first: int | None, last: int | None, **asked: Any) -> Call[media.Film]:
+    """A stretch of ticks as a moving picture."""
+    params = {"from": first, "to": last, **asked}
+    return Call("GET", _own(session, "/film"), _seen(media.Film), params=params)
+
+
+def link(session: str, tick: int | None) -> Call[results.Link]:
+    """A piece of a URL."""
+    return Call("GET", _own(session, "/link"), _reading(results.Link), params={"tick": tick})
+
+
+def saved(session: str) -> Call[results.SavedMoments]:
+    """Moments with a name."""
+    return Call("GET", _own(session, "/saved"), _reading(results.SavedMoments))
+
+
+def ticket() -> Call[results.Ticket]:
+    """Something that lets one socket in; each is another, so none is asked for under a key."""
+    return Call("POST", f"{PREFIX}/tickets", _reading(results.Ticket), {})
+
+
+def advice(
+    text: str | None,
+    hazard: str | None,
+    distance_m: float | None,
+    speed_kmh: float | None,
+    weather: str | None,
+) -> Call[unbound.Advice]:
+    """What to do about a hazard."""
+    body = _sent(text=text, hazard=hazard, distance_m=distance_m, speed_kmh=speed_kmh, weather=weather)
+    return Call("POST", f"{PREFIX}/advice", _reading(unbound.Advice), body, said="text")
+
+
+def guide(prefix: str | None, session: str | None, language: str) -> Call[unbound.Guide]:
+    """What can be said."""
+    params = {"prefix": prefix, "session": session, "language": language}
+    return Call("GET", f"{PREFIX}/language", _reading(unbound.Guide), params=params)
+
+
+Seen = TypeVar("Seen", bound=media.Media)
+
+
+def _seen(kind: type[Seen]) -> Callable[[httpx.Response], Seen]:
+    """Bytes of their own kind. Raises `UnexpectedAnswer` where there are none."""
+
+    def made(response: httpx.Response) -> Seen:
+        if not response.content:
+            raise UnexpectedAnswer("There is nothing to be seen in the answer.")
+        return kind(response.content, response.headers.get("content-type", "").partition(";")[0])
+
+    return made
 
 
 def checked_url(url: str) -> str:
@@ -271,5 +325,6 @@ def checked_url(url: str) -> str:
 
 
 def headers(api_key: str | None) -> dict[str, str]:
-    """The key goes in a header, never into an address."""
+    """The key goes in a header, never into an address; not said, it is `ROADTALK_API_KEY`'s."""
+    api_key = os.environ.get(KEY_VARIABLE) if api_key is None else api_key
     return {"Authorization": f"Bearer {api_key}"} if api_key else {}

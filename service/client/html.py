@@ -59,6 +59,14 @@ def picture(data: bytes, media_type: str) -> str:
     return f'<img alt="the road" src="data:{escape(media_type)};base64,{coded}">'
 
 
+def film(data: bytes, media_type: str) -> str:
+    """A film inside the page: a GIF plays by itself, anything else when it is started."""
+    if media_type.startswith("image/"):
+        return picture(data, media_type)
+    coded = base64.b64encode(data).decode("ascii")
+    return f'<video controls src="data:{escape(media_type)};base64,{coded}"></video>'
+
+
 def _window(state: State) -> tuple[int, int]:
     """The first row shown, and how many."""
     shown = min(state.visible_rows, state.rows)

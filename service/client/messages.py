@@ -13,8 +13,9 @@ from urllib.parse import quote, urlencode
 
 from websockets.exceptions import ConnectionClosed, InvalidStatus, WebSocketException
 
-from service.client import calls, results
+from service.client import calls, reading
 from service.client.errors import NotReachable, Refused, RoadtalkError, UnexpectedAnswer, refusal
+from service.client.reading import Result
 from service.client.results import (
     BriefDecision,
     Cell,
@@ -36,7 +37,7 @@ MAX_MESSAGE_BYTES = 16 * 2**20
 
 
 @dataclass(frozen=True, kw_only=True)
-class Message(results.Result):
+class Message(Result):
     """Anything the stream sends."""
 
     type: str
@@ -144,7 +145,7 @@ class Watching:
         if values["type"] == "error":
             self._problem = refusal(values.get("problem", {}), values.get("problem", {}).get("status", 0))
             return None
-        message: Message = results.read(_KINDS.get(values["type"], Message), values, "the message")
+        message: Message = reading.read(_KINDS.get(values["type"], Message), values, "the message")
         if isinstance(message, Hello):
             message = replace(message, resumed=self._heard)
         self._heard, self._delay_s = True, FIRST_DELAY_S

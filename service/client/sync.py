@@ -10,11 +10,11 @@ from typing import Any, Literal, TypeVar
 import httpx
 from websockets.sync.client import connect
 
-from service.client import calls, html, results
+from service.client import calls, html, media, results, unbound
 from service.client.calls import Call, Json
 from service.client.errors import RoadtalkError
 from service.client.messages import FAILURES, MAX_MESSAGE_BYTES, Message, Watching
-from service.client.results import Page
+from service.client.reading import Page
 
 T = TypeVar("T")
 DEFAULT_URL = "http://127.0.0.1:8000"
@@ -65,6 +65,26 @@ class Client:
         """What a sentence means; nothing is done."""
         return self._do(calls.parse(text, language))
 
+    def advice(
+        self,
+        text: str | None = None,
+        *,
+        hazard: str | None = None,
+        distance_m: float | None = None,
+        speed_kmh: float | None = None,
+        weather: str | None = None,
+    ) -> unbound.Advice:
+        """What to do about a hazard ahead: `advice("pothole 2m ahead, speed 40 km/h")`, or in figures."""
+        return self._do(calls.advice(text, hazard, distance_m, speed_kmh, weather))
+
+    def guide(self, prefix: str | None = None, *, language: str = "en") -> unbound.Guide:
+        """What can be said; with `prefix`, how a sentence that was begun could go on."""
+        return self._do(calls.guide(prefix, None, language))
+
+    def ticket(self) -> results.Ticket:
+        """Lets one socket in that cannot send the key, such as a page's."""
+        return self._do(calls.ticket())
+
     def create(
         self,
         *,
@@ -75,9 +95,10 @@ class Client:
         planner: str | None = None,
         paused: bool | None = None,
         recording: results.Recording | Json | None = None,
+        link: results.Link | str | None = None,
     ) -> Session:
-        """A new session, from a sentence, from figures or from a recording."""
-        call = calls.create(name, scenario, config, seed, planner, paused, recording)
+        """A new session, from a sentence, from figures, from a recording or from a link."""
+        call = calls.create(name, scenario, config, seed, planner, paused, recording, link)
         return self._do(call.then(lambda info: Session(self, info.id)))
 
     def list(self, *, after: str | None = None, limit: int = 50) -> Page[results.SessionSummary]:
@@ -161,6 +182,34 @@ class Session:
         """Ask something; nothing is changed."""
         return self._client._do(calls.ask(self.id, question, language))
 
+    def pause(self) -> results.CommandResult:
+        """The clock stands still."""
+        return self.act({"do": "pause"})
+
+    def resume(self) -> results.CommandResult:
+        """The clock goes on."""
+        return self.act({"do": "resume"})
+
+    def speed(self, speed: float | Literal["max"]) -> results.CommandResult:
+        """How fast the clock plays it, 0.25 to 10, or `"max"` for as fast as possible."""
+        return self.act({"do": "set", "parameter": "playback_speed", "value": speed})
+
+    def save(self, name: str) -> results.CommandResult:
+        """Give this moment a name."""
+        return self.act({"do": "save", "name": name})
+
+    def load(self, name: str) -> results.CommandResult:
+        """Go back to a moment that was given a name."""
+        return self.act({"do": "load", "name": name})
+
+    def saved(self) -> results.SavedMoments:
+        """The moments that were given a name."""
+        return self._client._do(calls.saved(self.id))
+
+    def link(self, tick: int | None = None) -> results.Link:
+        """This session at a tick as a piece of a URL; `Client.create(link=...)` opens it."""
+        return self._client._do(calls.link(self.id, tick))
+
     def step(self, ticks: int = 1) -> results.StepResult:
         """Pause and run some ticks as fast as can be."""
         return self._client._do(calls.step(self.id, ticks))
@@ -201,10 +250,24 @@ class Session:
         return self._client._do(calls.recording(self.id))
 
     def frame(
-        self, *, view: Literal["road", "schematic"] = "road", form: Literal["png", "jpeg"] = "png"
-    ) -> results.Frame:
+        self, *, view: Literal["road", "schematic"] = "road", form: Literal["png", "jpeg", "webp"] = "png"
+    ) -> media.Frame:
         """A picture of the road as it is now."""
         return self._client._do(calls.frame(self.id, view, form))
+
+    def film(
+        self,
+        first: int | None = None,
+        last: int | None = None,
+        *,
+        form: Literal["gif", "mp4"] = "gif",
+        fps: int = 10,
+        view: Literal["road", "schematic"] = "road",
+        side: int = 480,
+    ) -> media.Film:
+        """A stretch of ticks as a moving picture; not said, the latest 20."""
+        call = calls.film(self.id, first, last, format=form, fps=fps, view=view, side=side)
+        return self._client._do(call)
 
     def watch(self, *, after: str | None = None, patience_s: float = PATIENCE_S) -> Iterator[Message]:
         """Messages as they come, until the session is deleted.

@@ -70,6 +70,52 @@ def test_a_session_from_its_making_to_its_end(client: Client, tmp_path: Path) ->
         session.state()
 
 
+def test_time_is_walked_saved_and_shared(client: Client, tmp_path: Path) -> None:
+    session = client.create(seed=11, paused=True)
+    session.step(4)
+    assert session.save("before").sequence == 2
+    there = session.state().digest
+    session.step(3)
+    assert [(each.name, each.tick) for each in session.saved()] == [("before", 4)]
+    link = session.link(4)
+    assert (link.tick, link.carries) == (4, True)
+    for said in (link, link.link, f"{client.url}/{link.link}"):
+        opened = client.create(link=said)
+        assert opened.state().digest == there
+        opened.delete()
+    film = session.film(2, 5, fps=5, side=96)
+    assert film.save(tmp_path / "road.gif").read_bytes()[:4] == b"GIF8"
+    session.load("before")
+    assert (session.state().tick, session.state().digest) == (4, there)
+    with pytest.raises(Invalid):
+        session.film(0, 99)
+
+
+def test_the_clock_is_held_and_hurried(client: Client) -> None:
+    session = client.create(seed=11, paused=True)
+    assert session.speed(0.25).sequence == 1
+    assert session.info().playback_speed == 0.25
+    session.speed("max")
+    assert session.state().playback_speed == "max"
+    session.resume()
+    assert not session.info().paused
+    session.pause()
+    assert session.info().paused
+    with pytest.raises(Invalid):
+        session.speed(0)
+
+
+def test_what_is_asked_without_a_session(client: Client) -> None:
+    said = client.advice("pothole 2m ahead, speed 40 km/h")
+    typed = client.advice(hazard="pothole", distance_m=2, speed_kmh=40)
+    assert (said.source, typed.source) == ("grammar", "typed")
+    assert said.options == typed.options
+    assert said.recommendation in [option.option for option in said.options]
+    assert "add five potholes" in client.guide("add five po").completions
+    assert client.ticket().ticket != client.ticket().ticket
+    assert client.ticket().good_for_s > 0
+
+
 def test_a_page_leads_to_the_next(client: Client) -> None:
     made = [client.create(seed=number, paused=True).id for number in range(3)]
     first = client.list(limit=2)
@@ -135,9 +181,22 @@ async def test_the_same_awaited(inside: AsyncClient) -> None:
     assert len(await session.decisions()) == 2
     assert (await session.decision(1)).tick == 1
     assert len(await session.events()) > 0
+    await session.save("here")
+    assert len(await session.saved()) == 1
+    await session.load("here")
+    await session.speed(2)
+    await session.resume()
+    assert not (await session.info()).paused
+    await session.pause()
+    link = await session.link(1)
+    assert (await (await inside.create(link=link)).state()).tick == 1
+    assert (await session.film(0, 2, side=64)).media_type == "image/gif"
+    assert (await inside.ticket()).ticket
+    assert (await inside.guide("add five po")).completions
+    assert (await inside.advice(hazard="pothole", distance_m=9, speed_kmh=20)).confidence > 0
     recording = await session.recording()
     assert isinstance(recording, Recording)
-    assert (await inside.health()).sessions == 2
+    assert (await inside.health()).sessions == 3
     assert (await session.frame()).data[1:4] == b"PNG"
     await session.delete()
     with pytest.raises(UnknownSession):

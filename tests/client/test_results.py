@@ -8,8 +8,8 @@ from html.parser import HTMLParser
 import pytest
 from pydantic import BaseModel
 
-from service.api import schemas, shapes
-from service.client import AsyncClient, Frame, html, results
+from service.api import schemas, schemas_advice, shapes, tickets
+from service.client import AsyncClient, Film, Frame, html, media, reading, results, unbound
 from service.client.errors import UnexpectedAnswer
 
 PAIRS: list[tuple[type, type[BaseModel]]] = [
@@ -31,6 +31,14 @@ PAIRS: list[tuple[type, type[BaseModel]]] = [
     (results.StepResult, schemas.StepResult),
     (results.Parsed, schemas.Parsed),
     (results.Health, schemas.Health),
+    (results.SavedMoment, schemas.SavedMoment),
+    (results.SavedMoments, schemas.SavedMoments),
+    (results.Link, schemas.Link),
+    (results.Ticket, tickets.Ticket),
+    (unbound.Advice, schemas_advice.Advice),
+    (unbound.AdviceOption, schemas_advice.AdviceOption),
+    (unbound.Intent, schemas.IntentGuide),
+    (unbound.Guide, schemas.LanguageGuide),
 ]
 
 
@@ -58,13 +66,13 @@ def test_results_are_frozen() -> None:
 )
 def test_what_is_not_as_documented_is_refused(kind: type, value: object) -> None:
     with pytest.raises(UnexpectedAnswer):
-        results.read(kind, value)
+        reading.read(kind, value)
 
 
 def test_a_value_is_read_as_its_type() -> None:
-    read = results.read(results.Hazard, {"id": "p1", "kind": "pothole", "cell": [1, 2], "new": 3})
+    read = reading.read(results.Hazard, {"id": "p1", "kind": "pothole", "cell": [1, 2], "new": 3})
     assert read == results.Hazard("p1", "pothole", (1, 2))
-    assert results.read(results.Correction, {"from": "ptohole", "to": "pothole"}).read == "pothole"
+    assert reading.read(results.Correction, {"from": "ptohole", "to": "pothole"}).read == "pothole"
 
 
 class Elements(HTMLParser):
@@ -126,8 +134,8 @@ async def test_what_others_said_is_escaped(inside: AsyncClient) -> None:
         "changes": [{"path": HOSTILE, "before": None, "after": HOSTILE}],
     }
     for shown in (
-        results.read(results.State, values)._repr_html_(),
-        results.read(results.CommandResult, result)._repr_html_(),
+        reading.read(results.State, values)._repr_html_(),
+        reading.read(results.CommandResult, result)._repr_html_(),
         Frame(b"", HOSTILE)._repr_html_(),
         html.table(HOSTILE, (HOSTILE,), ((HOSTILE,),)),
     ):
@@ -145,3 +153,43 @@ async def test_the_rest_of_what_notebooks_show(inside: AsyncClient) -> None:
         stepped.decisions[0].options
     )
     assert (await session.frame())._repr_html_().startswith('<img alt="the road" src="data:image/png;base64,')
+
+
+@pytest.mark.parametrize("speed", [0.25, 4, "max"])
+def test_a_speed_is_a_number_or_a_word(speed: float | str) -> None:
+    assert reading.read(float | str, speed) == speed
+    for bad in (True, [1], {}):
+        with pytest.raises(UnexpectedAnswer):
+            reading.read(float | str, bad)
+
+
+async def test_what_is_asked_without_a_session_is_shown(inside: AsyncClient) -> None:
+    advice = await inside.advice("pothole 2m ahead, speed 40 km/h")
+    rows = elements(advice._repr_html_()).names.count("tr")
+    assert rows == 1 + len(advice.options) > 2
+    assert f"{advice.options[0].chance:.0%}" in advice._repr_html_()
+    guide = await inside.guide()
+    assert elements(guide._repr_html_()).names.count("tr") > 20
+    begun = await inside.guide("add five po")
+    assert "add five potholes" in begun._repr_html_()
+
+
+async def test_what_is_seen_is_shown(inside: AsyncClient) -> None:
+    session = await inside.create(seed=11, paused=True)
+    await session.step(2)
+    await session.save("early <b>")
+    film = await session.film(0, 2, fps=5, side=64)
+    assert (film.data[:4], film.media_type) == (b"GIF8", "image/gif")
+    assert film._repr_html_().startswith('<img alt="the road" src="data:image/gif;base64,')
+    assert elements(Film(b"", "video/mp4")._repr_html_()).names == ["video"]
+    shown = (await session.saved())._repr_html_()
+    assert "early &lt;b&gt;" in shown
+    assert "1 saved" in shown
+
+
+@pytest.mark.parametrize(
+    "message", [b"", b"RT", b"XX" + bytes(14), b"RT\x02\x01" + bytes(12), b"RT\x01\x09" + bytes(12)]
+)
+def test_a_picture_that_is_none_is_refused(message: bytes) -> None:
+    with pytest.raises(UnexpectedAnswer):
+        media.picture(message)
