@@ -9,6 +9,7 @@ SQLite's calls run on the driver's own thread, never on the event loop.
 
 from __future__ import annotations
 
+import os
 import sqlite3
 from importlib.util import find_spec
 from pathlib import Path
@@ -59,16 +60,19 @@ class Sqlite:
             found = await to_thread.run_sync(self._check)
         except UnicodeDecodeError:
             found = "not even the fault can be told"  # SQLite's message quotes it
-        except (sqlite3.Error, OSError) as error:
+        except (sqlite3.OperationalError, OSError) as error:
             raise StoreError(f"{self.name} cannot be opened: {error}") from error
+        except sqlite3.Error as error:
+            found = str(error)
         if found != "ok":
             raise StoreError(
-                f"{self.name} cannot be opened: it is damaged ({found}). It was left as it is; put a copy in "
-                "its place, or save what can be read with: sqlite3 <file> .recover"
+                f"{self.name} cannot be opened: it is damaged or none ({found}). It was left as it is; "
+                "put a copy in its place, or save what can be read with: sqlite3 <file> .recover"
             )
 
     def _check(self) -> str:
         path = Path(self._path)
+        _permitted(path)
         # Where there is a log of changes, closing would write it into what may be damaged: only looked at.
         how = "ro" if path.with_name(f"{path.name}-wal").exists() else "rwc"
         connection = sqlite3.connect(f"{path.resolve().as_uri()}?mode={how}", uri=True, timeout=_BUSY_S)
@@ -84,6 +88,18 @@ class Sqlite:
     def engine(self) -> AsyncEngine:
         """One connection and no overflow: callers queue for it, so writes never meet."""
         return _one_connection(self._url, _prepare_sqlite)
+
+
+def _permitted(path: Path) -> None:
+    """Raise `OSError` where a file may not be used, in clearer words than SQLite has for it."""
+    if path.is_dir():
+        raise OSError("it is a folder")
+    if not path.parent.is_dir():
+        raise OSError(f"there is no folder {path.parent}")
+    if not os.access(path.parent, os.W_OK | os.X_OK):
+        raise OSError("its folder is read-only, and a log of changes must be kept beside it")
+    if path.exists() and not os.access(path, os.R_OK | os.W_OK):
+        raise OSError("it is read-only, or not to be read at all")
 
 
 class Postgres:
