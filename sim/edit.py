@@ -317,10 +317,11 @@ def differences(before: Run, after: Run) -> tuple[Change, ...]:
     for kind, count in before.world.counts().items():
         if count != counts[kind]:
             changes.append(Change(PLURALS[kind], count, counts[kind]))
-    for field in fields(Config):
-        was, now = getattr(before.config, field.name), getattr(after.config, field.name)
-        if was != now:
-            changes.append(Change(f"config.{field.name}", was, now))
+    if before.config is not after.config:
+        for field in fields(Config):
+            was, now = getattr(before.config, field.name), getattr(after.config, field.name)
+            if was != now:
+                changes.append(Change(f"config.{field.name}", was, now))
     if before.mode is not after.mode:
         changes.append(Change("mode", before.mode, after.mode))
     if before.queue != after.queue:

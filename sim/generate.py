@@ -108,7 +108,9 @@ def named(kind: Kind, cells: Iterable[int], last: dict[Kind, int]) -> dict[int, 
 
 def lowest_ranked(free: Board, count: int, stream: Stream) -> list[int]:
     """`count` cells of a board, at random: those of lowest rank in the stream."""
-    return sorted(bits(free), key=stream.word)[:count]
+    cells = list(bits(free))
+    ranked = sorted(zip(stream.words(cells), cells, strict=True))
+    return [cell for _, cell in ranked[:count]]
 
 
 def _exactly(free: Board, count: int, stream: Stream) -> Board:

@@ -9,6 +9,7 @@ functions on words serve Python's integers and 64-bit machine words alike.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
 from hashlib import blake2b
@@ -73,6 +74,16 @@ class Stream:
     def word(self, index: int) -> int:
         """64 random bits."""
         return word_at(self.key, index)
+
+    def words(self, indices: Iterable[int]) -> list[int]:
+        """`word` of each, written out: whoever ranks a whole road asks for hundreds."""
+        words = []
+        for index in indices:
+            word = self.key + _GOLDEN * (index + 1) & _MASK
+            word = (word ^ word >> 30) * 0xBF58476D1CE4E5B9 & _MASK
+            word = (word ^ word >> 27) * 0x94D049BB133111EB & _MASK
+            words.append(word ^ word >> 31)
+        return words
 
     def uniform(self, index: int) -> float:
         """A number in [0, 1), of 53 random bits."""

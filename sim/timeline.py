@@ -2,23 +2,36 @@
 
 That list *is* the session; every state is derived from it by replay, and snapshots along the way
 only save time. Undoing is rewriting the list without a change, which is then as if never said.
+Snapshots are placed by the work between them, so that every state is as near as every other.
 """
 
 from __future__ import annotations
 
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from collections import deque
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from sim.actions import WorldAction
+from sim.chain import Chain
 from sim.config import Config
 from sim.edit import Applied, apply
 from sim.plan import Decision
 from sim.run import Run, Tick, advance, decide
 
-SNAPSHOT_TICKS = 64
+SNAPSHOT_TICKS = 128
+"""Work between two snapshots, in ticks of the simplest planner; twice that each time there are too many."""
+
 MAX_SNAPSHOTS = 256
+
+ACTION_WORK = 4
+"""What an action of the log costs, in such ticks."""
+
+SEARCH_WORK = 16
+"""What a tick costs with a planner that searches, or one that is not known here."""
+
+_SIMPLE_PLANNERS = frozenset(("priority", "dwa"))
+
 RECENT_RUNS = 8
 """States kept as they were, for questions about what has just been done."""
 
@@ -43,7 +56,7 @@ class Entry:
 
 @dataclass(frozen=True, slots=True)
 class _Snapshot:
-    """The state on reaching a tick, before the actions of that tick; `entries` were applied."""
+    """A state on the way: at a tick, once the first `entries` of the log were applied."""
 
     tick: int
     run: Run
@@ -51,15 +64,16 @@ class _Snapshot:
 
 
 class Timeline:
-    """A session's log and its present state. `copy()` is cheap: states are values and shared."""
+    """A session's log and its present state. `copy()` is cheap: states and the log are values and shared."""
 
     def __init__(self, config: Config) -> None:
         """A session at tick 0."""
         self.config = config
         self.run = Run.start(config)
-        self.entries: list[Entry] = []
-        self._interval = SNAPSHOT_TICKS
-        self._snapshots = [_Snapshot(0, self.run, 0)]
+        self.entries: Chain[Entry] = Chain()
+        self._gap = SNAPSHOT_TICKS
+        self._work = 0
+        self._snapshots: tuple[_Snapshot, ...] = (_Snapshot(0, self.run, 0),)
         self._recent: deque[Run] = deque(maxlen=RECENT_RUNS)
 
     @property
@@ -72,9 +86,10 @@ class Timeline:
         twin = Timeline.__new__(Timeline)
         twin.config = self.config
         twin.run = self.run
-        twin.entries = list(self.entries)
-        twin._interval = self._interval
-        twin._snapshots = list(self._snapshots)
+        twin.entries = self.entries
+        twin._gap = self._gap
+        twin._work = self._work
+        twin._snapshots = self._snapshots
         twin._recent = self._recent.copy()
         return twin
 
@@ -88,7 +103,8 @@ class Timeline:
         if tick.decision is not None and tick.decision.timed_out:
             raise PlannerSilentError(tick.decision.planner, tick.decision.fault or "")
         self._recent.append(self.run)
-        self._arrive(tick.run)
+        self.run = tick.run
+        self._worked(_tick_work(self.run), len(self.entries))
         return tick
 
     def apply(self, sequence: int, actions: Sequence[WorldAction]) -> list[Applied]:
@@ -99,28 +115,31 @@ class Timeline:
             run = applied.run
             done.append(applied)
         self.run = run
-        self.entries += [Entry(sequence, self.tick, action) for action in actions]
+        self.entries = self.entries.plus([Entry(sequence, self.tick, action) for action in actions])
+        self._worked(ACTION_WORK * len(actions), len(self.entries))
         return done
 
-    def rewrite(self, entries: list[Entry], since: int) -> None:
+    def rewrite(self, entries: Sequence[Entry], since: int) -> None:
         """Make `entries` the log, as if nothing else had ever been said, and replay to the present tick.
 
         The new log may differ from the old at tick `since` and later; the time taken is that of
         the ticks since then.
         """
         present = self.tick
-        self.entries = entries
         self._recent.clear()
-        self._snapshots = [shot for shot in self._snapshots if shot.tick <= since]
+        self._forget_from(entries, since)
+        self.entries = entries if isinstance(entries, Chain) else Chain(entries)
         run, position = self._nearest(since)
+        self._work = 0
         while True:
+            due = position
             run, position = self._apply_due(run, position)
             self.run = run
+            self._worked(ACTION_WORK * (position - due), position)
             if run.world.tick == present:
                 return
-            run = advance(run).run
-            if run.world.tick % self._interval == 0 and run.world.tick > self._snapshots[-1].tick:
-                self._snapshots.append(_Snapshot(run.world.tick, run, position))
+            self.run = run = advance(run).run
+            self._worked(_tick_work(run), position)
 
     def rewind(self, tick: int) -> None:
         """Make a past tick the present; what was said or happened after it is gone. Raises `IndexError`."""
@@ -128,14 +147,22 @@ class Timeline:
         if tick == self.tick:
             return
         self.run = run
-        self.entries = self.entries[: bisect_right(self.entries, tick, key=lambda entry: entry.tick)]
-        self._snapshots = [shot for shot in self._snapshots if shot.tick <= tick]
+        self.entries = self.entries.first(self._said_by(tick))
+        self._snapshots = tuple(shot for shot in self._snapshots if shot.tick <= tick)
+        self._work = 0
         self._recent.clear()
 
-    def ticks_to(self, tick: int) -> int:
-        """How many ticks are run again to know the state at a past one. Raises `IndexError`."""
+    def work_to(self, tick: int) -> int:
+        """What it takes to know the state at a past tick, about in ticks. Raises `IndexError`."""
         self._check(tick)
-        return tick - self._nearest(tick)[0].world.tick
+        shot = self._nearest_shot(tick)
+        said = self._said_by(tick) - shot.entries
+        return (tick - shot.tick) * _tick_work(self.run) + said * ACTION_WORK
+
+    def work_since(self, tick: int) -> int:
+        """What it takes to come to the present anew from a past tick, about in ticks. Raises `IndexError`."""
+        said = len(self.entries) - self._said_by(tick)
+        return self.work_to(tick) + (self.tick - tick) * _tick_work(self.run) + said * ACTION_WORK
 
     def at(self, tick: int) -> Run:
         """The state at a past tick, after the actions of that tick. Raises `IndexError`."""
@@ -168,16 +195,36 @@ class Timeline:
         if not 0 <= tick <= self.tick:
             raise IndexError(f"tick {tick} is not between 0 and {self.tick}")
 
-    def _arrive(self, run: Run) -> None:
-        self.run = run
-        if run.world.tick % self._interval == 0:
-            self._snapshots.append(_Snapshot(run.world.tick, run, len(self.entries)))
-            if len(self._snapshots) > MAX_SNAPSHOTS:
-                self._interval *= 2
-                self._snapshots = [shot for shot in self._snapshots if shot.tick % self._interval == 0]
+    def _worked(self, work: int, entries: int) -> None:
+        """The present was come to by this much work, with so many entries applied."""
+        self._work += work
+        if self._work < self._gap:
+            return
+        self._work = 0
+        self._snapshots = (*self._snapshots, _Snapshot(self.tick, self.run, entries))
+        if len(self._snapshots) > MAX_SNAPSHOTS:
+            self._gap *= 2
+            self._snapshots = self._snapshots[::2]
+
+    def _forget_from(self, entries: Sequence[Entry], since: int) -> None:
+        """Forget the snapshots that another log does not lead to, being the same up to tick `since`."""
+        start = bisect_left(self.entries, since, key=lambda entry: entry.tick)
+        alike = start
+        while alike < min(len(entries), len(self.entries)) and entries[alike] == self.entries[alike]:
+            alike += 1  # an entry at this very tick may be among what stays
+        self._snapshots = tuple(
+            shot for shot in self._snapshots if shot.tick <= since and shot.entries <= alike
+        )
+
+    def _said_by(self, tick: int) -> int:
+        """How many entries there are up to a tick and at it."""
+        return bisect_right(self.entries, tick, key=lambda entry: entry.tick)
+
+    def _nearest_shot(self, tick: int) -> _Snapshot:
+        return self._snapshots[bisect_right(self._snapshots, tick, key=lambda shot: shot.tick) - 1]
 
     def _nearest(self, tick: int) -> tuple[Run, int]:
-        shot = self._snapshots[bisect_right(self._snapshots, tick, key=lambda shot: shot.tick) - 1]
+        shot = self._nearest_shot(tick)
         return shot.run, shot.entries
 
     def _apply_due(self, run: Run, position: int) -> tuple[Run, int]:
@@ -185,3 +232,7 @@ class Timeline:
             run = apply(run, self.entries[position].action).run
             position += 1
         return run, position
+
+
+def _tick_work(run: Run) -> int:
+    return 1 if run.config.planner in _SIMPLE_PLANNERS else SEARCH_WORK

@@ -21,7 +21,7 @@ from service.api.context import TheSession
 from service.api.errors import documented, invalid
 from service.api.respond import StrictRoute, etag, json_response
 from service.problems import FieldProblem, Invalid, NotRestorable, UnknownSession
-from service.sessions.forking import way_to
+from service.sessions.forking import way_to, written_out
 from service.sessions.recording import FORMAT, VERSION
 from service.wire.encode import encoded
 from sim.timeline import Timeline
@@ -85,7 +85,7 @@ def _carried(timeline: Timeline, tick: int) -> str:
     way = way_to(timeline, tick)
     entries = [
         {"sequence": each.sequence, "tick": each.tick, "text": None, "actions": each.actions}
-        for each in way.records
+        for each in written_out(way)
     ]
     recording = {
         "format": FORMAT,
@@ -94,7 +94,7 @@ def _carried(timeline: Timeline, tick: int) -> str:
         "config": asdict(timeline.config),
         "entries": entries,
         "tick": tick,
-        "digest": way.timeline.run.world.digest(),
+        "digest": way.run.world.digest(),
     }
     deflate = zlib.compressobj(9, zlib.DEFLATED, _RAW)
     packed = deflate.compress(encoded(recording)) + deflate.flush()

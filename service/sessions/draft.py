@@ -9,6 +9,7 @@ the same state.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import chain, islice
 
 from service.actions import (
     Action,
@@ -69,12 +70,12 @@ class Draft:
         self.pace = pace
         self.history = history.copy()
         self._jumped = False
-        self._open = _Mark(self.timeline, paused)
+        self._open = _Mark(timeline, paused)
 
     def perform(self, sequence: int, actions: Sequence[Action]) -> tuple[Fact, ...]:
         """Do the actions of one utterance. Raises a `ProblemError` naming the first that cannot be."""
-        earlier, began = self.history.copy(), _Mark(self.timeline, self.paused)
-        self._open = _Mark(self.timeline, self.paused)
+        began = _Mark(self.timeline.copy(), self.paused)
+        earlier, self._open = self.history.copy(), began.again()
         self._jumped = False
         facts = []
         for position, action in enumerate(actions):
@@ -90,13 +91,18 @@ class Draft:
 
     def work_ticks(self, actions: Sequence[Action]) -> int:
         """About how many ticks are to be run: those of steps, and those since what is undone or redone."""
+        timeline = self.timeline
+        undos, redos = (sum(isinstance(action, kind) for action in actions) for kind in (Undo, Redo))
+        back = list(islice(self.history.latest_first(timeline.entries), undos))
+        # Whether what is redone was undone before or here, it comes last first.
+        forth = list(islice(chain(reversed(back), reversed(self.history.undone)), redos))
         ticks = ticks_to_run(actions)
-        for kind, steps in ((Undo, self.history.done), (Redo, self.history.undone)):
-            if steps and steps[-1].jump is None and any(isinstance(action, kind) for action in actions):
-                ticks += self.timeline.tick - steps[-1].since
+        for step in (*back, *forth):
+            if step.jump is None and step.since < timeline.tick:
+                ticks += timeline.work_since(step.since)
         for action in actions:
-            if isinstance(action, Rewind) and action.ticks <= self.timeline.tick:
-                ticks += self.timeline.ticks_to(self.timeline.tick - action.ticks)
+            if isinstance(action, Rewind) and action.ticks <= timeline.tick:
+                ticks += timeline.work_to(timeline.tick - action.ticks)
         return ticks
 
     def _do(self, sequence: int, position: int, action: Action) -> Fact:
@@ -184,18 +190,16 @@ class Draft:
 
     def _undo(self, position: int) -> Undone:
         self._close_step()
-        if not self.history.done:
+        step = self.history.undo(self.timeline)
+        if step is None:
             raise _nothing("There is no change to take back.", position)
-        step = self.history.done.pop()
-        self.history.undone.append(step.left_after(self.timeline))
         return self._take(step.reversed, again=False)
 
     def _redo(self, position: int) -> Undone:
         self._close_step()
-        if not self.history.undone:
+        step = self.history.redo(self.timeline)
+        if step is None:
             raise _nothing("No change has been taken back that could be made again.", position)
-        step = self.history.undone.pop()
-        self.history.done.append(step.left_before(self.timeline))
         return self._take(step, again=True)
 
     def _rewind(self, position: int, ticks: int) -> Went:
@@ -209,7 +213,7 @@ class Draft:
             sentence = f"{MOST_NAMES} moments have names here, which is the limit; save under one of those."
             raise Invalid(sentence, errors=[FieldProblem(f"actions.{position}.name", sentence)])
         again = name in saved
-        saved[name] = Moment(name, sequence, self.timeline.copy())
+        self.history.saved = {**saved, name: Moment(name, sequence, self.timeline.copy())}
         return Kept(name, self.timeline.tick, again)
 
     def _load(self, position: int, name: str) -> Went:
@@ -218,10 +222,7 @@ class Draft:
             raise unknown(name, self.history.saved, f"actions.{position}.name")
         before, log = self.timeline.run, self.timeline.entries
         self.timeline = moment.timeline.copy()
-        pairs = zip(log, self.timeline.entries, strict=False)
-        alike = next((number for number, (one, other) in enumerate(pairs) if one != other), None)
-        kept = min(len(log), len(self.timeline.entries)) if alike is None else alike
-        return self._went(before, kept, name)
+        return self._went(before, log.alike(self.timeline.entries), name)
 
     def _went(self, before: Run, kept: int, name: str | None = None) -> Went:
         self._open.kept = min(self._open.kept, kept)
@@ -237,7 +238,9 @@ class Draft:
         log = self.timeline.entries
         jump = Jump(since.timeline, self.timeline.copy()) if since.jumped else None
         was = since.timeline.entries
-        step = Step(tuple(was[since.kept :]), tuple(log[since.kept :]), since.paused, self.paused, jump)
+        step = Step(
+            tuple(was.after(since.kept)), tuple(log.after(since.kept)), since.paused, self.paused, jump
+        )
         if not step.empty:
             self.history.add(step)
 
@@ -246,13 +249,13 @@ class Draft:
         before = self.timeline.run
         kept = len(self.timeline.entries) - len(step.before)
         if step.jump is None:
-            self.timeline.rewrite([*self.timeline.entries[:kept], *step.after], step.since)
+            self.timeline.rewrite(self.timeline.entries.first(kept).plus(step.after), step.since)
         else:
             self.timeline = step.jump.after.copy()
             self._jumped = True
         if self.paused == step.paused_before:
             self.paused = step.paused_after
-        self._open = _Mark(self.timeline, self.paused, kept)
+        self._open = _Mark(self.timeline.copy(), self.paused, kept)
         changes = differences(before, self.timeline.run)
         if before.world.tick != self.timeline.tick:
             changes = (Change("tick", before.world.tick, self.timeline.tick), *changes)
@@ -260,13 +263,20 @@ class Draft:
 
 
 class _Mark:
-    """A timeline as it was, how many of its first entries are untouched since, and whether time moved."""
+    """A timeline as it was, how many of its first entries are untouched since, and whether time moved.
+
+    The timeline is nobody else's to change.
+    """
 
     def __init__(self, timeline: Timeline, paused: bool, kept: int | None = None) -> None:
-        self.timeline = timeline.copy()
+        self.timeline = timeline
         self.paused = paused
         self.kept = len(timeline.entries) if kept is None else kept
         self.jumped = False
+
+    def again(self) -> _Mark:
+        """Another for the same moment."""
+        return _Mark(self.timeline, self.paused, self.kept)
 
 
 def ticks_to_run(actions: Sequence[Action]) -> int:

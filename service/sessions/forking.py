@@ -1,50 +1,85 @@
 """A session's way up to a tick, as the beginning of another: what a fork and a link are made of.
 
-Taken from the log as it stands, not as it was said: what was undone or gone back on is not in it. So the
-utterances are numbered anew and only the ones that changed the road come along, without their words; names
-of moments and what "it" was do not. States and snapshots are shared with the session they were taken from.
+Taken from the log as it stands, not as it was said: what was undone or gone back on is not in it. Only what
+changed the road comes along, without its words; names of moments and what "it" was do not.
+
+A fork shares the way with its parent, states and entries in memory, the log in the store, and goes on
+counting its changes where the last of them was. A link writes it out.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from itertools import groupby
-from typing import Any
 
 from service import actions as contract
-from service.sessions.history import History, Step
-from service.store import EntryRecord
+from service.actions import Action
+from service.sessions.draft import WORLD_ACTIONS
+from service.sessions.history import History
+from service.sessions.pace import sets_pace
+from service.store import Branch, EntryRecord
+from service.store.lineage import standing
 from sim.timeline import Entry, Timeline
 
 
 @dataclass(frozen=True, slots=True)
 class Way:
-    """How a state was come to: a timeline that ends in it, and the same as steps and as stored."""
+    """How a state was come to: a timeline that ends in it, and where it leaves the log it was taken from."""
 
     timeline: Timeline
-    history: History
-    records: tuple[EntryRecord, ...]
+    branch: Branch
+
+    def history(self, paused: bool) -> History:
+        """What can be undone of it, in a session that begins so."""
+        return History(ground=len(self.timeline.entries), ground_paused=paused)
 
 
-def way_to(timeline: Timeline, tick: int, paused: bool = True) -> Way:
-    """The way of a timeline to a past tick. Raises `IndexError`; the timeline itself stays as it is.
-
-    `paused` is how the other session begins.
-    """
+def way_to(timeline: Timeline, tick: int) -> Timeline:
+    """A timeline up to a past tick. Raises `IndexError`; the timeline itself stays as it is."""
     own = timeline.copy()
     own.rewind(tick)
-    groups = [list(group) for _, group in groupby(own.entries, key=lambda each: (each.sequence, each.tick))]
-    said = [
-        tuple(Entry(number, entry.tick, entry.action) for entry in group)
-        for number, group in enumerate(groups, start=1)
+    return own
+
+
+def way_of(session_id: str, mixed: Collection[int], timeline: Timeline, tick: int) -> Way:
+    """The way of a session to a past tick; `mixed` are the changes that the log has a part of only."""
+    own = way_to(timeline, tick)
+    numbers = {entry.sequence for entry in own.entries}
+    last = own.entries[-1].sequence if own.entries else 0
+    written = numbers.intersection(mixed)
+    parts = [entry for entry in own.entries if entry.sequence in written] if written else []
+    instead = [
+        {"sequence": record.sequence, "tick": record.tick, "actions": record.actions}
+        for record in _records(parts)
     ]
-    own.entries = [entry for group in said for entry in group]
-    history = History([Step((), group, paused, paused) for group in said])
+    common = standing(numbers - written, last)
+    return Way(own, Branch(parent=session_id, sequence=last, tick=tick, standing=common, instead=instead))
+
+
+def is_mixed(actions: Sequence[Action]) -> bool:
+    """Whether such a change is in the log of the road with part of its actions only."""
+    changing = sum(isinstance(action, WORLD_ACTIONS) and not sets_pace(action) for action in actions)
+    return 0 < changing < len(actions)
+
+
+def written_out(timeline: Timeline) -> list[EntryRecord]:
+    """The log of a timeline as changes of a session, numbered from 1."""
+    return numbered(_records(timeline.entries))
+
+
+def numbered(entries: Sequence[EntryRecord]) -> list[EntryRecord]:
+    """The same, numbered from 1 without gaps: a recording has no parent."""
+    return [
+        EntryRecord(sequence=number, tick=each.tick, text=each.text, actions=each.actions, digest=each.digest)
+        for number, each in enumerate(entries, start=1)
+    ]
+
+
+def _records(entries: Sequence[Entry]) -> list[EntryRecord]:
     # All at once: one by one takes twice as long.
-    dumped = iter(contract.dump(tuple(entry.action for entry in own.entries)))
-    return Way(own, history, tuple(_record(group, [next(dumped) for _ in group]) for group in said))
-
-
-def _record(group: Sequence[Entry], actions: Sequence[Mapping[str, Any]]) -> EntryRecord:
-    return EntryRecord(sequence=group[0].sequence, tick=group[0].tick, text=None, actions=actions)
+    dumped = iter(contract.dump(tuple(entry.action for entry in entries)))
+    return [
+        EntryRecord(sequence=sequence, tick=tick, text=None, actions=[next(dumped) for _ in said])
+        for (sequence, tick), said in groupby(entries, key=lambda each: (each.sequence, each.tick))
+    ]

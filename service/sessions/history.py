@@ -7,10 +7,12 @@ though a step gives back the pause it came with.
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 from service.sessions.rewinding import Jump
 from service.sessions.saved import Moment
+from sim.chain import Chain
 from sim.timeline import Entry, Timeline
 
 MOST_JUMPS = 100
@@ -37,7 +39,7 @@ class Step:
     def empty(self) -> bool:
         """Whether nothing changed."""
         moved = self.jump is not None and self.jump.before.tick != self.jump.after.tick
-        return not self.before and not self.after and not moved
+        return self.before == self.after and not moved
 
     @property
     def reversed(self) -> Step:
@@ -56,21 +58,64 @@ class Step:
 
 @dataclass(slots=True)
 class History:
-    """Steps to undo, the latest last; those to redo, the next last; and moments that have a name."""
+    """Steps to undo, the latest last; those to redo, the next last; and moments that have a name.
 
-    done: list[Step] = field(default_factory=list)
-    undone: list[Step] = field(default_factory=list)
-    saved: dict[str, Moment] = field(default_factory=dict)
+    Before the steps there may be `ground`: so many entries of the log that the session began with. They
+    become steps, one for each utterance, when there is nothing later to undo.
+    """
+
+    done: Chain[Step] = field(default_factory=Chain)
+    undone: Chain[Step] = field(default_factory=Chain)
+    saved: Mapping[str, Moment] = field(default_factory=dict)
+    ground: int = 0
+    ground_paused: bool = True
 
     def copy(self) -> History:
         """A history that goes its own way."""
-        return History(list(self.done), list(self.undone), dict(self.saved))
+        return replace(self)
 
     def add(self, step: Step) -> None:
         """One more change; what was undone before it cannot be redone."""
-        self.done.append(step)
-        self.undone.clear()
+        self.done = self.done.plus([step])
+        self.undone = Chain()
         if step.jump is not None:
             jumps = [number for number, each in enumerate(self.done) if each.jump is not None]
             if len(jumps) > MOST_JUMPS:
-                del self.done[: jumps[0] + 1]
+                self.done = Chain(self.done.after(jumps[0] + 1))
+                self.ground = 0
+
+    def undo(self, timeline: Timeline) -> Step | None:
+        """The latest step, put with what can be redone; None if there is none."""
+        step = next(self.latest_first(timeline.entries), None)
+        if step is None:
+            return None
+        if self.done:
+            self.done = self.done.first(len(self.done) - 1)
+        else:
+            self.ground -= len(step.after)
+        self.undone = self.undone.plus([step.left_after(timeline)])
+        return step
+
+    def redo(self, timeline: Timeline) -> Step | None:
+        """The step that was undone last, put with what can be undone; None if there is none."""
+        if not self.undone:
+            return None
+        step = self.undone[-1]
+        self.undone = self.undone.first(len(self.undone) - 1)
+        self.done = self.done.plus([step.left_before(timeline)])
+        return step
+
+    def latest_first(self, entries: Chain[Entry]) -> Iterator[Step]:
+        """What could be undone of a log."""
+        yield from reversed(self.done)
+        stop = self.ground
+        while stop > 0:
+            start, last = stop - 1, entries[stop - 1]
+            while start > 0 and _said_with(entries[start - 1], last):
+                start -= 1
+            yield Step((), tuple(entries[start:stop]), self.ground_paused, self.ground_paused)
+            stop = start
+
+
+def _said_with(one: Entry, other: Entry) -> bool:
+    return (one.sequence, one.tick) == (other.sequence, other.tick)

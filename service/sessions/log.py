@@ -42,6 +42,17 @@ class Log:
         """Number of the oldest line that can still be read."""
         return self._last - len(self._events) + 1
 
+    @property
+    def kept(self) -> int:
+        """How many lines are kept at most."""
+        return self._events.maxlen or 0
+
+    def skip(self, lines: int) -> None:
+        """Count lines that are written nowhere: so many have followed them that they are dropped already."""
+        if lines:
+            self._last += lines
+            self._events.clear()
+
     def add(
         self, tick: int, kind: str, text: str, ids: tuple[str, ...] = (), cell: Cell | None = None
     ) -> LogEvent:

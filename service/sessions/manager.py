@@ -27,9 +27,11 @@ from service.problems import (
     UnknownSession,
 )
 from service.sessions.draft import check_ticks
-from service.sessions.forking import way_to
+from service.sessions.forking import way_of
 from service.sessions.pace import NORMAL
-from service.sessions.session import ReplayError, Session, Surroundings
+from service.sessions.replaying import ReplayError
+from service.sessions.saved import with_names
+from service.sessions.session import Session, Surroundings
 from service.sessions.sleeping import Idleness, Sleeper
 from service.sessions.terms import ANY_TERMS, Terms
 from service.store import EntryRecord, KeptAnswer, SessionRecord, StoreError
@@ -102,9 +104,10 @@ class SessionManager:
                 await self._replay(session, recorded)
             session.paused = paused
             kept = () if answer is None else (answer(session),)
+            entries = recorded.entries if recorded else ()
             try:
                 session.record = await self._around.store.create(
-                    record, recorded.entries if recorded else (), *kept
+                    record, with_names(entries, session.history.saved.values()), *kept
                 )
             except StoreError as error:
                 _LOG.error("a session was not saved", error=str(error))
@@ -140,7 +143,8 @@ class SessionManager:
         self._making += 1
         try:
             pace, begins = parent.pace, parent.paused if paused is None else paused
-            way = await to_thread.run_sync(way_to, parent.timeline.copy(), tick, begins)
+            mixed, timeline = parent.mixed.copy(), parent.timeline.copy()
+            way = await to_thread.run_sync(way_of, parent.id, mixed, timeline, tick)
             record = SessionRecord(
                 id=secrets.token_urlsafe(16),
                 name=name,
@@ -148,11 +152,13 @@ class SessionManager:
                 config=parent.record.config,
                 paused=begins,
                 tick=tick,
+                branch=way.branch,
             )
             session = Session(record, way.timeline, self._around)
-            session.begin_with(way.timeline, way.history, len(way.records))
+            session.begin_with(way)
+            session.mixed = mixed
             said = [] if pace == NORMAL else [(Set(parameter="playback_speed", value=pace),)]
-            entries = list(way.records)
+            entries: list[EntryRecord] = []
             for each in (*said, *((actions,) if actions else ())):
                 entries.append(
                     EntryRecord(
@@ -167,7 +173,9 @@ class SessionManager:
             session.paused = session.paused if paused is None else paused
             kept = () if answer is None else (answer(session),)
             try:
-                session.record = await self._around.store.create(session.record, entries, *kept)
+                session.record = await self._around.store.create(
+                    session.record, with_names(entries, session.history.saved.values()), *kept
+                )
             except StoreError as error:
                 _LOG.error("a fork was not saved", error=str(error))
                 raise NotSaved from error

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
+from service.sessions.forking import numbered
 from service.sessions.session import Session
 from service.store import EntryRecord
 
@@ -19,12 +20,15 @@ VERSION = 1
 
 def recording_json(session: Session, entries: Sequence[EntryRecord]) -> dict[str, Any]:
     """The recording of a session up to its present tick."""
+    kept = [entry for entry in entries if entry.sequence <= session.sequence]
+    if session.record.branch is not None:
+        kept = numbered(kept)
     return {
         "format": FORMAT,
         "version": VERSION,
         "name": session.record.name,
         "config": asdict(session.timeline.config),
-        "entries": [_entry(entry) for entry in entries if entry.sequence <= session.sequence],
+        "entries": [_entry(entry) for entry in kept],
         "tick": session.timeline.tick,
         "digest": session.run.world.digest(),
     }
@@ -33,5 +37,5 @@ def recording_json(session: Session, entries: Sequence[EntryRecord]) -> dict[str
 def _entry(entry: EntryRecord) -> dict[str, Any]:
     """As it was said; what a world it led to is the store's to know."""
     said = asdict(entry)
-    del said["digest"]
+    del said["digest"], said["names"]
     return said

@@ -7,12 +7,13 @@ rewinding and undoing; saved again, it names the newer moment. Leaves out moment
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
 
 from rapidfuzz import process
 
 from service.problems import FieldProblem, UnknownName
+from service.store import EntryRecord
 from sim.edit import Change
 from sim.timeline import Timeline
 
@@ -54,6 +55,16 @@ class Went:
     tick: int
     changes: tuple[Change, ...]
     name: str | None = None
+
+
+def with_names(entries: Sequence[EntryRecord], saved: Iterable[Moment]) -> Sequence[EntryRecord]:
+    """Entries that were replayed, each with the names it gave."""
+    names: dict[int, dict[str, int]] = {}
+    for moment in saved:
+        names.setdefault(moment.sequence, {})[moment.name] = moment.tick
+    if not names:
+        return entries
+    return [replace(entry, names=names.get(entry.sequence, {})) for entry in entries]
 
 
 def unknown(name: str, names: Iterable[str], where: str) -> UnknownName:

@@ -15,21 +15,22 @@ from typing import Any
 
 import structlog
 from anyio import to_thread
-from pydantic import ValidationError
 
 from service import actions as contract
 from service.actions import Action, Advise, Ask, Hide, Load, Pause, Redo, Resume, Rewind, Show, Undo
-from service.problems import Invalid, NotSaved, ProblemError, UnknownSession
+from service.problems import NotSaved, ProblemError, UnknownSession
 from service.sessions.availability import refusal
 from service.sessions.clock import Clock
 from service.sessions.conversation import Conversation
-from service.sessions.draft import Draft, check_ticks, ticks_to_run
+from service.sessions.draft import Draft, check_ticks
 from service.sessions.facts import Answerable, Asked, Fact, changes_of, happened_in, views_of
+from service.sessions.forking import Way, is_mixed
 from service.sessions.history import History
 from service.sessions.later import Later
 from service.sessions.log import Log, LogEvent
 from service.sessions.messages import changed_message, tick_message
 from service.sessions.pace import NORMAL, Pace, hurried, period_s, turn
+from service.sessions.replaying import Replay, reply
 from service.sessions.terms import ANY_TERMS, Terms
 from service.sessions.utterance import Outcome, Utterance
 from service.sessions.watchers import Watchers
@@ -43,7 +44,7 @@ from sim.events import Event
 from sim.explain.summary import long_to_tell
 from sim.kinds import Mode
 from sim.plan import Decision
-from sim.run import Run, Tick
+from sim.run import Run, Tick, decide
 from sim.timeline import PlannerSilentError, Timeline
 
 _LOG = structlog.get_logger(__name__)
@@ -60,7 +61,7 @@ QUICK_PLANNERS = frozenset(("priority",))
 LONG_QUESTIONS = frozenset(("what_if", "why_not", "confidence"))
 """Questions for which whole episodes are run, with whatever planner."""
 
-THREAD_TICKS = 500
+THREAD_TICKS = 200
 """Work of more ticks than this is done beside the event loop."""
 
 PLAYED_TICKS = 8
@@ -77,14 +78,6 @@ class Surroundings:
     settings: Settings
 
 
-class ReplayError(Exception):
-    """What was kept cannot be done again; `position` is that of the entry."""
-
-    def __init__(self, position: int, message: str) -> None:
-        super().__init__(message)
-        self.position = position
-
-
 class Session:
     """One live session. All methods are for the event loop's thread."""
 
@@ -95,6 +88,8 @@ class Session:
         self.pace: Pace = NORMAL
         self.sequence = 0
         self.history = History()
+        self.mixed: set[int] = set()
+        """changes of which the timeline has a part only: the others were no changes of the road"""
         self.conversation = Conversation()
         self.log = Log(around.settings.log_events)
         self.watchers = Watchers()
@@ -139,8 +134,9 @@ class Session:
 
     def decision_at(self, tick: int) -> tuple[Decision, Run] | None:
         """The decision taken at a past tick, and the state it was taken in; None while a result stood."""
-        decision = self.timeline.decision(tick)
-        return None if decision is None else (decision, self.timeline.at(tick))
+        run = self.timeline.at(tick)
+        decision = decide(run)
+        return None if decision is None else (decision, run)
 
     # Time
 
@@ -297,12 +293,10 @@ class Session:
     def _outcome(self, utterance: Utterance, facts: tuple[Fact, ...], sequence: int) -> Outcome:
         words = self._around.words
         answers = [words.answer(fact) for fact in facts if isinstance(fact, Answerable)]
-        done = tuple(fact for fact in facts if not isinstance(fact, Answerable))
-        said = [words.done(done)] if done else []
         return Outcome(
             utterance=utterance,
             facts=facts,
-            reply=" ".join([*said, *(answer["text"] for answer in answers)]),
+            reply=reply(words, facts, answers),
             answer=answers[-1] if answers else None,
             sequence=sequence,
             changes=changes_of(facts),
@@ -335,6 +329,11 @@ class Session:
             text=outcome.utterance.text,
             actions=contract.dump(outcome.utterance.actions),
             digest=draft.timeline.run.world.digest(),
+            names={
+                moment.name: moment.tick
+                for moment in draft.history.saved.values()
+                if moment.sequence == outcome.sequence
+            },
         )
 
     def _become(self, draft: Draft, outcome: Outcome) -> None:
@@ -342,7 +341,7 @@ class Session:
         before, began = self.run, self.timeline.tick
         if draft.pace != self.pace:
             self._around.clock.remove(self)  # the turn it waits for is at the old speed
-        self._adopt(draft, outcome.sequence)
+        self.adopt(draft, outcome.sequence, outcome.utterance.actions)
         self.set_paused(draft.paused)
         self.conversation.note(outcome)
         lines = [self._line(began, "changed", outcome.reply)]
@@ -357,7 +356,10 @@ class Session:
         text, views = outcome.utterance.text, views_of(outcome.facts)
         self._publish_changed(text, outcome.reply, outcome.changes, lines, views)
 
-    def _adopt(self, draft: Draft, sequence: int) -> None:
+    def adopt(self, draft: Draft, sequence: int, actions: Sequence[Action]) -> None:
+        """Take a draft's state, made by these actions; for who has the session to itself."""
+        if is_mixed(actions):
+            self.mixed.add(sequence)
         self.timeline, self.history = draft.timeline, draft.history
         self.paused, self.pace, self.sequence = draft.paused, draft.pace, sequence
 
@@ -369,9 +371,10 @@ class Session:
 
     # Replay
 
-    def begin_with(self, timeline: Timeline, history: History, sequence: int) -> None:
+    def begin_with(self, way: Way) -> None:
         """Begin where another session's log has led to; for a session that nobody else has yet."""
-        self.timeline, self.history, self.sequence = timeline, history, sequence
+        self.timeline, self.history = way.timeline, way.history(self.paused)
+        self.sequence = way.branch.sequence
 
     def replay(self, entries: Sequence[EntryRecord], tick: int, most: int | None = None) -> None:
         """Do again what was done, and run on to `tick`; the session then stands paused.
@@ -379,39 +382,22 @@ class Session:
         For a session that nobody else has yet, in any thread. Raises `ReplayError`, also where more than
         `most` ticks would have to be run: with going back, they may be more than where it ends.
         """
-        ticks = 0
-        for position, entry in enumerate(entries):
-            try:
-                ticks += max(0, entry.tick - self.timeline.tick) + ticks_to_run(contract.load(entry.actions))
-                if most is not None and ticks > most:
-                    raise Invalid(f"More than {most} ticks would have to be run.")
-                self.repeat(entry)
-            except (ProblemError, ValidationError) as error:
-                raise ReplayError(position, str(error)) from error
-        self._run_to(tick)
+        replay = Replay(self, self._around.words, self.log)
+        branch = self.record.branch
+        if branch is not None:
+            shared = [entry for entry in entries if entry.sequence <= branch.sequence]
+            replay.ground(shared, branch.tick)
+            self.mixed.update(each["sequence"] for each in branch.instead)
+            self.begin_with(Way(self.timeline, branch))
+            entries = entries[len(shared) :]
+        replay.all(entries, tick, most)
         self.paused = True
 
     def repeat(self, entry: EntryRecord) -> None:
         """Do one kept utterance again. Raises `ProblemError`, or pydantic's `ValidationError`."""
-        if entry.tick < self.timeline.tick or entry.sequence != self.sequence + 1:
-            raise Invalid(f"Entry {entry.sequence} at tick {entry.tick} is out of order.")
-        self._run_to(entry.tick)
-        utterance = Utterance(actions=contract.load(entry.actions), text=entry.text)
-        draft = Draft(self.timeline, self.paused, self.history, self.pace)
-        outcome = self._outcome(utterance, draft.perform(entry.sequence, utterance.actions), entry.sequence)
-        self._adopt(draft, entry.sequence)
-        found = self.run.world.digest()
-        if entry.digest is not None and found != entry.digest:
-            raise Invalid(f"Entry {entry.sequence} ends in {found}, not in {entry.digest} as it once did.")
-        self.conversation.note(outcome)
-        self._line(entry.tick, "changed", outcome.reply)
-        for run, part in happened_in(outcome.facts):
-            self._note(run, part)
-
-    def _run_to(self, tick: int) -> None:
-        while self.timeline.tick < tick:
-            done = self.timeline.advance()
-            self._note(done.run, done)
+        replay = Replay(self, self._around.words, self.log)
+        replay.one(entry, contract.load(entry.actions))
+        replay.tell()
 
     # Telling
 

@@ -5,14 +5,25 @@
 
 from __future__ import annotations
 
-from service.store.base import EntryRecord, KeptAnswer, PhraseRecord, SessionRecord, Store, StoreError
+from service.store.base import (
+    Branch,
+    EntryRecord,
+    KeptAnswer,
+    MomentRecord,
+    PhraseRecord,
+    SessionRecord,
+    Store,
+    StoreError,
+)
 from service.store.memory import MemoryStore
 from service.store.sql import SqlStore
 
 __all__ = [
+    "Branch",
     "EntryRecord",
     "KeptAnswer",
     "MemoryStore",
+    "MomentRecord",
     "PhraseRecord",
     "SessionRecord",
     "SqlStore",

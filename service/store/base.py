@@ -7,7 +7,7 @@ is replayed from those. Leaves out worlds and snapshots: they are derived.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from datetime import datetime
 from typing import Any, Protocol
 
@@ -17,12 +17,28 @@ class StoreError(Exception):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Branch:
+    """Where a fork's log leaves its parent's: what it has in common is kept once.
+
+    Common are those of the parent's changes up to `sequence` that stood at `tick`, which `standing` names as
+    a bit for each number (bytes, lowest bit first, as hexadecimal); `instead` are those that stand in part
+    only, written out. The fork's own changes are numbered on from `sequence`.
+    """
+
+    parent: str
+    sequence: int
+    tick: int
+    standing: str
+    instead: Sequence[Mapping[str, Any]] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class SessionRecord:
     """How a session began, and how far its clock is known to have run.
 
     `number` orders sessions by age and is given by the store; `config` is JSON values; `paused` is
     how the session began. `tick` is where the clock stood when last written: at the beginning or at a
-    graceful stop.
+    graceful stop. `branch` is what a fork has from its parent.
     """
 
     id: str
@@ -32,6 +48,7 @@ class SessionRecord:
     paused: bool = False
     tick: int = 0
     number: int = 0
+    branch: Branch | None = None
 
     def numbered(self, number: int) -> SessionRecord:
         """The same record under the store's number."""
@@ -44,7 +61,8 @@ class EntryRecord:
 
     `sequence` counts a session's accepted changes from 1; `actions` is JSON values in the
     contract's form; `text` is what was said, None for typed actions. `digest` is that of the world
-    after it, to know whether it was done again the same; None where it was never known.
+    after it, to know whether it was done again the same; None where it was never known. `names` are those
+    it gave to moments, each with its tick; they are listed by themselves and not read back with it.
     """
 
     sequence: int
@@ -52,6 +70,19 @@ class EntryRecord:
     text: str | None
     actions: Sequence[Mapping[str, Any]]
     digest: str | None = None
+    names: Mapping[str, int] = field(default_factory=dict, compare=False)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MomentRecord:
+    """A moment of a session that has a name; `number` orders them by when they were named."""
+
+    session: str
+    session_name: str | None
+    name: str
+    sequence: int
+    tick: int
+    number: int
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -97,7 +128,8 @@ class Store(Protocol):
     ) -> SessionRecord:
         """Keep a new session, with entries if it is a replayed one; answers it numbered.
 
-        An `answer` is kept with it or not at all, here and wherever one is taken.
+        An `answer` is kept with it or not at all, here and wherever one is taken. A fork's parent has to be
+        there.
         """
 
     async def append(self, session_id: str, entry: EntryRecord, answer: KeptAnswer | None = None) -> None:
@@ -107,7 +139,7 @@ class Store(Protocol):
         """One session, or None."""
 
     async def entries(self, session_id: str) -> Sequence[EntryRecord]:
-        """A session's changes by sequence; empty for an unknown one."""
+        """A session's changes by sequence, with those it shares with a parent; empty for an unknown one."""
 
     async def newest(self, limit: int, before: int | None = None) -> Sequence[SessionRecord]:
         """Up to `limit` sessions, newest first, of those with a number below `before`."""
@@ -116,7 +148,15 @@ class Store(Protocol):
         """Remember how far clocks have run, by session id; unknown sessions are passed over."""
 
     async def delete(self, session_id: str) -> bool:
-        """Forget a session and its changes; whether there was one."""
+        """Forget a session and its changes; whether there was one.
+
+        What forks share with it is kept, unseen, as long as there is one.
+        """
+
+    async def moments(
+        self, limit: int, before: int | None = None, name: str | None = None
+    ) -> Sequence[MomentRecord]:
+        """Up to `limit` named moments, newest first, of those with a number below `before`."""
 
     async def keep(self, answer: KeptAnswer) -> None:
         """Keep an answer by itself. A key twice is an error."""

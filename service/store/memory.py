@@ -8,7 +8,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from service.store.base import EntryRecord, KeptAnswer, PhraseRecord, SessionRecord, StoreError
+from service.store.base import (
+    Branch,
+    EntryRecord,
+    KeptAnswer,
+    MomentRecord,
+    PhraseRecord,
+    SessionRecord,
+    StoreError,
+)
+from service.store.lineage import joined
 
 
 class MemoryStore:
@@ -20,6 +29,9 @@ class MemoryStore:
         self._phrases: dict[tuple[str, str, str], PhraseRecord] = {}
         self._answers: dict[str, KeptAnswer] = {}
         self._last_number = 0
+        self._moments: dict[tuple[str, str], MomentRecord] = {}
+        self._last_moment = 0
+        self._unseen: set[str] = set()
 
     async def open(self) -> None:
         """Nothing to make ready."""
@@ -33,35 +45,50 @@ class MemoryStore:
         """See `Store.create`."""
         if record.id in self._sessions:
             raise StoreError(f"session {record.id} is there already")
+        if record.branch is not None and record.branch.parent not in self._sessions:
+            raise StoreError(f"no session {record.branch.parent}")
         await self._keep(answer)
         self._last_number += 1
         numbered = record.numbered(self._last_number)
         self._sessions[record.id] = numbered
         self._entries[record.id] = list(entries)
+        for entry in entries:
+            self._name(record.id, entry)
         return numbered
 
     async def append(self, session_id: str, entry: EntryRecord, answer: KeptAnswer | None = None) -> None:
         """See `Store.append`."""
         entries = self._entries.get(session_id)
-        if entries is None:
+        if entries is None or session_id in self._unseen:
             raise StoreError(f"no session {session_id}")
         if any(kept.sequence == entry.sequence for kept in entries):
             raise StoreError(f"session {session_id} has an entry {entry.sequence} already")
         await self._keep(answer)
         entries.append(entry)
+        self._name(session_id, entry)
 
     async def get(self, session_id: str) -> SessionRecord | None:
         """See `Store.get`."""
-        return self._sessions.get(session_id)
+        return None if session_id in self._unseen else self._sessions.get(session_id)
 
     async def entries(self, session_id: str) -> Sequence[EntryRecord]:
         """See `Store.entries`."""
-        return sorted(self._entries.get(session_id, ()), key=lambda entry: entry.sequence)
+        return [] if session_id in self._unseen else self._log(session_id)
+
+    def _log(self, session_id: str) -> list[EntryRecord]:
+        line: list[tuple[Branch | None, list[EntryRecord]]] = []
+        record = self._sessions.get(session_id)
+        while record is not None:
+            own = sorted(self._entries[record.id], key=lambda entry: entry.sequence)
+            line.append((record.branch, own))
+            record = self._sessions[record.branch.parent] if record.branch else None
+        return joined(reversed(line))
 
     async def newest(self, limit: int, before: int | None = None) -> Sequence[SessionRecord]:
         """See `Store.newest`."""
         records = sorted(self._sessions.values(), key=lambda record: -record.number)
-        return [record for record in records if before is None or record.number < before][:limit]
+        seen = [record for record in records if record.id not in self._unseen]
+        return [record for record in seen if before is None or record.number < before][:limit]
 
     async def save_ticks(self, ticks: Mapping[str, int]) -> None:
         """See `Store.save_ticks`."""
@@ -71,8 +98,44 @@ class MemoryStore:
 
     async def delete(self, session_id: str) -> bool:
         """See `Store.delete`."""
-        self._entries.pop(session_id, None)
-        return self._sessions.pop(session_id, None) is not None
+        if session_id not in self._sessions or session_id in self._unseen:
+            return False
+        self._moments = {key: each for key, each in self._moments.items() if each.session != session_id}
+        self._unseen.add(session_id)
+        self._clear(session_id)
+        return True
+
+    def _clear(self, session_id: str) -> None:
+        """Let go of a session that is not seen, and of its parents, where no fork needs them."""
+        forked = [record.branch.parent for record in self._sessions.values() if record.branch is not None]
+        while session_id in self._unseen and session_id not in forked:
+            self._unseen.remove(session_id)
+            self._entries.pop(session_id)
+            branch = self._sessions.pop(session_id).branch
+            if branch is None:
+                return
+            session_id = branch.parent
+            forked.remove(session_id)
+
+    async def moments(
+        self, limit: int, before: int | None = None, name: str | None = None
+    ) -> Sequence[MomentRecord]:
+        """See `Store.moments`."""
+        newest = sorted(self._moments.values(), key=lambda each: -each.number)
+        found = [each for each in newest if before is None or each.number < before]
+        return [each for each in found if name is None or each.name == name][:limit]
+
+    def _name(self, session_id: str, entry: EntryRecord) -> None:
+        for name, tick in entry.names.items():
+            self._last_moment += 1
+            self._moments[session_id, name] = MomentRecord(
+                session=session_id,
+                session_name=self._sessions[session_id].name,
+                name=name,
+                sequence=entry.sequence,
+                tick=tick,
+                number=self._last_moment,
+            )
 
     async def keep(self, answer: KeptAnswer) -> None:
         """See `Store.keep`."""

@@ -12,19 +12,27 @@ from __future__ import annotations
 import asyncio
 from collections.abc import AsyncIterator, Mapping, Sequence
 from contextlib import asynccontextmanager
-from datetime import UTC, datetime
-from typing import Any
 
-from sqlalchemy import Delete, Row, bindparam, delete, func, insert, select, update
+from sqlalchemy import Delete, bindparam, delete, func, insert, select, update
 from sqlalchemy.exc import SQLAlchemyError
 from sqlalchemy.ext.asyncio import AsyncConnection, AsyncEngine
 
-from service.store.base import EntryRecord, KeptAnswer, PhraseRecord, SessionRecord, StoreError
+from service.store.base import (
+    Branch,
+    EntryRecord,
+    KeptAnswer,
+    MomentRecord,
+    PhraseRecord,
+    SessionRecord,
+    StoreError,
+)
 from service.store.engines import Postgres, Sqlite, kind_of, reason
+from service.store.lineage import joined
+from service.store.rows import answer_values, entry_values, moment_values, record_of, session_values
 from service.store.schema import bring_up
-from service.store.tables import ENTRIES, IDEMPOTENCY, PHRASES, SESSIONS
+from service.store.tables import ENTRIES, IDEMPOTENCY, MOMENTS, PHRASES, SESSIONS
 
-_Pending = tuple[dict[str, Any], KeptAnswer | None, "asyncio.Future[None]"]
+_Pending = tuple[str, EntryRecord, KeptAnswer | None, "asyncio.Future[None]"]
 
 
 class SqlStore:
@@ -36,6 +44,8 @@ class SqlStore:
         self._engine: AsyncEngine | None = None
         self._pending: list[_Pending] = []
         self._writer: asyncio.Task[None] | None = None
+        self._unseen: set[str] = set()
+        """deleted meanwhile, but for their forks"""
 
     async def open(self) -> None:
         """Open the database, making its tables or bringing older ones up if need be. Raises `StoreError`."""
@@ -66,30 +76,27 @@ class SqlStore:
         self, record: SessionRecord, entries: Sequence[EntryRecord] = (), answer: KeptAnswer | None = None
     ) -> SessionRecord:
         """See `Store.create`."""
-        values = {
-            "id": record.id,
-            "name": record.name,
-            "created_at": record.created_at.astimezone(UTC).replace(tzinfo=None),
-            "config": dict(record.config),
-            "paused": record.paused,
-            "tick": record.tick,
-        }
         async with self._transaction() as connection:
+            if record.branch is not None:
+                there = select(SESSIONS.c.number).where(SESSIONS.c.id == record.branch.parent)
+                if (await connection.execute(there)).one_or_none() is None:
+                    raise StoreError(f"no session {record.branch.parent}")
             number = (
-                await connection.execute(insert(SESSIONS).returning(SESSIONS.c.number), values)
-            ).scalar_one()
-            if entries:
                 await connection.execute(
-                    insert(ENTRIES), [_entry_values(record.id, entry) for entry in entries]
+                    insert(SESSIONS).returning(SESSIONS.c.number), session_values(record)
                 )
+            ).scalar_one()
+            await _insert(connection, [(record.id, entry) for entry in entries])
             if answer is not None:
-                await connection.execute(insert(IDEMPOTENCY), _answer_values(answer))
+                await connection.execute(insert(IDEMPOTENCY), answer_values(answer))
         return record.numbered(number)
 
     async def append(self, session_id: str, entry: EntryRecord, answer: KeptAnswer | None = None) -> None:
         """See `Store.append`; joins the next group commit."""
+        if session_id in self._unseen:
+            raise StoreError(f"no session {session_id}")
         done: asyncio.Future[None] = asyncio.get_running_loop().create_future()
-        self._pending.append((_entry_values(session_id, entry), answer, done))
+        self._pending.append((session_id, entry, answer, done))
         if self._writer is None:
             self._writer = asyncio.create_task(self._write())
         await done
@@ -98,30 +105,35 @@ class SqlStore:
         """See `Store.get`."""
         async with self._transaction() as connection:
             row = (
-                await connection.execute(select(SESSIONS).where(SESSIONS.c.id == session_id))
+                await connection.execute(
+                    select(SESSIONS).where(SESSIONS.c.id == session_id, ~SESSIONS.c.unseen)
+                )
             ).one_or_none()
-        return None if row is None else _session(row)
+        return None if row is None else record_of(row)
 
     async def entries(self, session_id: str) -> Sequence[EntryRecord]:
         """See `Store.entries`."""
-        query = select(ENTRIES).where(ENTRIES.c.session_id == session_id).order_by(ENTRIES.c.sequence)
+        line: list[tuple[Branch | None, list[EntryRecord]]] = []
         async with self._transaction() as connection:
-            rows = (await connection.execute(query)).all()
-        return [
-            EntryRecord(
-                sequence=row.sequence, tick=row.tick, text=row.text, actions=row.actions, digest=row.digest
-            )
-            for row in rows
-        ]
+            of: str | None = session_id
+            most: int | None = None
+            while of is not None:
+                row = (await connection.execute(select(SESSIONS).where(SESSIONS.c.id == of))).one_or_none()
+                if row is None or (row.unseen and of == session_id):
+                    return []
+                branch = record_of(row).branch
+                line.append((branch, await _own_entries(connection, of, most)))
+                of, most = (branch.parent, branch.sequence) if branch is not None else (None, None)
+        return joined(reversed(line))
 
     async def newest(self, limit: int, before: int | None = None) -> Sequence[SessionRecord]:
         """See `Store.newest`."""
-        query = select(SESSIONS).order_by(SESSIONS.c.number.desc()).limit(limit)
+        query = select(SESSIONS).where(~SESSIONS.c.unseen).order_by(SESSIONS.c.number.desc()).limit(limit)
         if before is not None:
             query = query.where(SESSIONS.c.number < before)
         async with self._transaction() as connection:
             rows = (await connection.execute(query)).all()
-        return [_session(row) for row in rows]
+        return [record_of(row) for row in rows]
 
     async def save_ticks(self, ticks: Mapping[str, int]) -> None:
         """See `Store.save_ticks`."""
@@ -133,14 +145,47 @@ class SqlStore:
 
     async def delete(self, session_id: str) -> bool:
         """See `Store.delete`."""
+        seen = update(SESSIONS).where(SESSIONS.c.id == session_id, ~SESSIONS.c.unseen)
         async with self._transaction() as connection:
-            result = await connection.execute(delete(SESSIONS).where(SESSIONS.c.id == session_id))
-        return result.rowcount > 0
+            if (await connection.execute(seen.values(unseen=True))).rowcount == 0:
+                return False
+            await connection.execute(delete(MOMENTS).where(MOMENTS.c.session_id == session_id))
+            of: str | None = session_id
+            while of is not None:  # those of its parents as well that were kept for it alone
+                forks = select(SESSIONS.c.number).where(SESSIONS.c.parent == of).exists()
+                gone = delete(SESSIONS).where(SESSIONS.c.id == of, SESSIONS.c.unseen, ~forks)
+                row = (await connection.execute(gone.returning(SESSIONS.c.parent))).one_or_none()
+                of = None if row is None else row.parent
+        self._unseen.add(session_id)
+        return True
+
+    async def moments(
+        self, limit: int, before: int | None = None, name: str | None = None
+    ) -> Sequence[MomentRecord]:
+        """See `Store.moments`."""
+        query = select(MOMENTS, SESSIONS.c.name.label("session_name")).join(SESSIONS)
+        if before is not None:
+            query = query.where(MOMENTS.c.number < before)
+        if name is not None:
+            query = query.where(MOMENTS.c.name == name)
+        async with self._transaction() as connection:
+            rows = (await connection.execute(query.order_by(MOMENTS.c.number.desc()).limit(limit))).all()
+        return [
+            MomentRecord(
+                session=row.session_id,
+                session_name=row.session_name,
+                name=row.name,
+                sequence=row.sequence,
+                tick=row.tick,
+                number=row.number,
+            )
+            for row in rows
+        ]
 
     async def keep(self, answer: KeptAnswer) -> None:
         """See `Store.keep`."""
         async with self._transaction() as connection:
-            await connection.execute(insert(IDEMPOTENCY), _answer_values(answer))
+            await connection.execute(insert(IDEMPOTENCY), answer_values(answer))
 
     async def kept(self, key: str) -> KeptAnswer | None:
         """See `Store.kept`."""
@@ -206,8 +251,8 @@ class SqlStore:
     async def _write_batch(self, batch: list[_Pending]) -> None:
         try:
             async with self._transaction() as connection:
-                await connection.execute(insert(ENTRIES), [values for values, _, _ in batch])
-                answers = [_answer_values(answer) for _, answer, _ in batch if answer is not None]
+                await _insert(connection, [(of, entry) for of, entry, _, _ in batch])
+                answers = [answer_values(answer) for _, _, answer, _ in batch if answer is not None]
                 if answers:
                     await connection.execute(insert(IDEMPOTENCY), answers)
         except StoreError as error:
@@ -215,10 +260,10 @@ class SqlStore:
                 # One bad entry must not fail its neighbours: each gets its own commit.
                 for pending in batch:
                     await self._write_batch([pending])
-            elif not batch[0][2].done():
-                batch[0][2].set_exception(error)
+            elif not batch[0][3].done():
+                batch[0][3].set_exception(error)
         else:
-            for _, _, done in batch:
+            for _, _, _, done in batch:
                 if not done.done():
                     done.set_result(None)
 
@@ -241,39 +286,27 @@ def _one_phrase(owner: str, language: str, key: str) -> Delete:
     return delete(PHRASES).where(*found)
 
 
-def _session(row: Row[Any]) -> SessionRecord:
-    return SessionRecord(
-        id=row.id,
-        name=row.name,
-        created_at=_utc(row.created_at),
-        config=row.config,
-        paused=row.paused,
-        tick=row.tick,
-        number=row.number,
-    )
+async def _insert(connection: AsyncConnection, entries: Sequence[tuple[str, EntryRecord]]) -> None:
+    """Keep entries of sessions, and the names they give."""
+    if not entries:
+        return
+    await connection.execute(insert(ENTRIES), [entry_values(of, entry) for of, entry in entries])
+    named = [values for of, entry in entries for values in moment_values(of, entry)]
+    if named:
+        again = (MOMENTS.c.session_id == bindparam("of"), MOMENTS.c.name == bindparam("called"))
+        old = [{"of": values["session_id"], "called": values["name"]} for values in named]
+        await connection.execute(delete(MOMENTS).where(*again), old)
+        await connection.execute(insert(MOMENTS), named)
 
 
-def _utc(moment: datetime) -> datetime:
-    return moment.replace(tzinfo=UTC)
-
-
-def _answer_values(answer: KeptAnswer) -> dict[str, Any]:
-    return {
-        "key": answer.key,
-        "request": answer.request,
-        "at": answer.at,
-        "status": answer.status,
-        "headers": dict(answer.headers),
-        "body": answer.body,
-    }
-
-
-def _entry_values(session_id: str, entry: EntryRecord) -> dict[str, Any]:
-    return {
-        "session_id": session_id,
-        "sequence": entry.sequence,
-        "tick": entry.tick,
-        "text": entry.text,
-        "actions": [dict(action) for action in entry.actions],
-        "digest": entry.digest,
-    }
+async def _own_entries(connection: AsyncConnection, session_id: str, most: int | None) -> list[EntryRecord]:
+    query = select(ENTRIES).where(ENTRIES.c.session_id == session_id).order_by(ENTRIES.c.sequence)
+    if most is not None:
+        query = query.where(ENTRIES.c.sequence <= most)
+    rows = (await connection.execute(query)).all()
+    return [
+        EntryRecord(
+            sequence=row.sequence, tick=row.tick, text=row.text, actions=row.actions, digest=row.digest
+        )
+        for row in rows
+    ]

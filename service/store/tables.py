@@ -15,9 +15,11 @@ from sqlalchemy import (
     String,
     Table,
     Text,
+    UniqueConstraint,
+    false,
 )
 
-VERSION = 3
+VERSION = 4
 """Of the schema; the number of the last migration."""
 
 METADATA = MetaData()
@@ -32,6 +34,12 @@ SESSIONS = Table(
     Column("config", JSON, nullable=False),
     Column("paused", Boolean, nullable=False, comment="how it began"),
     Column("tick", Integer, nullable=False),
+    Column("parent", String(64), index=True, comment="what a fork's log begins with: see `base.Branch`"),
+    Column("parent_sequence", Integer),
+    Column("parent_tick", Integer),
+    Column("standing", Text),
+    Column("instead", JSON),
+    Column("unseen", Boolean, nullable=False, server_default=false(), comment="deleted, but for its forks"),
     sqlite_autoincrement=True,
 )
 
@@ -44,6 +52,18 @@ ENTRIES = Table(
     Column("text", Text),
     Column("actions", JSON, nullable=False),
     Column("digest", String(32), comment="of the world after it; none for what was kept before version 3"),
+)
+
+MOMENTS = Table(
+    "moments",
+    METADATA,
+    Column("number", Integer, primary_key=True, autoincrement=True),
+    Column("session_id", ForeignKey("sessions.id", ondelete="CASCADE"), nullable=False),
+    Column("name", String(80), nullable=False, index=True),
+    Column("sequence", Integer, nullable=False),
+    Column("tick", Integer, nullable=False),
+    UniqueConstraint("session_id", "name", name="uq_moments_name"),
+    sqlite_autoincrement=True,
 )
 
 PHRASES = Table(

@@ -1,0 +1,170 @@
+"""A kept session done again: what was said at its ticks, through the same draft as when it was said.
+
+The log of a session keeps its latest lines only, so only those are put into words. Whatever else there is
+ends as it would have without a restart: the state, what can be undone, names, what "it" is. Leaves out what
+was said to nobody's lasting effect: questions, and lines that no entry made.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import islice
+from typing import TYPE_CHECKING
+
+from pydantic import ValidationError
+
+from service import actions as contract
+from service.actions import Action
+from service.problems import Invalid, ProblemError
+from service.sessions.draft import Draft, ticks_to_run
+from service.sessions.facts import Answerable, Fact, happened_in
+from service.sessions.log import Log
+from service.sessions.utterance import Outcome, Utterance
+from service.sessions.words import Words
+from service.store import EntryRecord
+from sim.edit_error import EditError
+from sim.events import Event
+from sim.run import Run
+
+if TYPE_CHECKING:
+    from service.sessions.session import Session
+
+
+class ReplayError(Exception):
+    """What was kept cannot be done again; `position` is that of the entry."""
+
+    def __init__(self, position: int, message: str) -> None:
+        super().__init__(message)
+        self.position = position
+
+
+@dataclass(frozen=True, slots=True)
+class _Line:
+    """A line of the log that an entry made."""
+
+    tick: int
+    text: str
+
+
+class Replay:
+    """Does again what was done to a session that nobody else has yet; in any thread."""
+
+    def __init__(self, session: Session, words: Words, log: Log) -> None:
+        self._session = session
+        self._words = words
+        self._log = log
+        self._lines: deque[_Line | tuple[Event, Run]] = deque(maxlen=log.kept)
+        self._written = 0
+
+    def all(self, entries: Sequence[EntryRecord], tick: int, most: int | None = None) -> None:
+        """Do these, and run on to `tick`. Raises `ReplayError`, also for more than `most` ticks to run."""
+        ticks, session = 0, self._session
+        actions = _loaded(entries)
+        for position, entry in enumerate(entries):
+            try:
+                said = next(actions)
+                ticks += max(0, entry.tick - session.timeline.tick) + ticks_to_run(said)
+                if most is not None and ticks > most:
+                    raise Invalid(f"More than {most} ticks would have to be run.")
+                self.one(entry, said, held=len(entries) - position <= self._log.kept)
+            except (ProblemError, ValidationError) as error:
+                raise ReplayError(position, str(error)) from error
+        self.run_to(tick)
+        self.tell()
+
+    def ground(self, entries: Sequence[EntryRecord], tick: int) -> None:
+        """Do what a fork has from its parent: it is there from the beginning, so no line tells of it."""
+        timeline = self._session.timeline
+        actions = _loaded(entries)
+        for position, entry in enumerate(entries):
+            try:
+                said = next(actions)
+                while timeline.tick < entry.tick:
+                    timeline.advance()
+                timeline.apply(entry.sequence, said)  # type: ignore[arg-type]  # nothing else comes along
+                self._check(entry)
+            except (ProblemError, EditError, ValidationError) as error:
+                raise ReplayError(position, str(error)) from error
+        while timeline.tick < tick:
+            timeline.advance()
+
+    def one(self, entry: EntryRecord, said: tuple[Action, ...], *, held: bool = True) -> None:
+        """Do one kept utterance; `held`: the log will still hold a line of it. Raises `ProblemError`."""
+        session = self._session
+        if entry.tick < session.timeline.tick or entry.sequence != session.sequence + 1:
+            raise Invalid(f"Entry {entry.sequence} at tick {entry.tick} is out of order.")
+        self.run_to(entry.tick)
+        draft = Draft(session.timeline, session.paused, session.history, session.pace)
+        facts = draft.perform(entry.sequence, said)
+        before = session.run
+        session.adopt(draft, entry.sequence, said)
+        self._check(entry)
+        answers = [self._words.answer(fact) for fact in facts if isinstance(fact, Answerable)]
+        session.conversation.note(
+            Outcome(
+                utterance=Utterance(actions=said, text=entry.text),
+                facts=facts,
+                reply="",
+                answer=answers[-1] if answers else None,
+                sequence=entry.sequence,
+                changes=(),
+                before=before,
+            )
+        )
+        text = reply(self._words, facts, answers) if held else ""
+        self._add(_Line(entry.tick, text))
+        for run, part in happened_in(facts):
+            for event in part.events:
+                self._add((event, run))
+
+    def run_to(self, tick: int) -> None:
+        """Let time pass."""
+        timeline = self._session.timeline
+        while timeline.tick < tick:
+            done = timeline.advance()
+            for event in done.events:
+                self._add((event, done.run))
+
+    def tell(self) -> None:
+        """Write the lines that the log still holds."""
+        self._log.skip(self._written - len(self._lines))
+        for line in self._lines:
+            if isinstance(line, _Line):
+                self._log.add(line.tick, "changed", line.text)
+            else:
+                event, run = line
+                text = self._words.event(event, run)
+                self._log.add(event.tick, event.type, text, event.ids, event.cell)
+        self._lines.clear()
+        self._written = 0
+
+    def _add(self, line: _Line | tuple[Event, Run]) -> None:
+        self._lines.append(line)
+        self._written += 1
+
+    def _check(self, entry: EntryRecord) -> None:
+        if entry.digest is None:
+            return
+        found = self._session.run.world.digest()
+        if found != entry.digest:
+            raise Invalid(f"Entry {entry.sequence} ends in {found}, not in {entry.digest} as it once did.")
+
+
+def reply(words: Words, facts: tuple[Fact, ...], answers: Sequence[dict[str, object]]) -> str:
+    """What is said of facts: what was done, then the answers."""
+    done = tuple(fact for fact in facts if not isinstance(fact, Answerable))
+    said = [words.done(done)] if done else []
+    return " ".join([*said, *(str(answer["text"]) for answer in answers)])
+
+
+def _loaded(entries: Sequence[EntryRecord]) -> Iterator[tuple[Action, ...]]:
+    """The actions of each entry, checked in one go; where one is bad, it raises at that one."""
+    try:
+        actions = iter(contract.load([action for entry in entries for action in entry.actions]))
+    except ValidationError:
+        yield from (contract.load(entry.actions) for entry in entries)
+        return
+    for entry in entries:
+        yield tuple(islice(actions, len(entry.actions)))

@@ -1,0 +1,43 @@
+"""What a fork has from its parent, found in the parent's log.
+
+A log only grows, so what a fork shares stays where it is; that the parent goes on, goes back or is deleted
+makes no difference.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from service.store.base import Branch, EntryRecord
+
+
+def standing(numbers: Iterable[int], last: int) -> str:
+    """Numbers up to `last` as `Branch.standing`."""
+    board = bytearray(last // 8 + 1)
+    for number in numbers:
+        board[number >> 3] |= 1 << (number & 7)
+    return board.hex()
+
+
+def joined(line: Iterable[tuple[Branch | None, Sequence[EntryRecord]]]) -> list[EntryRecord]:
+    """The whole log of the last of a line of sessions, each a fork of the one before, with its own log."""
+    log: list[EntryRecord] = []
+    for branch, own in line:
+        log = [*(inherited(branch, log) if branch is not None else ()), *own]
+    return log
+
+
+def inherited(branch: Branch, log: Sequence[EntryRecord]) -> list[EntryRecord]:
+    """The beginning of a fork's log, given its parent's; without the words it was said in."""
+    board = bytes.fromhex(branch.standing)
+    entries = [
+        EntryRecord(
+            sequence=each.sequence, tick=each.tick, text=None, actions=each.actions, digest=each.digest
+        )
+        for each in log
+        if each.sequence <= branch.sequence and board[each.sequence >> 3] >> (each.sequence & 7) & 1
+    ]
+    if branch.instead:
+        entries += [EntryRecord(**each, text=None) for each in branch.instead]
+        entries.sort(key=lambda each: (each.sequence, each.tick))
+    return entries

@@ -1,0 +1,85 @@
+"""Records as rows of the tables, and back."""
+
+from __future__ import annotations
+
+from datetime import UTC
+from typing import Any
+
+from sqlalchemy import Row
+
+from service.store.base import Branch, EntryRecord, KeptAnswer, SessionRecord
+
+
+def session_values(record: SessionRecord) -> dict[str, Any]:
+    """A session as a row."""
+    branch = record.branch
+    shared = branch and {
+        "parent": branch.parent,
+        "parent_sequence": branch.sequence,
+        "parent_tick": branch.tick,
+        "standing": branch.standing,
+        "instead": [dict(each) for each in branch.instead],
+    }
+    return {
+        "id": record.id,
+        "name": record.name,
+        "created_at": record.created_at.astimezone(UTC).replace(tzinfo=None),
+        "config": dict(record.config),
+        "paused": record.paused,
+        "tick": record.tick,
+    } | (shared or {})
+
+
+def record_of(row: Row[Any]) -> SessionRecord:
+    """A session of a row."""
+    branch = None
+    if row.parent is not None:
+        branch = Branch(
+            parent=row.parent,
+            sequence=row.parent_sequence,
+            tick=row.parent_tick,
+            standing=row.standing,
+            instead=row.instead,
+        )
+    return SessionRecord(
+        id=row.id,
+        name=row.name,
+        created_at=row.created_at.replace(tzinfo=UTC),
+        config=row.config,
+        paused=row.paused,
+        tick=row.tick,
+        number=row.number,
+        branch=branch,
+    )
+
+
+def answer_values(answer: KeptAnswer) -> dict[str, Any]:
+    """A kept answer as a row."""
+    return {
+        "key": answer.key,
+        "request": answer.request,
+        "at": answer.at,
+        "status": answer.status,
+        "headers": dict(answer.headers),
+        "body": answer.body,
+    }
+
+
+def entry_values(session_id: str, entry: EntryRecord) -> dict[str, Any]:
+    """An entry as a row."""
+    return {
+        "session_id": session_id,
+        "sequence": entry.sequence,
+        "tick": entry.tick,
+        "text": entry.text,
+        "actions": [dict(action) for action in entry.actions],
+        "digest": entry.digest,
+    }
+
+
+def moment_values(session_id: str, entry: EntryRecord) -> list[dict[str, Any]]:
+    """The moments that an entry names as rows."""
+    return [
+        {"session_id": session_id, "name": name, "sequence": entry.sequence, "tick": tick}
+        for name, tick in entry.names.items()
+    ]
