@@ -1,0 +1,126 @@
+"""axe finds nothing, in both themes, wide and narrow, in every state of the page; a first minute without a mouse."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import expect
+
+from tests.browser.conftest import Visit
+from tests.browser.visitor import Visitor
+
+DESKTOP: dict[str, Any] = {"viewport": {"width": 1440, "height": 900}}
+PHONE: dict[str, Any] = {"viewport": {"width": 360, "height": 740}, "has_touch": True, "is_mobile": True}
+
+RULES = {
+    "resultTypes": ["violations"],
+    "runOnly": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"],
+}
+
+
+def violations(visitor: Visitor) -> list[str]:
+    """What axe finds, one line for each element."""
+    found = Axe().run(visitor.page, options=RULES).response["violations"]
+    return [
+        f"{each['id']}: {node['target']} {node['html'][:120]}" for each in found for node in each["nodes"]
+    ]
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("size", [DESKTOP, PHONE], ids=["desktop", "phone"])
+def test_axe_finds_nothing(visit: Visit, scheme: str, size: dict[str, Any]) -> None:
+    visitor = visit(color_scheme=scheme, reduced_motion="reduce", **size)
+    visitor.pause()
+    states = {"first visit": violations(visitor)}
+    visitor.say("add five potholes")
+    visitor.say("add five flibbers")
+    visitor.say("slow down")
+    visitor.say("why did you do that?")
+    states["talk"] = violations(visitor)
+    visitor.words.press_sequentially("add fi")
+    expect(visitor.page.locator(".suggestion").first).to_be_visible()
+    states["completion"] = violations(visitor)
+    visitor.page.keyboard.press("Escape")
+    visitor.page.keyboard.press("Control+k")
+    expect(visitor.page.get_by_role("dialog").get_by_role("option").nth(12)).to_be_visible()
+    states["palette"] = violations(visitor)
+    visitor.page.keyboard.press("Escape")
+    visitor.page.locator("#help").click()
+    expect(visitor.page.get_by_role("region", name="Sentences")).to_be_visible()
+    states["help"] = violations(visitor)
+    assert {name: found for name, found in states.items() if found} == {}
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_axe_finds_nothing_at_the_end_of_an_episode(visit: Visit, scheme: str) -> None:
+    visitor = visit(color_scheme=scheme, reduced_motion="reduce")
+    visitor.pause()
+    for _ in range(200):
+        visitor.script.act({"do": "step", "ticks": 1})
+        if visitor.script.state()["status"] != "running":
+            break
+    expect(visitor.page.locator(".verdict")).to_be_visible()
+    assert violations(visitor) == []
+
+
+def test_the_whole_first_minute_without_a_mouse(visit: Visit) -> None:
+    visitor = visit()
+    page, press = visitor.page, visitor.page.keyboard.press
+    focused = "document.activeElement"
+    press("Tab")
+    assert page.evaluate(f"{focused}.className") == "skip"
+    press("Enter")
+    expect(visitor.words).to_be_focused()
+    page.keyboard.type("add five pot")
+    expect(page.locator(".suggestion").first).to_be_visible()
+    press("Tab")
+    press("Enter")
+    before = visitor.last_exchange("add five potholes")
+    expect(before.locator(".change")).to_have_count(1)
+    page.keyboard.type("why did you do that?")
+    press("Enter")
+    expect(visitor.last_exchange("why did you do that?").locator(".reply")).to_be_visible()
+    press("Escape")
+    expect(visitor.words).not_to_be_focused()
+    press("Space")
+    expect(page.locator(".paused")).to_be_visible()
+    tick = visitor.tick()
+    press("ArrowRight")
+    expect(page.locator("[data-figure=tick] .figure-value")).to_have_text(str(tick + 1))
+    press("u")
+    expect(page.locator(".log-line").last).to_contain_text("Taken back")
+    press("?")
+    expect(page.get_by_role("dialog", name="What can I say?")).to_be_visible()
+    press("Escape")
+    press("Control+k")
+    page.keyboard.type("resume")
+    press("Enter")
+    expect(page.locator(".paused")).to_be_hidden()
+    press("Slash")
+    expect(visitor.words).to_be_focused()
+
+
+def test_every_control_can_be_reached_and_is_seen_to_be(visit: Visit) -> None:
+    """Tab goes round the whole page, each stop has a name and an outline, and none holds the focus."""
+    visitor = visit()
+    visitor.pause()
+    page = visitor.page
+    told = """() => {
+      const at = document.activeElement, style = getComputedStyle(at);
+      const name = at.getAttribute("aria-label") || at.innerText || at.labels?.[0]?.innerText || at.id;
+      return [name, at === document.body || parseFloat(style.outlineWidth) > 0, at === document.body];
+    }"""
+    stops = []
+    for _ in range(150):
+        page.keyboard.press("Tab")
+        name, outlined, around = page.evaluate(told)
+        if around:
+            break
+        stops.append(name)
+        assert name, stops
+        assert outlined, name
+    else:
+        raise AssertionError(f"no way round: {stops[-3:]}")
+    assert len(stops) >= 12
