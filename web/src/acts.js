@@ -40,12 +40,21 @@ const STEP = { do: "step", ticks: 1 };
 /** @type {Act[]} */
 export const ACTS = [
   {
-    name: "undo",
-    group: "Change",
+    name: "back",
+    group: "Clock",
     button: true,
-    key: "u",
-    keyName: "U",
-    now: () => ({ label: "Undo", icon: "undo", turns: [[{ do: "undo" }]] }),
+    repeats: true,
+    key: "ArrowLeft",
+    keyName: "←",
+    now: ({ world, past }) =>
+      world && (past ?? { world }).world.tick > 0
+        ? {
+            label: "Back",
+            icon: "back",
+            turns: past || world.paused ? [] : [[{ do: "pause" }]],
+            run: (page) => void page.looking?.step(-1),
+          }
+        : null,
   },
   {
     name: "clock",
@@ -53,10 +62,12 @@ export const ACTS = [
     button: true,
     key: " ",
     keyName: "Space",
-    now: (state) =>
-      state.world?.paused
+    now: ({ past, world }) => {
+      if (past) return { label: "Play", icon: "play", run: (page) => page.looking?.toggle() };
+      return world?.paused
         ? { label: "Resume", icon: "play", turns: [[{ do: "resume" }]] }
-        : { label: "Pause", icon: "pause", turns: [[{ do: "pause" }]] },
+        : { label: "Pause", icon: "pause", turns: [[{ do: "pause" }]] };
+    },
   },
   {
     name: "step",
@@ -65,12 +76,19 @@ export const ACTS = [
     repeats: true,
     key: "ArrowRight",
     keyName: "→",
-    now: (state) => ({
-      label: "Step",
-      icon: "step",
+    now({ past, world }) {
+      if (past) return { label: "Step", icon: "step", run: (page) => void page.looking?.step(1) };
       // Two messages: a step that comes alone is streamed tick by tick, with its decision.
-      turns: state.world?.paused === false ? [[{ do: "pause" }], [STEP]] : [[STEP]],
-    }),
+      return { label: "Step", icon: "step", turns: world?.paused === false ? [[{ do: "pause" }], [STEP]] : [[STEP]] };
+    },
+  },
+  {
+    name: "undo",
+    group: "Change",
+    button: true,
+    key: "u",
+    keyName: "U",
+    now: () => ({ label: "Undo", icon: "undo", turns: [[{ do: "undo" }]] }),
   },
   {
     name: "reset",

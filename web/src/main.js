@@ -21,8 +21,10 @@ import { watchPreferences } from "./theme.js";
 
 /** @import { Act } from "./acts.js" */
 /** @import { Otherwise } from "./counterfactual.js" */
+/** @import { Looking } from "./past.js" */
 /** @import { Action, ClientMessage } from "./protocol.js" */
 /** @import { State, Highlight, Event, Notice, Past } from "./state.js" */
+/** @import { Views } from "./views.js" */
 
 /**
  * @typedef {object} Page  what panels may ask for
@@ -36,8 +38,10 @@ import { watchPreferences } from "./theme.js";
  * @property {() => Act[]} acts  all that can be done by a key or from the palette
  * @property {() => State} state  the present, whatever tick is looked at
  * @property {(other: Otherwise) => void} [pick]  play what would have been beside what was
+ * @property {(views: Views, large?: string | null) => void} arrange  show (true), hide (false), enlarge
  * @property {(notice: Notice | null) => void} tell  a passing line over the page, read aloud as well
- * @property {(tick: number | null) => void} [lookAt]  show this tick as soon as it is known; null: the present
+ * @property {() => void} wake  something is to be drawn anew
+ * @property {Looking} [looking]  which tick is looked at, and the way to others
  * @property {(past: Past | null) => void} look  show an earlier tick instead of the present, or (null) the present again
  */
 
@@ -79,6 +83,8 @@ const page = {
   },
   act: (actions, label, quiet = false) => send(label, quiet, (id) => ({ type: "actions", id, actions })),
   highlight: (highlight) => dispatch({ type: "highlight", highlight }),
+  wake: () => loop.wake(),
+  arrange: (views, large) => dispatch({ type: "views", views, large }),
   tell: (notice) => dispatch({ type: "notice", notice }),
   look: (past) => dispatch({ type: "past", past }),
   startSession: () => void startSession(),

@@ -49,12 +49,12 @@ export async function findSession(id, http = fetch) {
 }
 
 /**
- * The session a page's address names: `#/s/<id>`.
+ * The session a page's address names: `#/s/<id>`, perhaps with a tick.
  * @param {string} hash
  * @returns {string | null}
  */
 export function sessionInHash(hash) {
-  const match = /^#\/s\/([^/?#]+)$/.exec(hash);
+  const match = /^#\/s\/([^/?#]+)(?:\/\d{1,15})?$/.exec(hash);
   if (match === null) return null;
   try {
     return decodeURIComponent(match[1]);

@@ -9,12 +9,16 @@
 
 import { logChange, logEvents, logTick } from "./journal.js";
 import { answerExchange, beginExchange, endUnanswered, refuseExchange } from "./talk.js";
+import { courseAfter, NO_COURSE } from "./time.js";
+import { AT_FIRST, viewsAfter } from "./views.js";
 import { worldAfter, worldOf } from "./world.js";
 
 /** @import { Line } from "./journal.js" */
 /** @import { ServerMessage, Decision, Cell, Problem, HelloMessage, TickMessage } from "./protocol.js" */
 /** @import { Phase } from "./socket.js" */
 /** @import { Exchange } from "./talk.js" */
+/** @import { Course } from "./time.js" */
+/** @import { Views } from "./views.js" */
 /** @import { World } from "./world.js" */
 
 /**
@@ -29,6 +33,11 @@ import { worldAfter, worldOf } from "./world.js";
  * @property {Exchange[]} talk  what was said here and answered, newest last
  * @property {Highlight | null} highlight  what the reader points at
  * @property {string | null} announcement  the latest sentence worth reading aloud
+ * @property {Course} course  the run as the stream has told it
+ * @property {Notice | null} notice  the latest thing worth a passing line over the page
+ * @property {World | null} prior  the road at the tick before, where it was heard of
+ * @property {Views} views  what is shown
+ * @property {string | null} large  the part of the page that is enlarged
  * @property {Past | null} past  an earlier tick that is looked at instead of the present
  */
 
@@ -37,12 +46,22 @@ import { worldAfter, worldOf } from "./world.js";
 /** @typedef {{ids: string[], cells: Cell[]}} Highlight */
 
 /**
+ * @typedef {object} Notice
+ * @property {string} text
+ * @property {"bad"} [tone]
+ * @property {boolean} [aloud]  only read aloud, since it shows by itself
+ * @property {{label: string, run: () => void}} [offer]
+ */
+
+/**
  * @typedef {{type: "session", id: string}
  *   | {type: "phase", phase: Phase}
  *   | {type: "trouble", text: string}
  *   | {type: "said", id: string, text: string, quiet: boolean}
  *   | {type: "unsent", id: string}
  *   | {type: "highlight", highlight: Highlight | null}
+ *   | {type: "notice", notice: Notice | null}
+ *   | {type: "views", views?: Views, large?: string | null}
  *   | {type: "past", past: Past | null}} PageEvent  what happened on this side of the wire
  */
 
@@ -60,6 +79,11 @@ export const INITIAL = {
   talk: [],
   highlight: null,
   announcement: null,
+  course: NO_COURSE,
+  notice: null,
+  prior: null,
+  views: AT_FIRST,
+  large: null,
   past: null,
 };
 
@@ -68,9 +92,16 @@ const SPOKEN = new Set(["crashed", "arrived", "stuck"]);
 
 /** @param {State} state @param {Event} event @returns {State} */
 export function reduce(state, event) {
+  const next = after(state, event);
+  const course = courseAfter(state.course, /** @type {ServerMessage} */ (event), state.world);
+  return course === state.course || event.type === "session" ? next : { ...next, course };
+}
+
+/** @param {State} state @param {Event} event @returns {State} */
+function after(state, event) {
   switch (event.type) {
     case "session":
-      return { ...INITIAL, session: event.id };
+      return { ...INITIAL, session: event.id, notice: state.notice, views: state.views, large: state.large };
     case "phase":
       return afterPhase(state, event.phase);
     case "trouble":
@@ -81,6 +112,10 @@ export function reduce(state, event) {
       return { ...state, talk: refuseExchange(state.talk, event.id, NOT_CONNECTED) };
     case "highlight":
       return { ...state, highlight: event.highlight };
+    case "notice":
+      return { ...state, notice: event.notice, announcement: event.notice?.text ?? state.announcement };
+    case "views":
+      return arranged(state, event.views, event.large);
     case "past":
       return { ...state, past: event.past, highlight: null };
     case "hello":
@@ -89,9 +124,9 @@ export function reduce(state, event) {
       return afterTick(state, event);
     case "changed":
       return {
-        ...state,
+        ...(event.views ? arranged(state, event.views) : state),
         world: worldOf(event.state),
-        log: logChange(state.log, event),
+        log: event.views && !event.changes?.length ? state.log : logChange(state.log, event),
         highlight: null,
       };
     case "state":
@@ -127,6 +162,19 @@ const NOT_CONNECTED = {
 function afterPhase(state, phase) {
   if (phase.phase !== "lost") return { ...state, connection: phase };
   return { ...state, connection: phase, talk: endUnanswered(state.talk) };
+}
+
+/**
+ * With some views shown or hidden. What is enlarged goes back when something else is to be seen.
+ * @param {State} state
+ * @param {Views} [change]
+ * @param {string | null} [large]
+ * @returns {State}
+ */
+function arranged(state, change, large = state.large) {
+  const views = viewsAfter(state.views, change);
+  const covered = large !== null && (!(views[large] ?? true) || Object.keys(change ?? {}).some((name) => views[name] && name !== large));
+  return { ...state, views, large: covered ? null : large };
 }
 
 /** @param {State} state @param {HelloMessage} hello @returns {State} */
@@ -174,6 +222,7 @@ function afterTick(state, message) {
   return {
     ...state,
     world: worldAfter(state.world, message),
+    prior: state.world,
     decision: message.decision ?? null,
     narration: message.narration ?? null,
     log: logTick(state.log, message),

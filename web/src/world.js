@@ -24,6 +24,7 @@
  * @property {number} visibleRows
  * @property {number} stepS
  * @property {boolean} paused
+ * @property {number | "max"} pace  how fast the clock plays
  * @property {string} mode
  * @property {string} planner
  * @property {Map<string, Thing>} things
@@ -49,6 +50,7 @@ export function worldOf(state) {
     visibleRows: state.visible_rows,
     stepS: state.step_seconds,
     paused: state.paused,
+    pace: state.playback_speed ?? 1,
     mode: state.mode,
     planner: state.planner,
     things,

@@ -9,16 +9,23 @@ import { createCaption } from "./caption.js";
 import { createCommand } from "./command.js";
 import { createConnectionBadge } from "./connection.js";
 import { createControls } from "./controls.js";
+import { createExport } from "./export.js";
 import { createHelp } from "./help.js";
 import { createHands } from "./hands.js";
 import { createLog } from "./log.js";
+import { createNames } from "./names.js";
+import { createNotice } from "./notice.js";
 import { createPalette } from "./palette.js";
+import { createLooking, createPast } from "./past.js";
 import { createRoad } from "./road.js";
 import { createSchematic } from "./schematic.js";
+import { createShare } from "./share.js";
 import { createReader } from "./speech.js";
 import { createStatus } from "./status.js";
 import { createTalk } from "./talk.js";
+import { createTimeline } from "./timeline.js";
 import { createVerdict } from "./verdict.js";
+import { createViews } from "./views.js";
 
 /** @import { Act } from "../acts.js" */
 /** @import { Page } from "../main.js" */
@@ -35,11 +42,18 @@ import { createVerdict } from "./verdict.js";
 /** @param {Page} page @returns {Panel[]} */
 export function createPanels(page) {
   byId("new-session").addEventListener("click", () => page.startSession());
+  const looking = createLooking(page);
   const road = createRoad(byId("road"));
   const bubble = createBubble(byId("bubble"), page);
   return [
     road,
     createVerdict(byId("road"), page),
+    createTimeline(byId("timeline"), page, looking),
+    createPast(byId("road"), page, looking),
+    createShare(byId("session-menu"), page, looking),
+    createExport(byId("road"), page, looking),
+    createNames(page, looking),
+    createNotice(byId("notice"), page),
     createSchematic(byId("schematic")),
     createStatus(byId("status")),
     createCaption(byId("caption")),
@@ -52,6 +66,7 @@ export function createPanels(page) {
     createBeside(byId("beside"), page),
     bubble,
     ...createHands(byId("road"), road.places, byId("log"), page, bubble),
+    createViews(byId("views-menu"), page),
     createReader(),
     createPalette(/** @type {HTMLDialogElement} */ (byId("palette")), page),
     createHelp(byId("help"), page),

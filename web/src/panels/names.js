@@ -1,0 +1,191 @@
+// @ts-check
+/** Moments with a name, and the sessions that are kept: to go to, to make, to delete. */
+
+import { makeDialog } from "../dialog.js";
+import { make, setText } from "../dom.js";
+import { ask, askJson, words } from "../http.js";
+import { hashOf } from "../links.js";
+import { SESSIONS_PATH, sessionPath } from "../protocol.js";
+
+/** @import { Act } from "../acts.js" */
+/** @import { Page } from "../main.js" */
+/** @import { Looking } from "../past.js" */
+/** @import { Panel } from "./index.js" */
+
+const LONGEST_NAME = 40;
+
+/** @param {Page} page @param {Looking} looking @returns {Panel} */
+export function createNames(page, looking) {
+  const moments = momentsDialog(page, looking);
+  const sessions = sessionsDialog(page);
+  const group = "Session";
+  /** @type {Act[]} */
+  const acts = [
+    { name: "save-moment", group, now: () => ({ label: "Save this moment as…", run: () => void moments.open(true) }) },
+    { name: "moments", group, now: () => ({ label: "Saved moments…", run: () => void moments.open(false) }) },
+    { name: "sessions", group, now: () => ({ label: "Sessions…", run: () => void sessions.open() }) },
+    { name: "new-session", group, now: () => ({ label: "New session", run: () => page.startSession() }) },
+  ];
+  return {
+    acts,
+    update(state, before) {
+      if (state.talk !== before.talk) moments.refresh();
+    },
+  };
+}
+
+/** @param {Page} page @param {Looking} looking */
+function momentsDialog(page, looking) {
+  const name = make("input", { class: "field", maxLength: LONGEST_NAME, placeholder: "A name for this moment", "aria-label": "Name", required: true });
+  const form = make("form", { class: "form-line" }, name, make("button", { class: "button strong", type: "submit" }, "Save"));
+  const told = make("p", { class: "dialog-note", role: "status" });
+  const list = make("ul", { class: "rows" });
+  const dialog = makeDialog("Saved moments", form, told, list);
+  /** @type {string | null} */ let waiting = null;
+
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    const wanted = name.value.trim();
+    if (wanted === "") return;
+    waiting = page.act([{ do: "save", name: wanted }], `Save this moment as ${wanted}`, true);
+  });
+
+  async function show() {
+    const { session } = page.state();
+    if (!session) return;
+    try {
+      /** @type {{items: {name: string, tick: number}[]}} */
+      const { items } = await askJson(`${sessionPath(session)}/saved`);
+      list.replaceChildren(...items.map(rowOf));
+      if (items.length === 0) list.append(make("li", { class: "rows-none" }, "Nothing has been saved yet."));
+    } catch (error) {
+      tell(words(error), true);
+    }
+  }
+
+  /** @param {{name: string, tick: number}} moment */
+  function rowOf({ name: called, tick }) {
+    const now = page.state().world?.tick ?? 0;
+    const look = () => {
+      dialog.close();
+      void looking.at(tick);
+    };
+    const go = () => {
+      dialog.close();
+      looking.live();
+      page.act([{ do: "load", name: called }], `Go to ${called}`, false);
+    };
+    return make(
+      "li",
+      { class: "row" },
+      make("span", { class: "row-name" }, called),
+      make("span", { class: "row-note" }, `tick ${tick}`),
+      tick < now && make("button", { class: "button small", type: "button", "aria-label": `Look at ${called}`, onclick: look }, "Look"),
+      make("button", { class: "button small", type: "button", "aria-label": `Go back to ${called}`, title: "It becomes the present; one undo takes that back", onclick: go }, "Go back"),
+    );
+  }
+
+  /** @param {string} text @param {boolean} bad */
+  function tell(text, bad) {
+    told.dataset.tone = bad ? "bad" : "plain";
+    setText(told, text);
+  }
+
+  return {
+    /** @param {boolean} naming */
+    async open(naming) {
+      // Only the present can be given a name: what is looked at is the past.
+      if (naming) looking.live();
+      tell("", false);
+      name.value = "";
+      dialog.showModal();
+      if (naming) name.focus();
+      await show();
+    },
+
+    refresh() {
+      if (waiting === null) return;
+      const exchange = page.state().talk.find(({ id }) => id === waiting);
+      if (!exchange || exchange.standing === "pending") return;
+      waiting = null;
+      if (exchange.standing !== "done") return tell(exchange.problem?.detail ?? "The connection was lost before the answer came.", true);
+      tell(exchange.result?.reply ?? "Saved.", false);
+      name.value = "";
+      void show();
+    },
+  };
+}
+
+/** @typedef {{id: string, name: string | null, created_at: string, seed: number, live: boolean, tick: number}} Kept */
+
+/** @param {Page} page */
+function sessionsDialog(page) {
+  const list = make("ul", { class: "rows" });
+  const told = make("p", { class: "dialog-note", role: "status" });
+  const more = make("button", { class: "button small", type: "button", hidden: true, onclick: () => void show() }, "More");
+  const fresh = make("button", { class: "button", type: "button", onclick() {
+    dialog.close();
+    page.startSession();
+  } }, "New session");
+  const dialog = makeDialog("Sessions", told, list, make("div", { class: "form-end" }, more, fresh));
+  /** @type {string | null} */ let after = null;
+
+  async function show() {
+    try {
+      const found = await askJson(`${SESSIONS_PATH}?limit=20${after === null ? "" : `&after=${after}`}`);
+      list.append(...found.items.map(rowOf));
+      after = found.after;
+      more.hidden = !found.more;
+    } catch (error) {
+      told.dataset.tone = "bad";
+      setText(told, words(error));
+    }
+  }
+
+  /** @param {Kept} kept */
+  function rowOf({ id, name, created_at: created, tick, seed }) {
+    const here = id === page.state().session;
+    const called = name ?? `Session ${id.slice(0, 6)}`;
+    const when = new Date(created).toLocaleString("en-GB", { day: "numeric", month: "short", hour: "2-digit", minute: "2-digit" });
+    const remove = make("button", { class: "button small", type: "button", "aria-label": `Delete ${called}`, onclick: confirm }, "Delete");
+    const row = make(
+      "li",
+      { class: "row", "data-session": id },
+      make("a", { class: "row-name", href: hashOf(id), "aria-current": here ? "true" : undefined, onclick: () => dialog.close() }, called, here && make("span", { class: "row-here" }, "this one")),
+      make("span", { class: "row-note" }, `tick ${tick} · seed ${seed} · ${when}`),
+      remove,
+    );
+
+    function confirm() {
+      const keep = make("button", { class: "button small", type: "button", onclick: () => asked.replaceWith(remove) }, "Keep");
+      const sure = make("button", { class: "button small danger", type: "button", "aria-label": `Delete ${called} for good`, onclick: () => void gone() }, "Delete for good");
+      const asked = make("span", { class: "row-sure" }, keep, sure);
+      remove.replaceWith(asked);
+      keep.focus();
+    }
+
+    async function gone() {
+      try {
+        await ask(sessionPath(id), { method: "DELETE" });
+        row.remove();
+        told.dataset.tone = "plain";
+        setText(told, `${called} was deleted.`);
+        fresh.focus();
+      } catch (error) {
+        told.dataset.tone = "bad";
+        setText(told, `${called} was not deleted. ${words(error)}`);
+      }
+    }
+    return row;
+  }
+
+  return {
+    async open() {
+      after = null;
+      list.replaceChildren();
+      setText(told, "");
+      dialog.showModal();
+      await show();
+    },
+  };
+}

@@ -1,0 +1,129 @@
+// @ts-check
+/** Looking at the past: which tick, what can be done from there, and the way back to the present. */
+
+import { make, setText } from "../dom.js";
+import { words } from "../http.js";
+import { icon } from "../icons.js";
+import { hashOf, placeInHash } from "../links.js";
+import { Looking } from "../past.js";
+import { changesOf } from "../talk.js";
+
+/** @import { Act } from "../acts.js" */
+/** @import { Page } from "../main.js" */
+/** @import { Panel } from "./index.js" */
+
+/** Browsers slow a page down that writes its address with every tick it is dragged over. */
+const ADDRESS_MS = 300;
+const FASTEST = 64;
+
+/** What looks at ticks, for all panels that have to do with time. @param {Page} page */
+export function createLooking(page) {
+  const looking = new Looking({
+    present() {
+      const { session, world } = page.state();
+      const pace = world?.pace === "max" ? FASTEST : (world?.pace ?? 1);
+      return { session, tick: world?.tick ?? 0, stepS: world?.stepS ?? 0.5, pace };
+    },
+    look: page.look,
+    failed: (error) => page.tell({ text: words(error), tone: "bad" }),
+  });
+  page.looking = looking;
+  return looking;
+}
+
+/**
+ * @param {HTMLElement} host  what the bar lies over
+ * @param {Page} page
+ * @param {Looking} looking
+ * @returns {Panel}
+ */
+export function createPast(host, page, looking) {
+  const where = make("span", { class: "past-where" });
+  const play = pressed("play", "Play from here", "play", () => looking.toggle());
+  const bar = make(
+    "div",
+    { class: "past", role: "group", "aria-label": "The past", hidden: true },
+    where,
+    play,
+    pressed("fork", "Fork here", "fork", () => perform("fork")),
+    pressed("rewind", "Rewind here", "rewind", () => perform("rewind")),
+    pressed("share", "Share", "share", () => perform("share")),
+    make("button", { class: "past-live", type: "button", "data-past": "live", title: "Back to the present  N", onclick: () => looking.live() }, "Back to live"),
+  );
+  host.append(bar);
+  /** @type {any} */ let timer = null;
+  let address = true;
+
+  /** @param {string} name */
+  function perform(name) {
+    page.acts().find((act) => act.name === name)?.now(page.state())?.run?.(page);
+  }
+
+  function show() {
+    const looked = looking.tick;
+    bar.hidden = looked === null;
+    document.body.classList.toggle("past-seen", looked !== null);
+    const { world, session } = page.state();
+    if (looked !== null) setText(where, `Tick ${looked} of ${world?.tick ?? looked}`);
+    if (play.dataset.playing !== String(looking.playing)) {
+      play.dataset.playing = String(looking.playing);
+      play.replaceChildren(icon(looking.playing ? "pause" : "play"), make("span", { class: "past-label" }, looking.playing ? "Pause" : "Play"));
+    }
+    clearTimeout(timer);
+    // The address carries the moment that is looked at; it is not a step of the browser's own way back.
+    if (session && address) timer = setTimeout(() => history.replaceState(null, "", hashOf(session, looking.tick)), ADDRESS_MS);
+  }
+
+  /** Look where the address says, once there is a run to look at. */
+  function follow() {
+    const place = placeInHash(location.hash);
+    address = true;
+    if (place && "session" in place && place.session === page.state().session && page.state().world) {
+      if (place.tick === null) looking.live();
+      else void looking.at(place.tick);
+    }
+  }
+
+  looking.listen(show);
+  addEventListener("hashchange", () => {
+    clearTimeout(timer);
+    follow();
+  });
+
+  return {
+    acts: pastActs(looking),
+
+    update(state, before) {
+      if (state.session !== before.session) {
+        address = false;
+        looking.live();
+      }
+      const present = page.state();
+      if (present.world && before.world === null) follow();
+      else if (before.past !== null && state.past === null && looking.tick !== null) looking.rewritten(); // the stream was opened again
+      const latest = state.talk.at(-1);
+      const done = latest && latest !== before.talk.at(-1) && latest.standing === "done" && changesOf(latest.result).some(({ path }) => path !== "playback_speed");
+      if (done) looking.live(); // what was just changed is to be seen
+      if (state.past !== null) setText(where, `Tick ${looking.tick} of ${present.world?.tick}`);
+    },
+  };
+}
+
+/**
+ * @param {string} name
+ * @param {string} label
+ * @param {string} picture
+ * @param {() => void} onclick
+ */
+function pressed(name, label, picture, onclick) {
+  return make("button", { class: "past-do", type: "button", "data-past": name, "aria-label": label, title: label, onclick }, icon(picture), make("span", { class: "past-label" }, label.split(" ")[0]));
+}
+
+/** @param {Looking} looking @returns {Act[]} */
+function pastActs(looking) {
+  const group = "Time";
+  return [
+    { name: "to-start", group, now: ({ world }) => world && world.tick > 0 ? { label: "Look at the start", run: () => void looking.at(0) } : null },
+    { name: "to-live", group, key: "n", keyName: "N", now: ({ past }) => past && { label: "Back to the present", run: () => looking.live() } },
+  ];
+}

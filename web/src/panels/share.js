@@ -1,0 +1,134 @@
+// @ts-check
+/** A moment handed on: forked into a session of its own, gone back to, or put into a link. */
+
+import { makeDialog } from "../dialog.js";
+import { make } from "../dom.js";
+import { localHistory } from "../history.js";
+import { askJson, words } from "../http.js";
+import { icon } from "../icons.js";
+import { forkAt, forks, hashOf, noteFork, shareLink } from "../links.js";
+import { createMenu } from "../menu.js";
+import { sessionPath } from "../protocol.js";
+
+/** @import { Act } from "../acts.js" */
+/** @import { Page } from "../main.js" */
+/** @import { Looking } from "../past.js" */
+/** @import { Panel } from "./index.js" */
+
+/** What stands in the session's menu, in this order; null is a line. */
+const MENU = [
+  "share", "fork", "rewind", "origin", null, "save-moment", "moments", null,
+  "picture", "film", "recording", "open-recording", null, "sessions", "new-session",
+];
+
+/**
+ * @param {HTMLElement} host
+ * @param {Page} page
+ * @param {Looking} looking
+ * @returns {Panel}
+ */
+export function createShare(host, page, looking) {
+  const origin = make("a", { class: "origin", hidden: true }, icon("fork"), make("span", { class: "origin-text" }));
+  host.before(origin);
+  createMenu(host, "Session", () => {
+    const acts = page.acts();
+    const items = MENU.map((name) => {
+      if (name === null) return null;
+      const act = acts.find((each) => each.name === name);
+      const doing = act?.now(page.state());
+      return act && doing ? { name, label: doing.label, keyName: act.keyName, run: () => doing.run?.(page) } : undefined;
+    });
+    return items.filter((item) => item !== undefined);
+  });
+
+  const field = make("input", { class: "field", readOnly: true, "aria-label": "Link", onfocus: () => field.select() });
+  const explained = make("p", { class: "dialog-note" });
+  const linkDialog = makeDialog("Copy this link", field, explained);
+
+  /** @param {(session: string, tick: number | null) => Promise<void>} work */
+  async function doing(work) {
+    const { session } = page.state();
+    if (!session) return;
+    try {
+      await work(session, looking.tick);
+    } catch (error) {
+      page.tell({ text: words(error), tone: "bad" });
+    }
+  }
+
+  const share = () =>
+    doing(async (session, wanted) => {
+      const { url, tick, carries } = await shareLink(location, session, wanted);
+      const what = carries ? "It carries the whole run: it works wherever Roadtalk runs." : "It works for as long as this service keeps the session.";
+      try {
+        await navigator.clipboard.writeText(url);
+        page.tell({ text: `Link to tick ${tick} copied. ${what}` });
+      } catch {
+        field.value = url; // not allowed, or no clipboard here
+        explained.textContent = `This browser does not let a page copy. ${what}`;
+        linkDialog.showModal();
+        field.focus();
+      }
+    });
+
+  const fork = () =>
+    doing(async (session, wanted) => {
+      const made = await forkAt(session, wanted, wanted === null ? undefined : true);
+      noteFork(localHistory(), { child: made.id, parent: session, tick: made.tick });
+      looking.live();
+      location.hash = hashOf(made.id);
+      page.tell({ text: `Forked at tick ${made.tick}: from here on this session goes its own way.` });
+    });
+
+  const rewind = () =>
+    doing(async (session, wanted) => {
+      if (wanted === null) return;
+      await askJson(`${sessionPath(session)}/rewind`, { method: "POST", body: { tick: wanted } });
+      looking.live();
+      const undo = () => void page.act([{ do: "undo" }], "Undo", true);
+      page.tell({ text: `Back at tick ${wanted}. What came after it can be had back by one undo.`, offer: { label: "Undo", run: undo } });
+    });
+
+  /** @param {string | null} session */
+  const parentOf = (session) => forks(localHistory()).findLast(({ child }) => child === session);
+
+  return {
+    acts: shareActs({ share, fork, rewind, parentOf }),
+
+    update({ session }, before) {
+      if (session === before.session) return;
+      const from = parentOf(session);
+      origin.hidden = !from;
+      if (!from) return;
+      origin.href = hashOf(from.parent, from.tick);
+      const text = `Forked at tick ${from.tick}`;
+      origin.title = `${text} of another session: go back to it`;
+      origin.setAttribute("aria-label", origin.title);
+      origin.lastElementChild?.replaceChildren(text);
+    },
+  };
+}
+
+/**
+ * @param {object} ways
+ * @param {() => Promise<void>} ways.share
+ * @param {() => Promise<void>} ways.fork
+ * @param {() => Promise<void>} ways.rewind
+ * @param {(session: string | null) => import("../links.js").Fork | undefined} ways.parentOf
+ * @returns {Act[]}
+ */
+function shareActs({ share, fork, rewind, parentOf }) {
+  const group = "Session";
+  return [
+    { name: "share", group, key: "l", keyName: "L", now: ({ past }) => ({ label: past ? `Share a link to tick ${past.world.tick}` : "Share a link to this moment", run: () => void share() }) },
+    { name: "fork", group, key: "f", keyName: "F", now: ({ past }) => ({ label: past ? `Fork at tick ${past.world.tick}` : "Fork from here", run: () => void fork() }) },
+    { name: "rewind", group, now: ({ past }) => past && { label: `Rewind to tick ${past.world.tick}`, run: () => void rewind() } },
+    {
+      name: "origin", group,
+      now({ session }) {
+        const from = parentOf(session);
+        return from ? { label: `Go back to the session it was forked from`, run: () => (location.hash = hashOf(from.parent, from.tick)) } : null;
+      },
+    },
+  ];
+}

@@ -1,0 +1,219 @@
+// @ts-check
+/**
+ * Looking at the past: worlds asked for in pages, kept, and shown; the latest wish wins.
+ *
+ * The tick that is wished for is known at once (`tick`), the world a moment later. A page is a stretch of
+ * ticks, so that dragging along asks seldom; what comes next in either direction is asked for ahead.
+ */
+
+import { askJson } from "./http.js";
+import { sessionPath } from "./protocol.js";
+import { worldOf } from "./world.js";
+
+/** @import { Option, WireState, Decision } from "./protocol.js" */
+/** @import { Past } from "./state.js" */
+
+/** Ticks in a page. */
+export const PAGE = 16;
+/** Pages kept: some 60 KB each as the service tells them. */
+const PAGES = 24;
+
+/**
+ * A moment as the panels know a present: a decision with the reason and causes that a tick message tells.
+ * @param {{state: WireState, decision: (Decision & {options: Option[]}) | null}} moment
+ * @returns {Past}
+ */
+export function pastOf({ state, decision }) {
+  const first = decision?.options?.[0];
+  return {
+    world: worldOf(state),
+    decision: decision && { reason: first?.reason, causes: first?.causes ?? [], ...decision },
+    narration: decision?.narration ?? null,
+  };
+}
+
+/** Past moments of one session, asked for in pages. */
+export class Book {
+  /** @type {Map<number, Promise<Past[]>>} pages by number, the latest used last */ #pages = new Map();
+  /** @type {Map<number, Past[]>} those that have come */ #here = new Map();
+
+  /** @param {string} session @param {typeof fetch} [http] */
+  constructor(session, http) {
+    this.session = session;
+    this.http = http;
+  }
+
+  /** What is here already. @param {number} tick @returns {Past | null} */
+  known(tick) {
+    return this.#here.get(Math.floor(tick / PAGE))?.[tick % PAGE] ?? null;
+  }
+
+  /** @param {number} tick @returns {Promise<Past>} throws `Refused` */
+  async at(tick) {
+    const page = Math.floor(tick / PAGE);
+    let asked = this.#pages.get(page);
+    // A page that was asked for at the present ends there: it is asked for again when time has gone on.
+    const here = this.#here.get(page);
+    if (!asked || (here && tick % PAGE >= here.length)) asked = this.#ask(page);
+    const past = (await asked)[tick % PAGE];
+    if (!past) throw new Error(`Tick ${tick} has not come yet.`);
+    return past;
+  }
+
+  /** Have a tick at hand before it is wished for; what goes wrong then is told when it is. @param {number} tick */
+  ahead(tick) {
+    if (tick >= 0 && !this.#pages.has(Math.floor(tick / PAGE))) this.at(tick).catch(() => {});
+  }
+
+  /** The run has become another one. */
+  clear() {
+    this.#pages.clear();
+    this.#here.clear();
+  }
+
+  /** @param {number} page */
+  #ask(page) {
+    const path = `${sessionPath(this.session)}/moments?from=${page * PAGE}&limit=${PAGE}`;
+    const asked = askJson(path, { http: this.http }).then(({ items }) => {
+      const moments = items.map(pastOf);
+      if (this.#pages.get(page) === asked) this.#here.set(page, moments);
+      return moments;
+    });
+    this.#pages.delete(page);
+    this.#pages.set(page, asked);
+    asked.catch(() => this.#pages.get(page) === asked && this.#pages.delete(page));
+    for (const oldest of this.#pages.keys()) {
+      if (this.#pages.size <= PAGES) break;
+      this.#pages.delete(oldest);
+      this.#here.delete(oldest);
+    }
+    return asked;
+  }
+}
+
+/**
+ * @typedef {object} Onlooker  what looking needs of the page
+ * @property {() => {session: string | null, tick: number, stepS: number, pace: number}} present
+ * @property {(past: Past | null) => void} look
+ * @property {(error: unknown) => void} failed
+ * @property {typeof fetch} [http]
+ * @property {(work: () => void, delayMs: number) => unknown} [later]
+ * @property {(timer: any) => void} [cancel]
+ */
+
+/** Which tick is looked at. */
+export class Looking {
+  /** @type {number | null} the tick wished for; null is the present */ tick = null;
+  /** Whether it goes on by itself. */ playing = false;
+  /** @type {Book | null} */ #book = null;
+  /** @type {any} */ #timer = null;
+  #direction = 1;
+  /** @type {(() => void)[]} */ #listeners = [];
+
+  /** @param {Onlooker} page */
+  constructor(page) {
+    this.page = {
+      later: (/** @type {() => void} */ work, /** @type {number} */ delayMs) => setTimeout(work, delayMs),
+      cancel: (/** @type {any} */ timer) => clearTimeout(timer),
+      ...page,
+    };
+  }
+
+  /**
+   * Look at a tick; at or beyond the present one, at the present.
+   * @param {number} wanted
+   * @returns {Promise<void>} once it is shown, or another is wished for
+   */
+  async at(wanted) {
+    const { session, tick: now } = this.page.present();
+    const tick = Math.max(0, Math.round(wanted));
+    if (session === null || tick >= now) return this.live();
+    const book = this.#bookOf(session);
+    if (this.tick !== null && this.tick !== tick) this.#direction = Math.sign(tick - this.tick);
+    this.tick = tick;
+    this.#told();
+    try {
+      const past = book.known(tick) ?? (await book.at(tick));
+      if (this.tick !== tick || this.#book !== book) return;
+      this.page.look(past);
+      book.ahead(tick + this.#direction * (PAGE / 2));
+      book.ahead(tick - this.#direction * (PAGE / 2));
+    } catch (error) {
+      if (this.tick !== tick || this.#book !== book) return;
+      this.live();
+      this.page.failed(error);
+    }
+  }
+
+  /** @param {number} ticks  forwards or back */
+  step(ticks) {
+    this.stop();
+    return this.at((this.tick ?? this.page.present().tick) + ticks);
+  }
+
+  /** Look at the present again. */
+  live() {
+    this.stop();
+    if (this.tick === null) return;
+    this.tick = null;
+    this.page.look(null);
+    this.#told();
+  }
+
+  /** Go on from here at the session's own speed until the present is reached. */
+  play() {
+    if (this.playing || this.tick === null) return;
+    this.playing = true;
+    this.#told();
+    this.#next();
+  }
+
+  /** Go on, or stand still. */
+  toggle() {
+    if (this.playing) this.stop();
+    else this.play();
+  }
+
+  /** Stand still. */
+  stop() {
+    this.page.cancel(this.#timer);
+    if (!this.playing) return;
+    this.playing = false;
+    this.#told();
+  }
+
+  /** The past may have become another one: ask anew, and show what is there now. */
+  rewritten() {
+    this.#book?.clear();
+    const { tick: now } = this.page.present();
+    if (this.tick === null) return;
+    if (this.tick >= now) this.live();
+    else void this.at(this.tick);
+  }
+
+  /** Be called when another tick is wished for, or none, or it begins or ends to go on. @param {() => void} listener */
+  listen(listener) {
+    this.#listeners.push(listener);
+  }
+
+  #told() {
+    for (const listener of this.#listeners) listener();
+  }
+
+  #next() {
+    const { stepS, pace } = this.page.present();
+    this.#timer = this.page.later(
+      async () => {
+        if (this.tick !== null) await this.at(this.tick + 1);
+        if (this.playing) this.#next();
+      },
+      Math.max(16, (stepS * 1000) / pace),
+    );
+  }
+
+  /** @param {string} session */
+  #bookOf(session) {
+    if (this.#book?.session !== session) this.#book = new Book(session, this.page.http);
+    return this.#book;
+  }
+}
