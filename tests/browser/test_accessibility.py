@@ -1,4 +1,4 @@
-"""axe finds nothing, in both themes, wide and narrow, in every state of the page; a first minute without a mouse."""
+"""axe finds nothing, in both themes, wide and narrow, in every state; a first minute without a mouse."""
 
 from __future__ import annotations
 
