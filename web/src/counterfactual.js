@@ -113,8 +113,40 @@ export function endWords({ outcome, driven, tick, cause, by_hand }) {
  */
 export function titleOf(other, found) {
   if (other.kind === "change") return other.label;
-  const went = other.move === "stay" ? "stayed" : `gone ${moveName(other.move)}`;
+  const went = other.move === "stay" ? "waited" : `gone ${moveName(other.move)}`;
   return `If it had ${went} at tick ${found.tick}`;
+}
+
+/**
+ * What the difference comes to, in a sentence or two.
+ * @param {Beside} found
+ */
+export function sumOf(found) {
+  const { real, changed, saidSince } = found;
+  const part = partOf(found);
+  const told = [];
+  if (part === null) told.push("It is driven the same way.");
+  else told.push(`At tick ${part.tick} it ${does(part.changed)} instead of ${doing(part.real)}.`);
+  if (real.end.outcome !== changed.end.outcome || changed.end.outcome === "crash") {
+    told.push(`It ${endWords(changed.end)}; in the real run it ${endWords(real.end)}.`);
+  } else if (changed.end.outcome === "success") {
+    const later = changed.end.driven - real.end.driven;
+    const ticks = Math.abs(later) === 1 ? "1 tick" : `${Math.abs(later)} ticks`;
+    told.push(later === 0 ? "It arrives at the same tick." : `It arrives ${ticks} ${later > 0 ? "later" : "earlier"}.`);
+  }
+  if (saidSince > 0) told.push("What was said after that tick is left out of both.");
+  return told.join(" ");
+}
+
+/** @param {Move} move */
+const does = (move) => (move === "stay" ? "waits" : `goes ${moveName(move)}`);
+
+/** @param {Move} move */
+const doing = (move) => (move === "stay" ? "waiting" : `going ${moveName(move)}`);
+
+/** The short name of the other run. @param {Otherwise} other */
+export function nameOfOther(other) {
+  return other.kind === "change" ? "Otherwise" : `If ${other.move === "stay" ? "it waits" : moveName(other.move)}`;
 }
 
 /**

@@ -100,7 +100,7 @@ export function onRoad({ columns, rows }, [column, row]) {
 }
 
 const NAMES = /** @type {Record<string, string>} */ ({
-  av: "the vehicle that drives itself",
+  av: "the vehicle",
   vehicle: "a car",
   pedestrian: "a walker",
   pothole: "a pothole",

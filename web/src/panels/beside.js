@@ -5,7 +5,7 @@
  * The service drives both; nothing of the live session is touched. The live road goes on underneath.
  */
 
-import { endWords, fetchBeside, partOf, titleOf } from "../counterfactual.js";
+import { endWords, fetchBeside, nameOfOther, partOf, sumOf, titleOf } from "../counterfactual.js";
 import { make, setText } from "../dom.js";
 import { capital, moveName } from "../hits.js";
 import { icon } from "../icons.js";
@@ -21,9 +21,7 @@ import { createRoad } from "./road.js";
 /** @import { Panel } from "./index.js" */
 
 const SIDES = /** @type {const} */ (["real", "changed"]);
-const NAMES = { real: "As it is", changed: "Otherwise" };
 const VERDICTS = /** @type {Record<string, string>} */ ({ crash: "Crash", success: "Arrived", stuck: "Stuck" });
-/** What is seen of it goes on a little after the end. */
 const TONES = /** @type {Record<string, string>} */ ({ crash: "bad", stuck: "bad", success: "good" });
 
 /** @param {HTMLElement} host @param {Page} page @returns {Panel} */
@@ -50,7 +48,7 @@ export function createBeside(host, page) {
   const parting = make("span", { class: "beside-parting", "aria-hidden": "true" });
   const clock = make("output", { class: "beside-tick" });
   const sides = SIDES.map((key) => {
-    const name = make("span", { class: "beside-name" }, NAMES[key]);
+    const name = make("span", { class: "beside-name" }, "Real run");
     const end = make("span", { class: "beside-end" });
     const road = make("div", { class: "beside-road" });
     const over = make("p", { class: "beside-verdict", hidden: true });
@@ -117,7 +115,8 @@ export function createBeside(host, page) {
     last = Math.max(...SIDES.map((side) => answer[side].frames.length)) - 1;
     slider.max = String(last);
     setText(title, titleOf(other, answer));
-    setText(summary, told(answer));
+    setText(summary, sumOf(answer));
+    setText(sides[1].name, nameOfOther(other));
     for (const side of sides) {
       const { end } = answer[side.key];
       setText(side.end, endWords(end));
@@ -131,15 +130,6 @@ export function createBeside(host, page) {
     // Moving pictures are not forced on those who do not want them: they get the tick where the two part.
     if (wantsStillness()) go(part?.at ?? last);
     else run(true);
-  }
-
-  /** @param {Beside} answer */
-  function told(answer) {
-    const part = partOf(answer);
-    const ends = `As it is it ${endWords(answer.real.end)}; otherwise it ${endWords(answer.changed.end)}.`;
-    const since = answer.saidSince > 0 ? " What was said after that tick is left out of both." : "";
-    if (part === null) return `Both are driven alike. ${ends}${since}`;
-    return `From tick ${part.tick} ${moveName(part.changed)} instead of ${moveName(part.real)}. ${ends}${since}`;
   }
 
   /** Show a tick of both; a run that has ended stays at its end. @param {number} index */

@@ -12,6 +12,7 @@ import { capital, moveName, same } from "../hits.js";
 import { sceneOf } from "../state.js";
 import { tellOf, thingOf } from "../why.js";
 import { MOVES, reasonWords } from "../words.js";
+import { egoOf } from "../world.js";
 
 /** @import { Place, Places } from "../hits.js" */
 /** @import { Page } from "../main.js" */
@@ -127,7 +128,7 @@ export function createBubble(host, page) {
 
   /** @param {Option[]} moves @param {Decision} decision */
   function movesElement(moves, { tick }) {
-    const items = moves.map(({ move, verdict, reason }) =>
+    const items = moves.map(({ move, reason }) =>
       make(
         "li",
         {},
@@ -141,7 +142,7 @@ export function createBubble(host, page) {
           },
           make("span", { class: "option-arrow", "aria-hidden": "true" }, MOVES[move]?.arrow ?? ""),
           make("span", {}, moveName(move)),
-          make("span", { class: "bubble-reason" }, verdict === "free" ? "less good" : reasonWords(reason)),
+          make("span", { class: "bubble-reason" }, reasonWords(reason)),
         ),
       ),
     );
@@ -175,17 +176,8 @@ export function createBubble(host, page) {
     const anchor = anchorOf(target);
     const frame = (target.kind === "cell" ? target.frame : target.frame.parentElement)?.getBoundingClientRect();
     if (!anchor || !frame || !meets(anchor, frame)) return hide();
-    const { offsetWidth: width, offsetHeight: height } = host;
-    const right = anchor.left + anchor.width + GAP_PX;
-    const left = anchor.left - GAP_PX - width;
-    const below = anchor.top + anchor.height + GAP_PX;
-    const above = anchor.top - GAP_PX - height;
-    const aside = right + width <= innerWidth - GAP_PX ? right : left >= GAP_PX ? left : null;
-    const x = aside ?? anchor.left + (anchor.width - width) / 2;
-    const y = aside !== null ? anchor.top + (anchor.height - height) / 2 : below + height <= innerHeight - GAP_PX ? below : above;
-    const inside = (/** @type {number} */ at, /** @type {number} */ size, /** @type {number} */ room) =>
-      Math.round(Math.max(GAP_PX, Math.min(at, room - size - GAP_PX)));
-    host.style.transform = `translate(${inside(x, width, innerWidth)}px, ${inside(y, height, innerHeight)}px)`;
+    const [x, y] = besides(anchor, host.offsetWidth, host.offsetHeight, target.kind === "cell" ? egoPlace(target.places) : null);
+    host.style.transform = `translate(${x}px, ${y}px)`;
     mark.hidden = target.kind !== "cell";
     lay(mark, anchor);
   }
@@ -197,6 +189,13 @@ export function createBubble(host, page) {
     const thing = world && thingOf(world, at);
     const pose = thing && at.places.poseOf?.(thing.id);
     return at.places.placeOf(pose ? [pose.column, pose.row] : (thing?.cell ?? at.cell));
+  }
+
+  /** @param {Places} places @returns {Place | null} */
+  function egoPlace(places) {
+    const { world } = sceneOf(page.state());
+    const ego = world && egoOf(world);
+    return ego && places.placeOf(ego.cell);
   }
 
   function leave() {
@@ -261,6 +260,38 @@ export function alike(a, b) {
   if (a.frame !== b.frame) return false;
   if (a.kind === "decision" || b.kind === "decision") return a.kind === b.kind;
   return a.id !== null || b.id !== null ? a.id === b.id : same(a.cell, b.cell);
+}
+
+/**
+ * Where a card goes: beside what it speaks of, or above or below; wholly in the window, and rather not on the vehicle.
+ * @param {Place} anchor
+ * @param {number} width
+ * @param {number} height
+ * @param {Place | null} ego
+ * @returns {[number, number]}
+ */
+function besides(anchor, width, height, ego) {
+  const middle = anchor.top + (anchor.height - height) / 2;
+  const centre = anchor.left + (anchor.width - width) / 2;
+  const spots = [
+    [anchor.left + anchor.width + GAP_PX, middle],
+    [anchor.left - GAP_PX - width, middle],
+    [centre, anchor.top - GAP_PX - height],
+    [centre, anchor.top + anchor.height + GAP_PX],
+  ].map(([x, y]) => [inside(x, width, innerWidth), inside(y, height, innerHeight)]);
+  const overlap = (/** @type {number[]} */ [left, top], /** @type {Place | null} */ other) =>
+    other === null
+      ? 0
+      : Math.max(0, Math.min(left + width, other.left + other.width) - Math.max(left, other.left)) *
+        Math.max(0, Math.min(top + height, other.top + other.height) - Math.max(top, other.top));
+  const badness = spots.map((spot) => 4 * overlap(spot, anchor) + overlap(spot, ego));
+  const [x, y] = spots[badness.indexOf(Math.min(...badness))];
+  return [x, y];
+}
+
+/** @param {number} at @param {number} size @param {number} room */
+function inside(at, size, room) {
+  return Math.round(Math.max(GAP_PX, Math.min(at, room - size - GAP_PX)));
 }
 
 /** @param {Place} place @param {DOMRect} frame */

@@ -28,7 +28,7 @@ export function createDriving(host, page) {
       make(
         "button",
         { class: "drive-move", type: "button", "data-move": move, "aria-label": MOVES[move].name, onclick: () => drive(move) },
-        MOVES[move].arrow,
+        move === "stay" ? "•" : MOVES[move].arrow,
       ),
     ),
   );
