@@ -60,6 +60,7 @@
  * @property {string} [reason]  only in tick messages
  * @property {string[]} [causes]  only in tick messages
  * @property {Option[]} [options]  only in `hello`
+ * @property {{move: Move, reason: string, causes: string[]}[]} [blocked]  only in tick messages: what was not free
  * @property {string | null} [narration]
  */
 
@@ -123,7 +124,7 @@
  * @property {string} digest
  * @property {WireState} [state]
  */
-/** @typedef {{type: "changed", sequence: number, text: string | null, reply: string, changes: Change[], events: LogEvent[], state: WireState}} ChangedMessage */
+/** @typedef {{type: "changed", sequence: number, text: string | null, reply: string, changes: Change[], events: LogEvent[], state: WireState, views?: Record<string, boolean>}} ChangedMessage */
 /** @typedef {{type: "state", missed: [number, number] | null, state: WireState}} StateMessage */
 /** @typedef {{type: "result", id: string, result: CommandResult}} ResultMessage */
 /** @typedef {{type: "problem", id: string, problem: Problem}} ProblemMessage */

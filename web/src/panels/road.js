@@ -87,7 +87,7 @@ export function createRoad(host) {
 
     draw(now) {
       const world = state?.world;
-      if (!state || !world) return false;
+      if (!state || !world || host.clientWidth === 0) return false;
       const fitted = view && tile ? { view, tile } : fit(world);
       const ego = egoOf(world);
       const egoPose = ego && stage.pose(ego.id, now);
