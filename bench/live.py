@@ -1,53 +1,125 @@
-"""Live sessions at 2 Hz, each watched by one socket: how late ticks are, what they cost, what is missed.
+"""Live sessions, each watched by one socket: how late ticks are, what they cost, what is missed.
 
-The service is the real command in a process of its own, with its file database; the clients are a
-process of their own as well, so that their work is not the service's. Lateness is the service's own
-measure (from a tick's deadline to its beginning); delivery is measured by the clients, as how much
-later than the session's steady pace a tick message arrives.
+The service is the real command in a process of its own, with its file database; the clients are another, so
+that their work is not the service's. Each session is simulated, its decision put into
+words, and all of it sent. Lateness is the service's own measure, from a tick's deadline to its beginning, over
+all ticks of the stretch that is measured; a delay is what a client sees: how much later than the session's
+steady pace a tick arrives.
 
-    python -m bench.live --sessions 200 --seconds 60
+    python -m bench.live --sessions 200 --seconds 20
+    python -m bench.live --write          # the whole table, into bench/LIVE.md
 """
 
 from __future__ import annotations
 
 import argparse
 import asyncio
-import os
+import gc
 import re
 import sys
-import tempfile
 import time
-from dataclasses import dataclass, field
+from array import array
+from collections.abc import Awaitable, Callable
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import httpx
-import orjson
-from websockets.asyncio.client import connect
-from websockets.exceptions import ConnectionClosed
+import uvloop
 
-WARM_UP_S = 3.0
-"""Connecting is not what is measured."""
+from bench.serving import Service, machine, serving
+from bench.sockets import Socket, opened
 
-MAX_ATTEMPTS_AT_ONCE = 50
+AT_ONCE = 40
+"""Sessions asked for at the same time."""
+
+SETTLE_S = 3.0
+"""Between the last socket's opening and the beginning of what is measured."""
+
+PROMISED_S = 0.02
+"""Ticks later than this are too late."""
+
+RESULTS = Path(__file__).parent / "LIVE.md"
+_TICK = b'{"type":"tick","tick":'
+_BUCKET = re.compile(r'roadtalk_tick_lateness_seconds_bucket\{le="([^"]+)"\} ([\d.]+)')
 
 
-@dataclass
+@dataclass(frozen=True, slots=True)
+class Load:
+    """What is asked of the service."""
+
+    sessions: int
+    hz: float = 2.0
+    hurried: int = 0
+    """further sessions that run as fast as possible, watched too"""
+
+    def __str__(self) -> str:
+        more = f" + {self.hurried} at max" if self.hurried else ""
+        return f"{self.sessions} at {self.hz:g} Hz{more}"
+
+
+@dataclass(frozen=True, slots=True)
+class Figures:
+    """What came of it."""
+
+    load: Load
+    ticks_a_s: float
+    p50_ms: float
+    p99_ms: float
+    max_ms: float
+    in_time: float
+    """share of ticks not later than `PROMISED_S`"""
+    delay_p50_ms: float
+    delay_p99_ms: float
+    cpu: float
+    """share of one core"""
+    base_mb: float
+    full_mb: float
+    missed: int
+
+    @property
+    def tick_us(self) -> float:
+        """Processor time of a tick, with everything that belongs to it."""
+        return 1e6 * self.cpu / self.ticks_a_s if self.ticks_a_s else 0.0
+
+    @property
+    def session_kb(self) -> float:
+        """Memory of a session and its socket."""
+        return 1e3 * (self.full_mb - self.base_mb) / (self.load.sessions + self.load.hurried)
+
+
 class Heard:
     """What one socket heard while it counted."""
 
-    arrivals_s: list[float] = field(default_factory=list)
-    ticks: list[int] = field(default_factory=list)
-    missed: int = 0
+    def __init__(self) -> None:
+        self.arrivals_s = array("d")
+        self.ticks = array("q")
+        self.states = 0
+        self.count = 0
+
+    def __call__(self, message: bytes) -> None:
+        """One message."""
+        if message.startswith(_TICK):
+            self.count += 1
+            self.arrivals_s.append(time.perf_counter())
+            self.ticks.append(int(message[22 : message.index(b",", 22)]))
+        elif message.startswith(b'{"type":"state"'):
+            self.states += 1
+
+    def clear(self) -> None:
+        """Begin to count."""
+        self.__init__()  # type: ignore[misc]
 
     @property
-    def gaps(self) -> int:
+    def missed(self) -> int:
         """Ticks that were not heard, told or not."""
         return (self.ticks[-1] - self.ticks[0] + 1 - len(self.ticks)) if self.ticks else 0
 
     def delays_ms(self, period_s: float) -> list[float]:
         """How much later than the promptest message each arrived, against a steady pace."""
         offsets = [at - tick * period_s for at, tick in zip(self.arrivals_s, self.ticks, strict=True)]
-        return [1e3 * (offset - min(offsets)) for offset in offsets]
+        least = min(offsets, default=0.0)
+        return [1e3 * (offset - least) for offset in offsets]
 
 
 def main(arguments: list[str] | None = None) -> None:
@@ -56,96 +128,154 @@ def main(arguments: list[str] | None = None) -> None:
         prog="bench.live", description=__doc__.splitlines()[0] if __doc__ else None
     )
     parser.add_argument("--sessions", type=int, default=200)
-    parser.add_argument("--seconds", type=float, default=60.0)
+    parser.add_argument("--hz", type=float, default=2.0)
+    parser.add_argument("--hurried", type=int, default=0, help="further sessions at `max` speed")
+    parser.add_argument("--seconds", type=float, default=20.0)
+    parser.add_argument("--write", action="store_true", help="measure the whole table into bench/LIVE.md")
     options = parser.parse_args([] if arguments is None else arguments)
-    asyncio.run(_measure(options.sessions, options.seconds))
+    loads = [Load(options.sessions, options.hz, options.hurried)]
+    if options.write:
+        twos = [Load(sessions) for sessions in (1_000, 2_000, 3_000, 4_000)]
+        loads = [*twos, Load(100, 60.0), Load(200, 60.0), Load(400, 60.0), Load(200), Load(200, hurried=10)]
+    rows = [_HEAD, _RULE]
+    print("\n".join(rows), flush=True)
+    for load in loads:
+        with asyncio.Runner(loop_factory=uvloop.new_event_loop) as runner:
+            rows.append(_row(runner.run(measured(load, options.seconds))))
+        print(rows[-1], flush=True)
+        gc.collect()
+    if options.write:
+        RESULTS.write_text(_TEXT.format(machine=machine(), seconds=options.seconds, table="\n".join(rows)))
 
 
-async def _measure(sessions: int, seconds: float) -> None:
-    with tempfile.TemporaryDirectory() as folder:
-        environment = {**os.environ, "ROADTALK_MAX_SESSIONS": str(sessions + 10)}
-        service = await asyncio.create_subprocess_exec(
-            sys.executable, "-m", "service", "serve", "--port", "0", "--database", f"sqlite:///{folder}/live.db",
-            stdout=asyncio.subprocess.PIPE, env=environment,
-        )  # fmt: skip
-        assert service.stdout is not None
-        found = re.search(r"http://[\d.:]+", (await service.stdout.readline()).decode())
-        if found is None:
-            raise SystemExit("the service did not start")
-        try:
-            await _watch_all(found[0], service.pid, sessions, seconds)
-        except* ConnectionClosed:
-            raise SystemExit("the service ended while it was measured") from None
-        finally:
-            if service.returncode is None:
-                service.terminate()
-            await service.wait()
+async def measured(load: Load, seconds: float) -> Figures:
+    """A service under this load, looked at for so long."""
+    room = load.sessions + load.hurried + 10
+    async with serving(max_sessions=room) as service:
+        async with httpx.AsyncClient(base_url=service.url, timeout=60) as client:
+            base_mb = service.memory_mb()
+            heard = [Heard() for _ in range(load.sessions)]
+            watch = partial(_watched, client, service)
+            sockets = await _all(AT_ONCE, [partial(watch, each, load.hz) for each in heard])
+            hurried = [Heard() for _ in range(load.hurried)]
+            sockets += await _all(AT_ONCE, [partial(watch, each, None) for each in hurried])
+            await asyncio.sleep(SETTLE_S)
+            figures = await _look(load, service, client, heard, hurried, base_mb, seconds)
+        for socket in sockets:
+            socket.close()
+    return figures
 
 
-async def _watch_all(url: str, pid: int, sessions: int, seconds: float) -> None:
-    async with httpx.AsyncClient(base_url=url, timeout=60) as client, asyncio.TaskGroup() as group:
-        gate = asyncio.Semaphore(MAX_ATTEMPTS_AT_ONCE)
-        began = time.perf_counter()
-        watching = [group.create_task(_watch(client, url, gate, seconds)) for _ in range(sessions)]
-        health = (await client.get("/healthz")).json()
-        while health["watchers"] < sessions:
-            await asyncio.sleep(0.1)
-            health = (await client.get("/healthz")).json()
-        connected_s = time.perf_counter() - began
-        await asyncio.sleep(WARM_UP_S)
-        cpu_began_s, wall_began_s = _cpu_s(pid), time.perf_counter()
-        await asyncio.sleep(max(1.0, seconds - 2 * WARM_UP_S))
-        busy = (_cpu_s(pid) - cpu_began_s) / (time.perf_counter() - wall_began_s)
-        lateness = (await client.get("/healthz")).json()["tick_lateness"]
-        memory_mb = _memory_mb(pid)
-    heard = [task.result() for task in watching]
-    delays = sorted(delay for each in heard for delay in each.delays_ms(0.5))
-    print(f"{sessions} sessions at 2 Hz, one socket each, {seconds:g} s (connected in {connected_s:.1f} s)")
-    print(
-        f"  tick lateness     p50 {lateness['p50_ms']:.2f} ms   p99 {lateness['p99_ms']:.2f} ms   "
-        f"max {lateness['max_ms']:.2f} ms   (the service's latest {lateness['ticks']} ticks)"
+async def _look(
+    load: Load,
+    service: Service,
+    client: httpx.AsyncClient,
+    heard: list[Heard],
+    hurried: list[Heard],
+    base_mb: float,
+    seconds: float,
+) -> Figures:
+    for each in (*heard, *hurried):
+        each.clear()
+    before = await _buckets(client)
+    cpu_s, began_s = service.cpu_s(), time.perf_counter()
+    worst_ms = 0.0
+    for _ in range(max(1, round(seconds * 2))):
+        await asyncio.sleep(0.5)
+        worst_ms = max(worst_ms, (await client.get("/healthz")).json()["tick_lateness"]["max_ms"])
+    busy_s, wall_s = service.cpu_s() - cpu_s, time.perf_counter() - began_s
+    after = await _buckets(client)
+    counts = {bound: count - before[bound] for bound, count in after.items()}
+    delays = sorted(delay for each in heard for delay in each.delays_ms(1 / load.hz))
+    return Figures(
+        load=load,
+        ticks_a_s=sum(each.count + each.missed for each in (*heard, *hurried)) / wall_s,
+        p50_ms=_quantile_ms(counts, 0.5),
+        p99_ms=_quantile_ms(counts, 0.99),
+        max_ms=worst_ms,
+        in_time=counts[PROMISED_S] / max(1.0, counts[float("inf")]),
+        delay_p50_ms=_at(delays, 0.5),
+        delay_p99_ms=_at(delays, 0.99),
+        cpu=busy_s / wall_s,
+        base_mb=base_mb,
+        full_mb=service.memory_mb(),
+        missed=sum(each.missed for each in heard),
     )
-    print(
-        f"  delivery jitter   p50 {_quantile(delays, 0.5):.2f} ms   p99 {_quantile(delays, 0.99):.2f} ms   "
-        f"max {delays[-1]:.2f} ms   ({len(delays)} messages)"
+
+
+async def _watched(client: httpx.AsyncClient, service: Service, heard: Heard, hz: float | None) -> Socket:
+    """A new session with a socket; `hz` None is as fast as possible."""
+    made = (await client.post("/api/v1/sessions", json={})).raise_for_status().json()
+    speed = "max" if hz is None else hz * made["config"]["step_seconds"]
+    if speed != 1.0:
+        action = {"do": "set", "parameter": "playback_speed", "value": speed}
+        done = await client.post(f"{made['links']['self']}/actions", json={"actions": [action]})
+        done.raise_for_status()
+    return await opened(service.url, made["links"]["stream"], heard)
+
+
+async def _all(at_once: int, works: list[Callable[[], Awaitable[Socket]]]) -> list[Socket]:
+    gate = asyncio.Semaphore(at_once)
+
+    async def one(work: Callable[[], Awaitable[Socket]]) -> Socket:
+        async with gate:
+            return await work()
+
+    return await asyncio.gather(*(one(work) for work in works))
+
+
+async def _buckets(client: httpx.AsyncClient) -> dict[float, float]:
+    """How many ticks were up to so late, in seconds, since the service began."""
+    text = (await client.get("/metrics")).text
+    return {float(bound): float(count) for bound, count in _BUCKET.findall(text)}
+
+
+def _quantile_ms(counts: dict[float, float], share: float) -> float:
+    """A quantile of counted times, drawn straight between two bounds."""
+    wanted, below, low = share * counts[float("inf")], 0.0, 0.0
+    for bound, count in counts.items():
+        if count >= wanted:
+            if bound == float("inf"):
+                break
+            return 1e3 * (low + (bound - low) * (wanted - below) / max(1.0, count - below))
+        below, low = count, bound
+    return 1e3 * low
+
+
+def _at(ordered: list[float], share: float) -> float:
+    return ordered[min(len(ordered) - 1, int(share * len(ordered)))] if ordered else 0.0
+
+
+_HEAD = (
+    "| sessions | ticks/s | lateness p50 | p99 | max | ≤ 20 ms | arrival p50 | p99 | core | CPU a tick "
+    "| memory a session | missed |"
+)
+_RULE = "| --- |" + " ---: |" * 11
+
+
+def _row(found: Figures) -> str:
+    return (
+        f"| {found.load} | {found.ticks_a_s:.0f} | {found.p50_ms:.1f} ms | {found.p99_ms:.1f} ms "
+        f"| {found.max_ms:.0f} ms | {100 * found.in_time:.2f} % | {found.delay_p50_ms:.1f} ms "
+        f"| {found.delay_p99_ms:.1f} ms | {100 * found.cpu:.0f} % | {found.tick_us:.0f} µs "
+        f"| {found.session_kb:.0f} kB | {found.missed} |"
     )
-    print(f"  service           {100 * busy:.1f} % of one core, {memory_mb:.0f} MB resident")
-    gaps, told = sum(each.gaps for each in heard), sum(each.missed for each in heard)
-    print(f"  missed            {gaps} ticks, of which told in {told} messages")
 
 
-async def _watch(client: httpx.AsyncClient, url: str, gate: asyncio.Semaphore, seconds: float) -> Heard:
-    """Make a session, watch it, and note what arrives when."""
-    heard = Heard()
-    async with gate:
-        session = (await client.post("/api/v1/sessions", json={})).raise_for_status().json()
-        socket = await connect(f"ws{url[4:]}{session['links']['stream']}", compression=None)
-    async with socket:
-        stop_s = time.perf_counter() + seconds + WARM_UP_S
-        while time.perf_counter() < stop_s:
-            message = orjson.loads(await socket.recv())
-            if message["type"] == "tick":
-                heard.arrivals_s.append(time.perf_counter())
-                heard.ticks.append(message["tick"])
-            elif message["type"] == "state":
-                heard.missed += 1
-    return heard
+_TEXT = """# Live sessions
 
+Written by `python -m bench.live --write`. {machine}; {seconds:g} s each. The service is one process; the
+clients, which share the machine with it, are another. Every session is simulated, its decision put into
+words, and sent to one socket.
 
-def _quantile(ordered: list[float], share: float) -> float:
-    return ordered[min(len(ordered) - 1, int(share * len(ordered)))]
+{table}
 
-
-def _cpu_s(pid: int) -> float:
-    """Processor time a process has used, user and system."""
-    fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
-
-
-def _memory_mb(pid: int) -> float:
-    """Memory a process holds."""
-    pages = int(Path(f"/proc/{pid}/statm").read_text().split()[1])
-    return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
+*Lateness* is from a tick's deadline to its beginning, of all ticks of the stretch (quantiles between the
+bounds of `/metrics`); *arrival* is how much later than the session's own steady pace a message is there, at
+the clients. *CPU a tick* is processor time of the whole service process, all threads, for each tick:
+simulation, decision, words, message and sending. *Memory a session* is what the process grew by, sockets
+included. *Missed* are ticks that a socket at the steady pace was not sent.
+"""
 
 
 if __name__ == "__main__":

@@ -5,6 +5,10 @@ Time is the monotonic clock, not the loop's own, which stands still during a tur
 setting the wall clock does nothing here. A session that falls
 behind (a stalled machine) goes on from now; what it missed is not made up for in a burst.
 
+Many that begin together would be due together for ever: where a slot is full, the next one begins a little
+later. Those that tick as often as can be have no deadline. They take turns in a share of the time that is
+theirs all together, however many they are, and after all that is due.
+
 Leaves out what a tick is: a `Ticker` knows that, and how it fails.
 """
 
@@ -29,6 +33,18 @@ SLOT_S = 0.002
 TURN_S = 0.005
 """How long ticks may hold the event loop before waiting requests get their turn."""
 
+FULL = 4
+"""So many due in one slot are enough for one that begins, if there is another slot."""
+
+HURRY_S = 0.002
+"""How long those that tick as often as can be may hold the event loop, all together."""
+
+REST_S = 0.001
+"""Until they have their next turn, at least; as long as they took, if that is longer."""
+
+PATIENCE_S = 0.1
+"""After so long they have a turn even where what is due is never done."""
+
 LATENESS_KEPT = 4_096
 """How many of the latest ticks the lateness figures are taken from."""
 
@@ -38,7 +54,7 @@ class Ticker(Protocol):
 
     @property
     def period_s(self) -> float:
-        """Seconds from one tick to the next."""
+        """Seconds from one tick to the next; up to `SLOT_S` means as often as can be."""
 
     def tick(self) -> None:
         """One tick, quick and without waiting."""
@@ -57,7 +73,10 @@ class Clock(Protocol):
         """Serve no more."""
 
     def add(self, ticker: Ticker) -> None:
-        """Tick it every period, first one period from now. Once there, adding again is no matter."""
+        """Tick it every period, first one period from now, or some later where many are due then.
+
+        Once there, adding again is no matter.
+        """
 
     def remove(self, ticker: Ticker) -> None:
         """Tick it no more. Unknown tickers are no matter."""
@@ -105,8 +124,10 @@ class WheelClock:
         self._due: dict[Ticker, float] = {}
         self._slots: dict[int, list[Ticker]] = {}
         self._order: list[int] = []
+        self._hurried: dict[Ticker, None] = {}
+        self._hurry_at = 0.0
         self._timer: asyncio.Handle | None = None
-        self._timer_slot: int | None = None
+        self._timer_at = 0.0
         self._samples = array("d")
         self._next_sample = 0
 
@@ -119,18 +140,26 @@ class WheelClock:
         """See `Clock.stop`."""
         if self._timer is not None:
             self._timer.cancel()
-            self._timer = self._timer_slot = None
+            self._timer = None
         self._loop = None
 
     def add(self, ticker: Ticker) -> None:
         """See `Clock.add`."""
-        if ticker not in self._due:
-            self._schedule(ticker, self._now() + ticker.period_s)
-            self._arm()
+        if ticker in self._due or ticker in self._hurried:
+            return
+        now, period = self._now(), ticker.period_s
+        if period <= SLOT_S:
+            if not self._hurried:
+                self._hurry_at = now + period
+            self._hurried[ticker] = None
+        else:
+            self._schedule(ticker, self._roomy(now + period, period))
+        self._arm()
 
     def remove(self, ticker: Ticker) -> None:
         """See `Clock.remove`. Its place in the wheel is skipped when its slot comes."""
         self._due.pop(ticker, None)
+        self._hurried.pop(ticker, None)
 
     def lateness(self) -> Lateness:
         """See `Clock.lateness`."""
@@ -139,6 +168,12 @@ class WheelClock:
     def serve(self) -> None:
         """Tick all that is due, for at most `TURN_S`; what is left comes next turn of the loop."""
         began = self._now()
+        patience_s = 0.0 if self._serve_due(began) else PATIENCE_S
+        if self._hurried and self._hurry_at + patience_s <= self._now():
+            self._hurry()
+
+    def _serve_due(self, began: float) -> bool:
+        """Whether all was ticked that is due."""
         while self._order and self._order[0] * SLOT_S <= self._now():
             slot = self._order[0]
             tickers = self._slots[slot]
@@ -148,22 +183,64 @@ class WheelClock:
                 if self._slot_of(self._due.get(ticker)) == slot:
                     self._serve_one(ticker, self._due.pop(ticker))
                 if self._now() - began > TURN_S:
-                    return
+                    return False
             heapq.heappop(self._order)
             del self._slots[slot]
+        return True
+
+    def _hurry(self) -> None:
+        """Each in its turn, and nobody twice."""
+        began = now = self._now()
+        for ticker in list(self._hurried):
+            if ticker not in self._hurried:
+                continue  # what another did took it off the clock
+            del self._hurried[ticker]
+            self._put_back(ticker, now)
+            self._tick(ticker)
+            now = self._now()
+            if now - began > HURRY_S:
+                break
+        self._hurry_at = now + max(REST_S, now - began)
 
     def _serve_one(self, ticker: Ticker, due: float) -> None:
-        now = self._now()
-        self._record(now - due)
+        self._record(self._now() - due)
         # Put back first: a ticker that leaves the clock while ticking must find itself on it.
+        self._put_back(ticker, due)
+        self._tick(ticker)
+
+    def _put_back(self, ticker: Ticker, due: float) -> None:
         period = ticker.period_s
-        self._schedule(ticker, due + period if now < due + period else now + period)
+        if period <= SLOT_S:
+            self._hurried[ticker] = None
+        else:
+            late = self._now() - due
+            if late >= period:
+                # Whole periods are left out, so that those that were spread stay spread.
+                due += period * int(late / period + 0.5)
+            self._schedule(ticker, due + period)
+
+    def _tick(self, ticker: Ticker) -> None:
         try:
             ticker.tick()
         except Exception as error:
             _LOG.exception("a tick failed", ticker=str(ticker))
             self.remove(ticker)
             ticker.tick_failed(error)
+
+    def _roomy(self, due: float, period: float) -> float:
+        """A time from `due` on, within a period, at which few others are due.
+
+        Those count that are due then, and those that are a period before and so will be.
+        """
+        first, period_slots = math.ceil(due / SLOT_S), max(1, round(period / SLOT_S))
+        found, fewest = first, math.inf
+        for slot in range(first, first + period_slots):
+            others = len(self._slots.get(slot, ())) + len(self._slots.get(slot - period_slots, ()))
+            if others < fewest:
+                found, fewest = slot, others
+                if others < FULL:
+                    break
+        return due if found == first else found * SLOT_S
 
     def _schedule(self, ticker: Ticker, due: float) -> None:
         self._due[ticker] = due
@@ -176,20 +253,21 @@ class WheelClock:
             waiting.append(ticker)
 
     def _arm(self) -> None:
-        """Set the one timer to the nearest slot, unless it is set to that or an earlier one."""
-        if self._loop is None or not self._order:
+        """Set the one timer to what comes next, unless it is set to that or to something before."""
+        if self._loop is None or not (self._order or self._hurried):
             return
-        slot = self._order[0]
-        if self._timer_slot is not None:
-            if self._timer_slot <= slot:
+        at = self._order[0] * SLOT_S if self._order else math.inf
+        if self._hurried and self._hurry_at < at:
+            at = self._hurry_at
+        if self._timer is not None:
+            if self._timer_at <= at:
                 return
-            if self._timer is not None:
-                self._timer.cancel()
-        self._timer_slot = slot
-        self._timer = self._loop.call_later(max(0.0, slot * SLOT_S - self._now()), self._fire)
+            self._timer.cancel()
+        self._timer_at = at
+        self._timer = self._loop.call_later(max(0.0, at - self._now()), self._fire)
 
     def _fire(self) -> None:
-        self._timer = self._timer_slot = None
+        self._timer = None
         self.serve()
         self._arm()
 

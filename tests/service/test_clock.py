@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import asyncio
+from collections import Counter as Counter_
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from service.sessions.clock import SLOT_S, Lateness, WheelClock
+from service.sessions.clock import FULL, HURRY_S, SLOT_S, Lateness, WheelClock
 
 
 class Time:
@@ -51,9 +52,17 @@ def test_each_ticks_at_its_own_pace(periods_s: list[float]) -> None:
         clock.add(counter)
     run(clock, time, 4.0)
     for counter in counters:
-        assert (4.0 - 3 * SLOT_S) / counter.period_s - 1 < len(counter.ticks) <= 4.0 / counter.period_s + 1e-6
+        assert (
+            (4.0 - (3 + len(periods_s) // FULL) * SLOT_S) / counter.period_s - 1
+            < len(counter.ticks)
+            <= 4.0 / counter.period_s + 1e-6
+        )
         late_s = [at - (100.0 + counter.period_s * (n + 1)) for n, at in enumerate(counter.ticks)]
-        assert all(-1e-9 <= each <= 2 * SLOT_S + 1e-9 for each in late_s), "never early, never two slots late"
+        # Where many begin at once, some begin a slot or more later.
+        most_s = (2 + len(periods_s) // FULL) * SLOT_S
+        assert all(-1e-9 <= each <= most_s + 1e-9 for each in late_s), "never early, never two slots late"
+        spread_s = max(late_s, default=0.0) - min(late_s, default=0.0)
+        assert spread_s <= 2 * SLOT_S + 1e-9, "and always as much"
 
 
 def test_adding_twice_does_not_tick_twice() -> None:
@@ -142,3 +151,117 @@ async def test_the_real_loop_drives_it() -> None:
 def test_lateness_of_known_samples() -> None:
     assert Lateness.of([]) == Lateness(0, 0.0, 0.0, 0.0)
     assert Lateness.of([n / 1000 for n in range(101)]) == Lateness(101, 50.0, 99.0, 100.0)
+
+
+def test_many_that_begin_at_once_are_spread_over_their_period() -> None:
+    time = Time()
+    clock = WheelClock(time)
+    counters = [Counter(time, 0.5) for _ in range(2_000)]
+    for counter in counters:
+        clock.add(counter)
+    run(clock, time, 3.0)
+    at_once = Counter_(round(counter.ticks[-1], 6) for counter in counters)
+    assert max(at_once.values()) <= 2_000 / (0.5 / SLOT_S) + FULL
+    assert all(5 <= len(counter.ticks) <= 6 for counter in counters), (
+        "a first tick waits a period more at most"
+    )
+    for counter in counters:
+        assert counter.ticks[-1] - counter.ticks[-2] == pytest.approx(0.5, abs=2 * SLOT_S)
+
+
+def test_after_lost_time_those_that_were_spread_stay_spread() -> None:
+    time = Time()
+    clock = WheelClock(time)
+    early, late = Counter(time, 0.5), Counter(time, 0.5)
+    clock.add(early)
+    time.now_s += 0.2
+    clock.add(late)
+    time.now_s += 7.33
+    clock.serve()
+    run(clock, time, 2.0)
+    apart = late.ticks[-1] - early.ticks[-1]
+    assert min(apart % 0.5, -apart % 0.5) == pytest.approx(0.2, abs=2 * SLOT_S)
+    assert early.ticks[1] - early.ticks[0] >= 0.24, "none follows on the heels of a late one"
+
+
+class Busy(Counter):
+    """Takes time to tick."""
+
+    def tick(self) -> None:
+        super().tick()
+        self.time.now_s += 0.001
+
+
+def played(hurried: int) -> tuple[list[Busy], Counter, WheelClock]:
+    """A second of so many that tick as often as can be, beside one that keeps a pace."""
+    time = Time()
+    clock = WheelClock(time)
+    eager, steady = [Busy(time, SLOT_S) for _ in range(hurried)], Counter(time, 0.05)
+    for ticker in (*eager, steady):
+        clock.add(ticker)
+    while time.now_s < 101.0:
+        before = time.now_s
+        clock.serve()
+        if time.now_s == before:
+            time.now_s += 0.000_25
+    return eager, steady, clock
+
+
+@pytest.mark.parametrize("hurried", [1, 10, 60])
+def test_those_in_a_hurry_share_half_the_time_at_most_and_hold_up_nobody(hurried: int) -> None:
+    eager, steady, clock = played(hurried)
+    done = [len(ticker.ticks) for ticker in eager]
+    assert 350 <= sum(done) <= 550, "of a thousand that there would be time for"
+    assert max(done) - min(done) <= 1, "each in its turn"
+    assert len(steady.ticks) in (19, 20)
+    assert clock.lateness().max_ms <= 1e3 * (HURRY_S + 0.001 + 2 * SLOT_S)
+    assert clock.lateness().ticks == len(steady.ticks), "as often as can be has no deadline"
+
+
+def test_one_in_a_hurry_may_leave_while_another_ticks() -> None:
+    time = Time()
+    clock = WheelClock(time)
+
+    class Jealous(Counter):
+        def tick(self) -> None:
+            super().tick()
+            clock.remove(other)
+
+    other, jealous = Counter(time, SLOT_S), Jealous(time, SLOT_S)
+    for ticker in (jealous, other):
+        clock.add(ticker)
+    run(clock, time, 0.1)
+    assert other.ticks == []
+    assert len(jealous.ticks) > 10
+
+
+def test_those_in_a_hurry_are_not_forgotten_where_what_is_due_is_never_done() -> None:
+    time = Time()
+
+    class Slow(Counter):
+        def tick(self) -> None:
+            super().tick()
+            self.time.now_s += 0.02
+
+    clock = WheelClock(time)
+    slow, eager = [Slow(time, 0.05) for _ in range(5)], Busy(time, SLOT_S)
+    for ticker in (*slow, eager):
+        clock.add(ticker)
+    while time.now_s < 103.0:
+        clock.serve()
+        time.now_s += 0.000_5
+    assert 15 <= sum(at > 100.2 for at in eager.ticks) <= 30
+
+
+def test_one_may_change_between_a_pace_and_a_hurry() -> None:
+    time = Time()
+    clock, counter = WheelClock(time), Counter(time, 0.5)
+    clock.add(counter)
+    for period_s, ticks in ((SLOT_S, 20), (0.5, 2)):
+        clock.remove(counter)
+        counter.period_s = period_s
+        counter.ticks.clear()
+        clock.add(counter)
+        run(clock, time, 1.1)
+        assert len(counter.ticks) >= ticks
+    assert len(counter.ticks) == 2
