@@ -11,6 +11,14 @@ from service.api.shapes import Answered, CellPair, CrashCause, State
 from sim.kinds import Move, Outcome
 
 
+class BlockedMove(Answered):
+    """A move that could not be made, and why."""
+
+    move: Move
+    reason: str
+    causes: list[str]
+
+
 class BriefDecision(Answered):
     """A decision in few words, as the stream tells it."""
 
@@ -20,6 +28,7 @@ class BriefDecision(Answered):
     reason: str
     causes: list[str]
     weight: Literal[0, 1, 2]
+    blocked: list[BlockedMove]
 
 
 class PlayedTick(Answered):
