@@ -144,6 +144,19 @@ const does = (move) => (move === "stay" ? "waits" : `goes ${moveName(move)}`);
 /** @param {Move} move */
 const doing = (move) => (move === "stay" ? "waiting" : `going ${moveName(move)}`);
 
+/**
+ * A change as the beginning of a sentence.
+ * @param {Action[]} actions
+ */
+export function labelOf(actions) {
+  const ids = actions.map((action) => (action.do === "remove" ? /** @type {{id?: string}} */ (action.where)?.id : undefined));
+  if (ids.every((id) => id !== undefined)) return `If ${ids.join(" and ")} ${ids.length === 1 ? "wasn’t" : "weren’t"} there`;
+  if (actions.length === 1 && actions[0].do === "remove" && actions[0].count === "all") {
+    return actions[0].kind === "everything" ? "If the road were empty" : `If there were no ${actions[0].kind}s`;
+  }
+  return "With that change";
+}
+
 /** The short name of the other run. @param {Otherwise} other */
 export function nameOfOther(other) {
   return other.kind === "change" ? "Otherwise" : `If ${other.move === "stay" ? "it waits" : moveName(other.move)}`;

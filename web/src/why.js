@@ -1,6 +1,7 @@
 // @ts-check
 /** What is told of a cell, a thing or a past decision, and what can be done about it. Pure. */
 
+import { labelOf } from "./counterfactual.js";
 import { hindrance, placing, removing, TOOLS } from "./edit.js";
 import { decidedAbout, decidedOn, headingWords, moveName, nameOf, placeWords, thingIn } from "./hits.js";
 import { egoOf } from "./world.js";
@@ -69,7 +70,7 @@ function ofThing(world, thing, decision) {
       {
         text: "What if it weren't there?",
         act: { actions: [{ do: "ask", about: "what_if", change }], label: `What if ${id} weren't there?` },
-        pick: { kind: "change", tick: null, actions: change, label: `If ${id} weren't there` },
+        pick: { kind: "change", tick: null, actions: change, label: labelOf(change) },
       },
       { text: "Remove", act: { actions: change, label: `Remove ${id}`, quiet: true } },
     ],
@@ -84,7 +85,12 @@ function ofEgo(world, ego, decision, narration) {
     note: ego.id,
     lines: [placeWords(world, ego.cell), decision?.narration ?? narration ?? "It has not decided anything yet."],
     moves: rejected(decision),
-    offers: decision ? [asking("Ask why", decision)] : [],
+    offers: [
+      ...(decision ? [asking("Ask why", decision)] : []),
+      world.mode === "manual"
+        ? { text: "Let it drive itself", act: { actions: [{ do: "mode", mode: "auto" }], label: "Let it drive itself", quiet: true } }
+        : { text: "Drive by hand", act: { actions: [{ do: "mode", mode: "manual" }], label: "Drive by hand", quiet: true } },
+    ],
   };
 }
 

@@ -1,12 +1,13 @@
 // @ts-check
 /** An answer with its evidence: causes to point at, the proof, and what else could have been done. */
 
+import { labelOf } from "../counterfactual.js";
 import { icon } from "../icons.js";
 import { make } from "../dom.js";
 import { MOVES, plain, reasonWords } from "../words.js";
 
 /** @import { Page } from "../main.js" */
-/** @import { Answer, Option } from "../protocol.js" */
+/** @import { Action, Answer, Option } from "../protocol.js" */
 
 /** @param {Answer} answer @param {string} reply @param {Page} page */
 export function answerElement(answer, reply, page) {
@@ -20,7 +21,9 @@ export function answerElement(answer, reply, page) {
   const proof = causes.length > 0 ? proofElement(answer) : null;
   if (proof) element.append(proof);
   const others = (answer.alternatives ?? []).filter(({ move }) => move !== answer.move);
-  if (others.length > 0) element.append(alternativesElement(others));
+  if (others.length > 0) element.append(alternativesElement(others, answer.tick, page));
+  const play = answer.play ?? answer.counterfactual;
+  if (play?.at_tick !== undefined) element.append(watchElement(play.at_tick, play.actions ?? play.change ?? [], page));
   return element;
 }
 
@@ -78,8 +81,14 @@ function proofElement({ verified }) {
   );
 }
 
-/** @param {Option[]} alternatives */
-function alternativesElement(alternatives) {
+/** Play a change beside the real run. @param {number} tick @param {Action[]} actions @param {Page} page */
+function watchElement(tick, actions, page) {
+  const watch = () => page.pick?.({ kind: "change", tick, actions, label: labelOf(actions) });
+  return make("button", { class: "button small watch", type: "button", onclick: watch }, icon("play"), "Watch it beside the real run");
+}
+
+/** @param {Option[]} alternatives @param {number | null} tick @param {Page} page */
+function alternativesElement(alternatives, tick, page) {
   return make(
     "details",
     { class: "alternatives" },
@@ -87,13 +96,26 @@ function alternativesElement(alternatives) {
     make(
       "ul",
       {},
-      ...alternatives.map(({ move, verdict, reason }) =>
+      ...alternatives.map(({ move, cell, verdict, reason }) =>
         make(
           "li",
           { "data-verdict": verdict },
           make("span", { class: "option-arrow", "aria-hidden": "true" }, MOVES[move]?.arrow ?? ""),
           make("span", { class: "option-move" }, MOVES[move]?.name ?? plain(move)),
           make("span", { class: "option-reason" }, reasonWords(reason)),
+          cell && tick !== null
+            ? make(
+                "button",
+                {
+                  class: "option-watch",
+                  type: "button",
+                  "aria-label": `Watch ${MOVES[move]?.name ?? plain(move)} beside the real run`,
+                  title: "Watch it beside the real run",
+                  onclick: () => page.pick?.({ kind: "move", tick, move }),
+                },
+                icon("play"),
+              )
+            : null,
         ),
       ),
     ),
