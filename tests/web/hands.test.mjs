@@ -1,0 +1,223 @@
+// What is told of cells and things, what is touched, which keys drive, and what would have been.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { endWords, fetchBeside, fetchDecision, labelOf, nameOfOther, partOf, sumOf, titleOf } from "../../web/src/counterfactual.js";
+import { isDriving, moveOf } from "../../web/src/drive.js";
+import { hindrance, isLoose, moving, placing, removing } from "../../web/src/edit.js";
+import { cellWords, decidedAbout, decidedOn, headingWords, onRoad, placeWords, thingAt, thingIn } from "../../web/src/hits.js";
+import { INITIAL } from "../../web/src/state.js";
+import { tellOf } from "../../web/src/why.js";
+import { worldOf } from "../../web/src/world.js";
+import { wireState } from "./fakes.mjs";
+
+const world = worldOf(wireState());
+const decision = {
+  tick: 9,
+  move: "forward_left",
+  reason: "pothole",
+  causes: ["pothole-1"],
+  narration: "Forward left, since a pothole is ahead.",
+  options: [
+    { move: "forward", cell: [4, 20], verdict: "blocked", cost: null, reason: "pothole", causes: ["pothole-1"] },
+    { move: "forward_left", cell: [3, 20], verdict: "free", cost: 1, reason: "free", causes: [] },
+    { move: "left", cell: [3, 21], verdict: "free", cost: 2, reason: "free", causes: [] },
+    { move: "right", cell: null, verdict: "off_road", cost: null, reason: "off_road", causes: [] },
+  ],
+};
+
+test("a place is told as seen from the vehicle", () => {
+  assert.equal(placeWords(world, [4, 17]), "lane 5, its own, 3 rows ahead");
+  assert.equal(placeWords(world, [2, 21]), "lane 3, 1 row behind");
+  assert.equal(placeWords(world, [1, 20]), "lane 2, beside it on the left");
+  assert.equal(placeWords(world, [4, 20]), "lane 5, 20 rows to go");
+});
+
+test("a cell is said with what is in it, for those who do not see it", () => {
+  assert.equal(cellWords(world, [3, 15]), "lane 4, 5 rows ahead: pothole");
+  assert.equal(cellWords(world, [2, 19]), "lane 3, 1 row ahead: car, heading right");
+  assert.equal(cellWords(world, [0, 0]), "lane 1, 20 rows ahead: free");
+});
+
+test("heading is told of what moves by itself", () => {
+  assert.equal(headingWords({ kind: "pedestrian", heading: "left", disabled: false }), "walking left");
+  assert.equal(headingWords({ kind: "vehicle", heading: "left", disabled: true }), "held by a pothole");
+  assert.equal(headingWords({ kind: "pothole", heading: null, disabled: false }), "");
+});
+
+test("of two in a cell the one on top is meant", () => {
+  const both = worldOf(
+    wireState({ hazards: [{ id: "pothole-9", kind: "pothole", cell: [2, 19] }] }),
+  );
+  assert.equal(thingIn(both, [2, 19]).id, "vehicle-1");
+  assert.equal(thingIn(both, [7, 7]), null);
+});
+
+test("what is seen between two cells is pointed at where it is seen", () => {
+  const thing = world.things.get("vehicle-1");
+  const places = {
+    cellAt: (x, y) => [Math.floor(x / 10), Math.floor(y / 10)],
+    placeOf: ([column, row]) => ({ left: column * 10, top: row * 10, width: 10, height: 10 }),
+    poses: () => [{ thing, column: 1.5, row: 19 }],
+  };
+  assert.equal(thingAt(places, world, 20, 195)?.id, "vehicle-1");
+  assert.equal(thingAt(places, world, 29, 195), null);
+  assert.equal(thingAt({ ...places, poses: undefined }, world, 29, 195)?.id, "vehicle-1");
+});
+
+test("what was decided about a thing comes from the trace, and from less where there is less", () => {
+  assert.equal(decidedAbout(decision, "pothole-1"), "It ruled out forward: a pothole. So the move was forward left.");
+  const brief = { ...decision, options: undefined };
+  assert.equal(decidedAbout(brief, "pothole-1"), "Because of it the move was forward left: a pothole.");
+  assert.equal(decidedAbout(decision, "vehicle-1"), null);
+  assert.equal(decidedAbout(null, "pothole-1"), null);
+});
+
+test("a cell that a move led to is told with that move", () => {
+  assert.match(decidedOn(decision, [4, 20]).text, /\(forward\) was ruled out: a pothole/);
+  assert.match(decidedOn(decision, [3, 21]).text, /\(left\) was possible; forward left was preferred/);
+  assert.equal(decidedOn(decision, [3, 20]).taken, true);
+  assert.equal(decidedOn(decision, [0, 0]), null);
+});
+
+test("a thing is offered away, and to be imagined away, by its id", () => {
+  const told = tellOf({ kind: "cell", cell: [3, 15], id: "pothole-1" }, { ...INITIAL, world, decision }, decision);
+  assert.equal(told.title, "pothole");
+  assert.equal(told.note, "pothole-1");
+  const [why, whatIf, remove] = told.offers;
+  assert.deepEqual(why.act.actions, [{ do: "ask", about: "why", tick: 9 }]);
+  assert.deepEqual(whatIf.pick, {
+    kind: "change",
+    tick: null,
+    actions: removing({ kind: "pothole", id: "pothole-1" }),
+    label: "If pothole-1 wasn’t there",
+  });
+  assert.deepEqual(remove.act.actions, [{ do: "remove", kind: "pothole", count: 1, where: { id: "pothole-1" } }]);
+});
+
+test("free road is offered for what fits, and the move that led there can be asked about", () => {
+  const state = { ...INITIAL, world, decision };
+  const told = tellOf({ kind: "cell", cell: [3, 21], id: null }, state, decision);
+  assert.deepEqual(told.offers.map(({ text }) => text), ["What if it had gone here?", "Ask why not", "Pothole", "Barrier", "Car", "Walker"]);
+  assert.deepEqual(told.offers[0].pick, { kind: "move", tick: 9, move: "left" });
+  assert.deepEqual(told.offers[1].act.actions, [{ do: "ask", about: "why_not", tick: 9, move: "left" }]);
+});
+
+test("of a decision the moves that could have been driven can be watched", () => {
+  const told = tellOf({ kind: "decision", tick: 9 }, { ...INITIAL, world }, decision);
+  assert.deepEqual(told.moves.map(({ move }) => move), ["forward", "left"]);
+  assert.deepEqual(told.lines, [decision.narration]);
+  assert.equal(tellOf({ kind: "decision", tick: 9 }, INITIAL, null), null);
+});
+
+test("a thing is moved in one utterance", () => {
+  const thing = world.things.get("pothole-1");
+  assert.deepEqual(moving(thing, [1, 2]), [...removing(thing), ...placing("pothole", [1, 2])]);
+  assert.equal(isLoose(thing), true);
+  assert.equal(isLoose(world.things.get("av-1")), false);
+  assert.equal(isLoose(null), false);
+});
+
+test("what is in the way is told before the service is asked", () => {
+  assert.equal(hindrance(world, "barrier", [0, 0]), null);
+  assert.equal(hindrance(world, "barrier", [8, 0]), "That is off the road.");
+  assert.equal(hindrance(world, "barrier", [4, 20]), "There is the vehicle already.");
+  assert.equal(hindrance(world, "barrier", [2, 19]), "There is a car already.");
+  assert.equal(hindrance(world, "pothole", [2, 19]), null, "a pothole may open under one that moves");
+  assert.equal(hindrance(world, "pothole", [3, 15], "pothole-1"), null, "a thing is not in its own way");
+  assert.equal(onRoad(world, [-1, 3]), false);
+});
+
+test("arrows held together are a diagonal, left and right together nothing", () => {
+  assert.equal(moveOf(["ArrowUp"]), "forward");
+  assert.equal(moveOf(["ArrowUp", "ArrowLeft"]), "forward_left");
+  assert.equal(moveOf(["ArrowRight", "ArrowUp"]), "forward_right");
+  assert.equal(moveOf(["ArrowLeft"]), "left");
+  assert.equal(moveOf(["ArrowLeft", "ArrowRight"]), null);
+  assert.equal(moveOf(["9"]), "forward_right");
+  assert.equal(moveOf(["s"]), moveOf(["ArrowDown"]));
+  assert.equal(moveOf([]), null);
+  assert.equal(isDriving("toString"), false);
+});
+
+const SIDE = (moves, end) => ({
+  state: wireState({ tick: 9 }),
+  ticks: moves.map((move, at) => ({
+    tick: 10 + at,
+    episode: 1,
+    status: at === moves.length - 1 ? end.outcome : "running",
+    vehicles: { "av-1": [4, 19 - at] },
+    moved: {},
+    turned: {},
+    decision: { tick: 9 + at, move, reason: "free", causes: [], planner: "priority", weight: 0 },
+    cause: at === moves.length - 1 ? end.cause : null,
+  })),
+  end: { by_hand: false, waited: 0, digest: "d", tick: 9 + moves.length, driven: moves.length, cause: null, ...end },
+});
+const CRASH = { outcome: "crash", cause: { kind: "pothole", how: "hit", ids: ["pothole-1"], cell: [4, 18] } };
+const TOLD = {
+  at_tick: 9,
+  instead_of: "left",
+  said_since: 0,
+  real: SIDE(["left", "forward", "forward"], { outcome: "success" }),
+  changed: SIDE(["forward", "forward"], CRASH),
+};
+const answering = (value, ok = true) => {
+  const asked = [];
+  const http = async (path, more) => {
+    asked.push([path, more?.body && JSON.parse(more.body)]);
+    return { ok, status: ok ? 200 : 422, json: async () => value };
+  };
+  return { http, asked };
+};
+
+test("both runs come as worlds in step", async () => {
+  const { http, asked } = answering(TOLD);
+  const found = await fetchBeside("s 1", { kind: "move", tick: 9, move: "forward" }, http);
+  assert.deepEqual(asked, [["/api/v1/sessions/s%201/counterfactual", { move: "forward", at_tick: 9 }]]);
+  assert.deepEqual(found.real.frames.map(({ world }) => world.tick), [9, 10, 11, 12]);
+  assert.deepEqual(found.changed.frames.at(-1).world.things.get("av-1").cell, [4, 18]);
+  assert.equal(found.changed.frames.at(-1).world.status, "crash");
+  assert.deepEqual(found.changed.frames.at(-1).world.cause.ids, ["pothole-1"]);
+  assert.deepEqual(partOf(found), { at: 1, tick: 9, real: "left", changed: "forward" });
+  assert.equal(sumOf(found), "At tick 9 it goes forward instead of going left. It crashes into a pothole at tick 11; in the real run it arrives after 3 ticks.");
+});
+
+test("a change now is sent without a tick", async () => {
+  const { http, asked } = answering({ ...TOLD, changed: TOLD.real });
+  const actions = [{ do: "reset" }];
+  const found = await fetchBeside("s1", { kind: "change", tick: null, actions, label: "x" }, http);
+  assert.deepEqual(asked[0][1], { actions });
+  assert.equal(partOf(found), null);
+  assert.equal(sumOf(found), "It is driven the same way. It arrives at the same tick.");
+});
+
+test("how much later or earlier it arrives is told", () => {
+  const side = (driven) => ({ frames: [], end: { outcome: "success", driven } });
+  const found = { tick: 1, insteadOf: null, saidSince: 2, real: side(10), changed: side(11) };
+  assert.match(sumOf(found), /It arrives 1 tick later\. What was said after that tick is left out of both\./);
+  assert.match(sumOf({ ...found, changed: side(7) }), /It arrives 3 ticks earlier\./);
+});
+
+test("a refusal is told with its reason, and a service that is not there too", async () => {
+  const { http } = answering({ detail: "no", errors: [{ field: "move", message: "That move leads off the road." }] }, false);
+  await assert.rejects(fetchBeside("s1", { kind: "move", tick: 1, move: "left" }, http), /leads off the road/);
+  const gone = async () => {
+    throw new TypeError("network");
+  };
+  await assert.rejects(fetchDecision("s1", 3, undefined, gone), /cannot be reached/);
+});
+
+test("ends, titles and names are in words", () => {
+  assert.equal(endWords({ outcome: "success", driven: 1, tick: 5 }), "arrives after 1 tick");
+  assert.equal(endWords({ outcome: "stuck", driven: 200, tick: 5 }), "is stuck after 200 ticks");
+  assert.equal(endWords({ outcome: "running", driven: 9, tick: 5 }), "goes on too long to tell");
+  const move = { kind: "move", tick: 4, move: "stay" };
+  assert.equal(titleOf(move, { tick: 4 }), "If it had waited at tick 4");
+  assert.equal(titleOf({ ...move, move: "left" }, { tick: 4 }), "If it had gone left at tick 4");
+  assert.equal(nameOfOther(move), "If it waits");
+  assert.equal(labelOf([{ do: "remove", kind: "pothole", count: "all" }]), "If there were no potholes");
+  assert.equal(labelOf([{ do: "remove", kind: "everything", count: "all" }]), "If the road were empty");
+  assert.equal(labelOf([{ do: "add", kind: "pothole", count: 1 }]), "With that change");
+});
