@@ -7,7 +7,11 @@ import pygame
 from sim.kinds import Outcome
 from sim.run import Run
 from sim.view import theme
-from sim.view.text import written
+from sim.view.text import width_of, written
+
+LEAST_PX = 24
+MOST_PX = 42
+"""Height of the strip of figures; where it is too narrow for all of them, the last are left out."""
 
 
 def draw_figures(picture: pygame.Surface, run: Run, unit_px: int) -> None:
@@ -21,13 +25,18 @@ def draw_figures(picture: pygame.Surface, run: Run, unit_px: int) -> None:
         ("episode", str(world.episode)),
         ("arrived", "–" if rate is None else f"{rate:.0%}"),
     ]
-    height, width = max(18, int(unit_px * 0.5)), picture.get_width()
+    height, width = max(LEAST_PX, min(MOST_PX, int(unit_px * 0.45))), picture.get_width()
     strip = pygame.Surface((width, height), pygame.SRCALPHA)
     strip.fill(theme.PANEL)
+    name_px, figure_px = int(height * 0.55), int(height * 0.68)
+    room = height // 5 + 2 * height // 5
+    needs = [width_of(name, name_px) + width_of(figure, figure_px) + room for name, figure in figures]
+    while len(figures) > 1 and max(needs[: len(figures)]) * len(figures) > width:
+        figures.pop()
     share = width // len(figures)
     for n, (label, value) in enumerate(figures):
-        name = written(label, int(height * 0.5), theme.TEXT_QUIET)
-        figure = written(value, int(height * 0.62), theme.TEXT)
+        name = written(label, name_px, theme.TEXT_QUIET)
+        figure = written(value, figure_px, theme.TEXT)
         x = n * share + (share - name.get_width() - figure.get_width() - height // 5) // 2
         strip.blit(name, (x, (height - name.get_height()) // 2 + 1))
         strip.blit(figure, (x + name.get_width() + height // 5, (height - figure.get_height()) // 2))

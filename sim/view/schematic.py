@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import pygame
 
 from sim.kinds import Kind
@@ -18,16 +20,22 @@ def draw_schematic(run: Run, size: tuple[int, int] | None) -> pygame.Surface:
     width, height = size or (MAX_SIDE_PX, MAX_SIDE_PX)
     fitting = max(1, min(width // road.columns, height // road.rows))
     px = min(fitting, CELL_PX) if size is None else fitting
-    picture = pygame.Surface((road.columns * px, road.rows * px))
-    picture.fill(theme.SCHEMATIC_GRID)
-    gap = 1 if px >= 6 else 0
-    for row in range(road.rows):
-        for column in range(road.columns):
-            colour = theme.FINISH[column % 2] if row == 0 else theme.SCHEMATIC_ROAD
-            picture.fill(colour, (column * px, row * px, px - gap, px - gap))
+    picture = _empty(road.columns, road.rows, px).copy()
     for thing in run.world.things():
         _spot(picture, thing.kind, thing.cell, px)
     _spot(picture, Kind.AV, road.cell(run.world.av), px)
+    return picture
+
+
+@lru_cache(maxsize=4)
+def _empty(columns: int, rows: int, px: int) -> pygame.Surface:
+    picture = pygame.Surface((columns * px, rows * px))
+    picture.fill(theme.SCHEMATIC_GRID)
+    gap = 1 if px >= 6 else 0
+    for row in range(rows):
+        for column in range(columns):
+            colour = theme.FINISH[column % 2] if row == 0 else theme.SCHEMATIC_ROAD
+            picture.fill(colour, (column * px, row * px, px - gap, px - gap))
     return picture
 
 

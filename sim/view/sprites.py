@@ -22,7 +22,7 @@ _SPRITES = 512
 @lru_cache(maxsize=_SPRITES)
 def av_sprite(px: int) -> pygame.Surface:
     """The autonomous vehicle, facing up the road."""
-    return _car(px, theme.AV, theme.AV_GLASS, lights=True)
+    return _shadowed(_car(px, theme.AV, theme.AV_GLASS, lights=True))
 
 
 @lru_cache(maxsize=_SPRITES)
@@ -30,7 +30,7 @@ def vehicle_sprite(px: int, look: int, heading: str, disabled: bool) -> pygame.S
     """An obstacle vehicle facing `heading`; `look` picks its colour."""
     colour = theme.DISABLED if disabled else theme.VEHICLES[look % len(theme.VEHICLES)]
     sprite = _car(px, colour, theme.GLASS, lights=not disabled)
-    return pygame.transform.rotate(sprite, 90 if heading == "left" else -90)
+    return _shadowed(pygame.transform.rotate(sprite, 90 if heading == "left" else -90))
 
 
 @lru_cache(maxsize=_SPRITES)
@@ -129,12 +129,6 @@ def _car(px: int, colour: Colour, glass: Colour, *, lights: bool) -> pygame.Surf
     canvas, unit = _canvas(px)
     body = pygame.Rect(0, 0, int(unit * 0.5), int(unit * 0.82))
     body.center = canvas.get_rect().center
-    pygame.draw.rect(
-        canvas,
-        (0, 0, 0, 90),
-        body.inflate(unit // 20, unit // 24).move(unit // 22, unit // 18),
-        border_radius=unit // 6,
-    )
     wheel = pygame.Rect(0, 0, unit // 14, unit // 6)
     for side in (body.left, body.right):
         for end in (body.top + unit // 5, body.bottom - unit // 5):
@@ -162,6 +156,18 @@ def _car(px: int, colour: Colour, glass: Colour, *, lights: bool) -> pygame.Surf
                 canvas, (*theme.TAILLIGHT, 255), (x, body.bottom - unit * 0.03), (unit * 0.1, unit * 0.045)
             )
     return _smoothed(canvas, px)
+
+
+def _shadowed(sprite: pygame.Surface) -> pygame.Surface:
+    """The same over its shadow, which falls the same way whichever way it faces."""
+    width, height = sprite.get_size()
+    shape = pygame.mask.from_surface(sprite).to_surface(setcolor=(0, 0, 0, 110), unsetcolor=(0, 0, 0, 0))
+    soft = (max(1, width // 5), max(1, height // 5))
+    shadow = pygame.transform.smoothscale(pygame.transform.smoothscale(shape, soft), (width, height))
+    whole = pygame.Surface((width, height), pygame.SRCALPHA)
+    whole.blit(shadow, (width // 22, height // 15))
+    whole.blit(sprite, (0, 0))
+    return whole
 
 
 def _canvas(px: int) -> tuple[pygame.Surface, int]:

@@ -59,3 +59,44 @@ SCHEMATIC: Final[dict[str, Colour]] = {
     "pothole": (240, 200, 70),
     "barrier": (240, 122, 48),
 }
+
+REASONS: Final[dict[str, str]] = {
+    "free": "free",
+    "off_road": "off the road",
+    "pothole": "pothole",
+    "barrier": "barrier",
+    "disabled_mover": "broken down",
+    "mover_stays": "in the way",
+    "mover_enters": "coming",
+    "mover_swaps": "head-on",
+}
+"""why a move is not taken, in a few words; who it is stands before those about movers"""
+MOVES: Final[dict[str, str]] = {
+    "forward": "forward",
+    "left": "left",
+    "right": "right",
+    "forward_left": "forward left",
+    "forward_right": "forward right",
+    "stay": "stay",
+}
+
+BODY: Final[Colour] = (24, 27, 32)
+"""behind views that are no road"""
+OFF_ROAD: Final[Colour] = (30, 38, 34)
+ZERO: Final[Colour] = (74, 80, 90)
+ON_KIND: Final[Colour] = (16, 18, 22)
+"""writing on the colour of a kind"""
+REFUSED: Final[Colour] = (240, 108, 98)
+EXPECTED: Final[Colour] = (150, 160, 176)
+LINES: Final[dict[str, Colour]] = {
+    "crashed": OUTCOMES["crash"],
+    "failed": OUTCOMES["crash"],
+    "planner_failed": OUTCOMES["crash"],
+    "arrived": OUTCOMES["success"],
+    "stuck": OUTCOMES["stuck"],
+    "held_back": OUTCOMES["stuck"],
+    "changed": (120, 170, 255),
+    "taught": (120, 170, 255),
+    "forgotten": (120, 170, 255),
+}
+"""colours of lines of the log by their type; the rest is plain"""

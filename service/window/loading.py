@@ -1,0 +1,78 @@
+"""The language and its words, read beside the first picture: they take a second."""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from service.sessions.words import Words
+    from service.talk.languages import Languages
+
+
+@dataclass(frozen=True, slots=True)
+class Loaded:
+    """What a game needs to understand and to answer."""
+
+    languages: Languages
+    words: Words
+
+
+def load() -> Loaded:
+    """Read it all, here and now. Raises `LanguageDataError` and `FileNotFoundError` for unfit data."""
+    from service.actions import Hide, Show
+    from service.language import Language
+    from service.narrate import Narrator
+    from service.sessions.availability import refusal
+    from service.talk.languages import DEFAULT, Languages
+    from service.window import game  # noqa: F401 - all that a game imports, too
+
+    def offered(action: object) -> bool:
+        return isinstance(action, Show | Hide) or refusal(action) is None  # type: ignore[arg-type]
+
+    grammar = Language.load(DEFAULT, offered=offered)
+    grammar.suggestions.nearest("", frozenset())  # ready before anyone is refused
+    languages = Languages({DEFAULT: grammar})
+    guide = languages.guide(DEFAULT)
+    if guide is not None:
+        from service.language.topic import ALONE
+
+        guide.completions("a", None, ALONE, [])
+    return Loaded(languages, Narrator.load(DEFAULT))
+
+
+@dataclass
+class Loading:
+    """Reading it in a thread of its own."""
+
+    _found: list[Loaded] = field(default_factory=list)
+    _failed: list[BaseException] = field(default_factory=list)
+    _thread: threading.Thread | None = None
+
+    def begin(self) -> None:
+        """Begin, once."""
+        if self._thread is None:
+            self._thread = threading.Thread(target=self._work, name="loading", daemon=True)
+            self._thread.start()
+
+    def _work(self) -> None:
+        try:
+            self._found.append(load())
+        except (ImportError, OSError, ValueError, KeyError) as error:
+            self._failed.append(error)
+
+    def ready(self) -> Loaded | None:
+        """What was read, or None while it is being read. Raises what went wrong with it."""
+        if self._failed:
+            raise self._failed[0]
+        return self._found[0] if self._found else None
+
+    def wait(self) -> Loaded:
+        """What was read, waiting for it."""
+        self.begin()
+        assert self._thread is not None
+        self._thread.join()
+        loaded = self.ready()
+        assert loaded is not None
+        return loaded
