@@ -1,6 +1,6 @@
 """What is expected and what was lost: `forecast`, `regret`. Beside the live path, for who asks.
 
-Leaves out what the vehicle itself will do (`/ask` about `next`), and reasons (`decisions`).
+Leaves out the same in words (`/ask` about `next`).
 """
 
 from __future__ import annotations
@@ -13,16 +13,18 @@ from fastapi import APIRouter, Query, Response
 from pydantic import Field
 
 from service.api.bodies import Tick
-from service.api.context import TheSession
+from service.api.context import Here, TheSession
 from service.api.errors import documented, invalid
 from service.api.respond import StrictRoute, json_response
-from service.api.shapes import Answered, CellPair
+from service.api.shapes import Answered, CellPair, Decision
+from service.api.views import told_decision
 from service.problems import FieldProblem, Invalid, NotRestorable, UnknownSession
 from sim.forecast import foretell
 from sim.kinds import Move
 from sim.optimum.regret import regret
 from sim.perceive import perceive
-from sim.run import decide
+from sim.plan import Decision as Taken
+from sim.run import Run, decide
 from sim.timeline import Timeline
 
 router = APIRouter(tags=["watching"], route_class=StrictRoute)
@@ -43,9 +45,10 @@ class ExpectedTick(Answered):
 
 
 class Expected(Answered):
-    """What is expected of the movers."""
+    """What is expected at a tick: what the vehicle is about to do, and where the movers will be."""
 
-    tick: Tick = Field(description="The tick it is told at.")
+    tick: Tick
+    decision: Decision | None = Field(description="The decision taken at it; null where a result stands.")
     exact: bool = Field(description="Whether it is sure: false where who gives way is left to chance.")
     ahead: list[ExpectedTick]
 
@@ -73,19 +76,24 @@ class Judged(Answered):
 @router.get(
     "/sessions/{session_id}/forecast",
     response_model=Expected,
-    summary="Where movers are expected next",
+    summary="What is about to happen",
     responses=documented(UnknownSession, Invalid, NotRestorable),
 )
 async def forecast(
-    session: TheSession, ticks: Annotated[int, Query(ge=1, le=MOST_AHEAD, description="How far ahead.")] = 1
+    session: TheSession,
+    here: Here,
+    ticks: Annotated[int, Query(ge=1, le=MOST_AHEAD, description="How far ahead.")] = 1,
+    tick: Annotated[int | None, Query(ge=0, le=_MOST, description="At an earlier tick than now.")] = None,
 ) -> Response:
-    """Movers rolled out by the rules of motion from the present on, as the planners see it.
+    """What the vehicle decides at a tick, and the movers rolled out from there as the planners see it.
 
-    The first tick is exact; later ones suppose that nobody gives way to the vehicle.
+    Their first tick is exact; later ones suppose that nobody gives way to the vehicle.
     """
-    run = session.run
-    percept = perceive(run.world, run.config)
-    expected = foretell(percept, ticks)
+    way = session.timeline.copy()
+    if tick is not None and tick > way.tick:
+        raise invalid([FieldProblem("tick", f"has not come yet: it is tick {way.tick}")])
+    run, decision = await to_thread.run_sync(_decided, way, tick)
+    expected = foretell(perceive(run.world, run.config), ticks)
     road, now = run.world.road, run.world.tick
     ahead = [
         {
@@ -94,7 +102,9 @@ async def forecast(
         }
         for each in range(ticks)
     ]
-    return json_response({"tick": now, "exact": ticks == 1 or run.config.courtesy == 0.0, "ahead": ahead})
+    told = None if decision is None else told_decision(here.words, run, decision)
+    exact = ticks == 1 or run.config.courtesy == 0.0
+    return json_response({"tick": now, "decision": told, "exact": exact, "ahead": ahead})
 
 
 @router.get(
@@ -131,3 +141,8 @@ def _judged(way: Timeline, first: int, stop: int) -> Iterator[dict[str, Any]]:
             "cost": loss.cost,
             "lost": loss.lost,
         }
+
+
+def _decided(way: Timeline, tick: int | None) -> tuple[Run, Taken | None]:
+    run = way.run if tick is None else way.at(tick)
+    return run, decide(run)

@@ -34,6 +34,19 @@ async def test_what_is_foretold_happens(service: Service) -> None:
         assert expected["movers"] == {mover["id"]: mover["cell"] for mover in state["movers"]}
 
 
+async def test_what_is_about_to_be_decided_is_decided(service: Service) -> None:
+    path = await stepped(service, 3)
+    for tick in range(3, 12):
+        told = await asked(service, f"{path}/forecast")
+        await service.client.post(f"{path}/step", json={"ticks": 1})
+        assert told["decision"] == await asked(service, f"{path}/decisions/{tick}")
+    assert await asked(service, f"{path}/forecast", tick=11) == told
+    await service.client.post(f"{path}/step", json={"ticks": 100})
+    states = [await asked(service, f"{path}/state", tick=tick) for tick in range(12, 112)]
+    ended = next(state["tick"] for state in states if state["status"] != "running")
+    assert (await asked(service, f"{path}/forecast", tick=ended))["decision"] is None
+
+
 async def test_what_is_left_to_chance_is_not_called_exact(service: Service) -> None:
     path = await stepped(service, 1)
     await service.act(path, {"do": "set", "parameter": "courtesy", "value": 0.5})
@@ -85,6 +98,7 @@ async def test_a_move_that_closes_the_road_is_told_as_lost(service: Service) -> 
     [
         ("forecast", {"ticks": 0}),
         ("forecast", {"ticks": 17}),
+        ("forecast", {"tick": 3}),
         ("regret", {"from": 99}),
         ("regret", {"from": -1}),
         ("regret", {"limit": 201}),
