@@ -29,6 +29,7 @@ from service.security.guard import exposed
 from service.settings import Settings
 from service.store import Store, StoreError, open_store
 from service.version import VERSION
+from service.window.command import play
 from sim import planner_names
 
 STOP_S = 1
@@ -150,7 +151,7 @@ def language_eval(
         raise typer.Exit(1)
 
 
-for _command in (say, watch, replay, sessions, doctor):
+for _command in (say, watch, replay, sessions, doctor, play):
     cli.command()(_command)
 
 
