@@ -33,8 +33,19 @@ export function createLog(host) {
     if (on) list.scrollTop = list.scrollHeight;
   }
 
+  /** The line of the decision that led to what is looked at. @param {number | null} tick */
+  function lookedAt(tick) {
+    list.querySelector("[data-looked]")?.removeAttribute("data-looked");
+    if (tick === null) return follow(true);
+    const found = [...rows.values()].findLast(({ line }) => line.from <= tick && tick <= line.to);
+    if (!found) return;
+    found.row.setAttribute("data-looked", "");
+    list.scrollTop = found.row.offsetTop - list.offsetTop - list.clientHeight / 2;
+  }
+
   return {
-    update({ log }, before) {
+    update({ log, past }, before) {
+      if (past !== before.past) lookedAt(past && past.world.tick - 1);
       if (log === before.log) return;
       const kept = new Set(log.map(({ key }) => key));
       for (const [key, { row }] of rows) {

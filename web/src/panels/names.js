@@ -80,8 +80,12 @@ function momentsDialog(page, looking) {
       { class: "row" },
       make("span", { class: "row-name" }, called),
       make("span", { class: "row-note" }, `tick ${tick}`),
-      tick < now && make("button", { class: "button small", type: "button", "aria-label": `Look at ${called}`, onclick: look }, "Look"),
-      make("button", { class: "button small", type: "button", "aria-label": `Go back to ${called}`, title: "It becomes the present; one undo takes that back", onclick: go }, "Go back"),
+      make(
+        "span",
+        { class: "row-do" },
+        tick < now && make("button", { class: "button small", type: "button", "aria-label": `Look at ${called}`, onclick: look }, "Look"),
+        make("button", { class: "button small", type: "button", "aria-label": `Go back to ${called}`, title: "It becomes the present; one undo takes that back", onclick: go }, "Go back"),
+      ),
     );
   }
 
@@ -153,13 +157,13 @@ function sessionsDialog(page) {
       { class: "row", "data-session": id },
       make("a", { class: "row-name", href: hashOf(id), "aria-current": here ? "true" : undefined, onclick: () => dialog.close() }, called, here && make("span", { class: "row-here" }, "this one")),
       make("span", { class: "row-note" }, `tick ${tick} · seed ${seed} · ${when}`),
-      remove,
+      make("span", { class: "row-do" }, remove),
     );
 
     function confirm() {
       const keep = make("button", { class: "button small", type: "button", onclick: () => asked.replaceWith(remove) }, "Keep");
       const sure = make("button", { class: "button small danger", type: "button", "aria-label": `Delete ${called} for good`, onclick: () => void gone() }, "Delete for good");
-      const asked = make("span", { class: "row-sure" }, keep, sure);
+      const asked = make("span", { class: "row-do" }, keep, sure);
       remove.replaceWith(asked);
       keep.focus();
     }

@@ -29,7 +29,7 @@ const MENU = [
  */
 export function createShare(host, page, looking) {
   const origin = make("a", { class: "origin", hidden: true }, icon("fork"), make("span", { class: "origin-text" }));
-  host.before(origin);
+  host.parentElement?.prepend(origin);
   createMenu(host, "Session", () => {
     const acts = page.acts();
     const items = MENU.map((name) => {

@@ -5,19 +5,21 @@ import { make, setText } from "../dom.js";
 import { words } from "../http.js";
 import { icon } from "../icons.js";
 import { localHistory } from "../history.js";
+import { byLoudness, JUMPS, marksIn, markWords, nextMark, spanOf } from "../marks.js";
 import { drawLine, HEIGHT, tickAt, xOf } from "../paint/line.js";
 import { Run } from "../run.js";
-import { byLoudness, JUMPS, marksIn, markWords, nextMark, spanOf } from "../time.js";
 import { clock } from "../words.js";
 
 /** @import { Act } from "../acts.js" */
 /** @import { Page } from "../main.js" */
 /** @import { Looking } from "../past.js" */
 /** @import { Inks } from "../paint/line.js" */
+/** @import { Mark } from "../time.js" */
 /** @import { Panel } from "./index.js" */
 
 const NEAR_PX = 5;
 const LEAP = 10;
+const MOST_TOLD = 4;
 
 /**
  * @param {HTMLElement} host
@@ -88,10 +90,17 @@ export function createTimeline(host, page, looking) {
 
   const line = () => ({ width, span: spanOf(run.chart.now) });
 
-  /** Marks at a tick, or near it where ticks are narrower than a finger. @param {number} tick */
+  /** What is at a tick, or near it where ticks are narrower than a finger: of each kind the nearest. @param {number} tick */
   function near(tick) {
     const reach = Math.floor((NEAR_PX / Math.max(1, width)) * line().span);
-    return byLoudness(marksIn(run.chart.marks(), tick - reach, tick + reach)).filter(({ kind }) => kind !== "episode" || reach < 3);
+    const distance = (/** @type {Mark} */ { tick: at, ticks = 1 }) => Math.max(at - tick, tick - at - ticks + 1, 0);
+    const all = marksIn(run.chart.marks(), tick - reach, tick + reach).filter(({ kind }) => kind !== "episode" || reach < 3);
+    const kinds = [...new Set(byLoudness(all).map(({ kind }) => kind))];
+    return kinds.map((kind) => {
+      const alike = all.filter((mark) => mark.kind === kind).sort((a, b) => distance(a) - distance(b));
+      const at = distance(alike[0]) > 0 ? ` (tick ${alike[0].tick})` : "";
+      return `${markWords(alike[0])}${at}${alike.length > 1 ? ` · ${alike.length} near here` : ""}`;
+    });
   }
 
   // Touching
@@ -165,8 +174,7 @@ export function createTimeline(host, page, looking) {
     tip.replaceChildren(
       make("b", {}, `Tick ${shown}`),
       make("span", { class: "line-tip-time" }, clock(shown * stepS)),
-      ...marks.slice(0, 3).map((mark) => make("span", { class: "line-tip-mark", "data-kind": mark.kind }, mark.tick === shown || mark.ticks ? markWords(mark) : `${mark.tick}: ${markWords(mark)}`)),
-      marks.length > 3 ? make("span", { class: "line-tip-mark" }, `and ${marks.length - 3} more`) : "",
+      ...marks.slice(0, MOST_TOLD).map((mark) => make("span", { class: "line-tip-mark" }, mark)),
     );
     const x = Math.max(0, Math.min(width - tip.offsetWidth, xOf(line(), shown) - tip.offsetWidth / 2));
     tip.style.insetInlineStart = `${x}px`;

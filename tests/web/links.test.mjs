@@ -1,0 +1,75 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { fileName, filmPath, recordingIn, stretch } from "../../web/src/downloads.js";
+import { ask, askJson, Refused } from "../../web/src/http.js";
+import { forkAt, forks, hashOf, noteFork, placeInHash, shareLink } from "../../web/src/links.js";
+
+const page = new URL("http://localhost:8000/?x=1#/s/a");
+
+test("an address names a session, a moment of it, or carries one whole", () => {
+  assert.deepEqual(placeInHash("#/s/abc"), { session: "abc", tick: null });
+  assert.deepEqual(placeInHash(hashOf("a b", 40)), { session: "a b", tick: 40 });
+  assert.deepEqual(placeInHash("#/r/eJx-_9"), { carried: "#/r/eJx-_9" });
+  for (const hash of ["", "#", "#/s/", "#/s/a/b", "#/r/", "#/r/a b", "#/s/a/9999999999999999"]) assert.equal(placeInHash(hash), null, hash);
+});
+
+test("a link is made of the page's own address", async () => {
+  const asked = [];
+  const http = async (path) => {
+    asked.push(path);
+    return new Response(JSON.stringify({ link: "#/r/xyz", tick: 40, carries: true }));
+  };
+  assert.deepEqual(await shareLink(page, "a", 40, http), { url: "http://localhost:8000/#/r/xyz", tick: 40, carries: true });
+  await shareLink(page, "a", null, http);
+  assert.deepEqual(asked, ["/api/v1/sessions/a/link?tick=40", "/api/v1/sessions/a/link"]);
+});
+
+test("a fork says only what was wished for", async () => {
+  const bodies = [];
+  const http = async (_, { body }) => {
+    bodies.push(JSON.parse(body));
+    return new Response("{}", { status: 201 });
+  };
+  await forkAt("a", 7, true, http);
+  await forkAt("a", null, undefined, http);
+  assert.deepEqual(bodies, [{ at_tick: 7, paused: true }, {}]);
+});
+
+test("forks are remembered, and a storage that is full or broken does no harm", () => {
+  const kept = new Map();
+  const storage = { getItem: (key) => kept.get(key) ?? null, setItem: (key, value) => kept.set(key, value) };
+  for (let fork = 0; fork < 250; fork += 1) noteFork(storage, { child: `c${fork}`, parent: "p", tick: fork });
+  assert.equal(forks(storage).length, 200);
+  assert.equal(forks(storage).at(-1).child, "c249");
+  const broken = { getItem: () => "{", setItem: () => { throw new Error("full"); } };
+  noteFork(broken, { child: "c", parent: "p", tick: 1 });
+  assert.deepEqual([forks(broken), forks(null)], [[], []]);
+});
+
+test("a refusal is its own sentence, with the field that was wrong", async () => {
+  const refusing = (body, status = 422) => async () => new Response(typeof body === "string" ? body : JSON.stringify(body), { status });
+  await assert.rejects(askJson("/x", { http: refusing({ detail: "fps: too many.", errors: [] }) }), (error) => error instanceof Refused && error.status === 422 && error.message === "fps: too many.");
+  await assert.rejects(ask("/x", { http: refusing({ detail: "Two things are wrong.", errors: [{ field: "to", message: "has not come yet" }] }) }), /Two things are wrong\. to: has not come yet\./);
+  await assert.rejects(ask("/x", { http: refusing("<html>", 502) }), /answered 502/);
+  await assert.rejects(ask("/x", { http: async () => { throw new TypeError("failed"); } }), /cannot be reached/);
+});
+
+test("a film is of the latest ticks, or around the one that is looked at", () => {
+  assert.deepEqual(stretch(300, null), { from: 280, to: 300 });
+  assert.deepEqual(stretch(5, null), { from: 0, to: 5 });
+  assert.deepEqual(stretch(300, 100), { from: 90, to: 110 });
+  assert.deepEqual(stretch(300, 3), { from: 0, to: 20 });
+  assert.deepEqual(stretch(300, 298), { from: 280, to: 300 });
+  const wish = { from: 0, to: 20, format: "gif", view: "road", side: 480 };
+  assert.match(filmPath("a", wish, 0.5), /film\?from=0&to=20&format=gif&fps=12&view=road&side=480$/);
+  assert.match(filmPath("a", { ...wish, to: 160 }, 0.5), /fps=3&/);
+});
+
+test("a file that is no recording says what it is instead", () => {
+  assert.throws(() => recordingIn("{", "a.json"), /“a\.json” is no recording: it is not JSON/);
+  assert.throws(() => recordingIn("[1]", "b.json"), /does not say that it is one/);
+  assert.throws(() => recordingIn("null", "c.json"), /does not say that it is one/);
+  assert.equal(recordingIn('{"format":"roadtalk-recording"}', "d").format, "roadtalk-recording");
+  assert.equal(fileName("abcdefghijk", "tick-4", "png"), "roadtalk-abcdefgh-tick-4.png");
+});

@@ -1,0 +1,146 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { Looking, PAGE, pastOf } from "../../web/src/past.js";
+import { FakeClock, settle, wireState } from "./fakes.mjs";
+
+const NOW = 100;
+
+/** A service whose answers come when the test lets them. */
+class SlowService {
+  asked = [];
+  held = [];
+  failing = null;
+
+  http = (path) => {
+    const from = Number(/from=(\d+)/.exec(path)[1]);
+    this.asked.push(from);
+    const items = [];
+    for (let tick = from; tick < Math.min(from + PAGE, NOW + 1); tick += 1) {
+      items.push({ state: wireState({ tick }), decision: tick === 0 ? null : { tick: tick - 1, move: "forward", narration: `N${tick}`, options: [{ reason: "free", causes: ["c"] }] } });
+    }
+    const body = this.failing ?? { items, now: NOW };
+    const status = this.failing ? 503 : 200;
+    return new Promise((resolve) => this.held.push(() => resolve(new Response(JSON.stringify(body), { status }))));
+  };
+
+  async answer(which = 0) {
+    this.held.splice(which, 1)[0]();
+    for (let turn = 0; turn < 5; turn += 1) await settle();
+  }
+}
+
+function stage(now = NOW) {
+  const service = new SlowService();
+  const clock = new FakeClock();
+  const seen = [];
+  const failures = [];
+  const present = { session: "s1", tick: now, stepS: 0.5, pace: 2 };
+  const looking = new Looking({
+    present: () => present,
+    look: (past) => seen.push(past && past.world.tick),
+    failed: (error) => failures.push(error.message),
+    http: service.http,
+    later: clock.later,
+    cancel: clock.cancel,
+  });
+  return { service, clock, seen, failures, looking, present };
+}
+
+test("a moment is shown as a present would be: its decision with reason and causes", () => {
+  const past = pastOf({ state: wireState({ tick: 7 }), decision: { tick: 6, move: "stay", narration: "Waits.", options: [{ reason: "pothole", causes: ["pothole-1"] }] } });
+  assert.equal(past.world.tick, 7);
+  assert.deepEqual([past.decision.reason, past.decision.causes, past.narration], ["pothole", ["pothole-1"], "Waits."]);
+  assert.equal(pastOf({ state: wireState({ tick: 0 }), decision: null }).decision, null);
+});
+
+test("the latest wish wins, however the answers come", async () => {
+  const { service, seen, looking } = stage();
+  void looking.at(5);
+  void looking.at(40);
+  assert.equal(looking.tick, 40);
+  await service.answer(1);
+  await service.answer(0);
+  assert.deepEqual(seen, [40]);
+});
+
+test("a page is asked for once, and its ticks are there at once", async () => {
+  const { service, seen, looking } = stage();
+  void looking.at(36);
+  await service.answer();
+  const asked = service.asked.length;
+  for (const tick of [37, 38, 35]) await looking.at(tick);
+  assert.deepEqual(seen, [36, 37, 38, 35]);
+  assert.equal(service.asked.filter((from) => from === 32).length, 1);
+  assert.ok(asked <= 2, "and at most one page ahead");
+});
+
+test("what comes next is asked for before it is wished for", async () => {
+  const { service, looking } = stage();
+  void looking.at(44);
+  await service.answer();
+  assert.deepEqual(service.asked, [32, 48]);
+});
+
+test("at the present or beyond it one is back at the present", async () => {
+  const { service, seen, looking } = stage();
+  void looking.at(99);
+  await service.answer();
+  await looking.step(1);
+  assert.deepEqual([looking.tick, seen.at(-1)], [null, null]);
+  void looking.at(-5);
+  assert.equal(looking.tick, 0);
+});
+
+test("playing goes on at the session's speed and ends at the present", async () => {
+  const { service, clock, seen, looking } = stage();
+  void looking.at(97);
+  await service.answer();
+  looking.toggle();
+  for (let turn = 0; turn < 4; turn += 1) {
+    clock.pass(250);
+    await settle();
+    await settle();
+  }
+  assert.deepEqual(seen, [97, 98, 99, null]);
+  assert.equal(looking.playing, false);
+  assert.equal(clock.waiting, 0);
+});
+
+test("a refusal is told, and the present is shown again", async () => {
+  const { service, failures, looking } = stage();
+  service.failing = { title: "x", status: 503, detail: "The service is being stopped.", errors: [] };
+  void looking.at(10);
+  await service.answer();
+  assert.deepEqual(failures, ["The service is being stopped."]);
+  assert.equal(looking.tick, null);
+  service.failing = null;
+  void looking.at(10);
+  await service.answer();
+  assert.equal(looking.tick, 10);
+});
+
+test("a run that has become another is asked for anew", async () => {
+  const { service, looking, present, seen } = stage();
+  void looking.at(20);
+  await service.answer();
+  service.held.length = 0;
+  looking.rewritten();
+  await service.answer();
+  assert.deepEqual(seen, [20, 20]);
+  present.tick = 12;
+  looking.rewritten();
+  assert.deepEqual([looking.tick, seen.at(-1)], [null, null]);
+});
+
+test("time going on lengthens a page that ended at the present", async () => {
+  const { service, looking, present } = stage();
+  present.tick = 101;
+  void looking.at(98);
+  await service.answer();
+  assert.equal(service.asked[0], 96);
+  service.held.length = 0;
+  void looking.at(100);
+  await settle();
+  assert.equal(looking.tick, 100);
+});
