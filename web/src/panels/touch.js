@@ -149,7 +149,8 @@ export function createTouch(host, surface, places, page, card) {
   /** @param {Action[]} actions @param {string} label */
   function doing(actions, label) {
     if (page.state().past !== null) return tell("This is the past: go back to live, or fork here, to change the road.");
-    sent = page.act(actions, label, true);
+    // A thing moved changes no figure, and would not be listed if it were quiet.
+    sent = page.act(actions, label, actions.length === 1);
   }
 
   /** @param {string} text */
