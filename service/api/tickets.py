@@ -72,8 +72,12 @@ async def ticket(
 async def admitted(socket: WebSocket) -> bool:
     """Whether an accepted socket may go on; if not, it is closed. Reads its first message if need be."""
     guard = guard_of(socket)
-    if guard.key.admits(socket.headers.get("authorization")):
+    brought = socket.headers.get("authorization")
+    if guard.key.admits(brought):
         return True
+    if brought is not None:  # the wrong one; nothing else is waited for
+        await socket.close(REFUSED, "a key or a ticket is needed")
+        return False
     try:
         received = await asyncio.wait_for(socket.receive(), AUTH_WAIT_S)
     except TimeoutError:

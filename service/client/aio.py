@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncIterator, Mapping
+from collections.abc import AsyncGenerator, AsyncIterator, Mapping
+from contextlib import aclosing
 from types import TracebackType
 from typing import Any, Literal, TypeVar
 
@@ -12,7 +13,9 @@ from websockets.asyncio.client import connect
 
 from service.client import calls, media, results, unbound
 from service.client.calls import Call, Json
-from service.client.messages import FAILURES, MAX_MESSAGE_BYTES, Message, Watching
+from service.client.following import Events, Following
+from service.client.media import Picture
+from service.client.messages import FAILURES, MAX_MESSAGE_BYTES, Gone, Message, Watching
 from service.client.reading import Page
 from service.client.sync import DEFAULT_URL, PATIENCE_S, TIMEOUT_S
 
@@ -121,6 +124,21 @@ class AsyncClient:
 
     async def _watch(self, session: str, after: str | None, patience_s: float) -> AsyncIterator[Message]:
         watching = Watching(self.url, session, after, patience_s)
+        async with aclosing(self._received(watching)) as received:
+            async for data in received:
+                message = watching.take(data)
+                if message is not None:
+                    yield message
+
+    async def _pictures(self, session: str, patience_s: float, wanted: Json) -> AsyncIterator[Picture]:
+        watching = Watching(self.url, session, None, patience_s, wanted)
+        async with aclosing(self._received(watching)) as received:
+            async for data in received:
+                picture = watching.seen(data)
+                if picture is not None:
+                    yield picture
+
+    async def _received(self, watching: Watching) -> AsyncGenerator[str | bytes, None]:
         while True:
             try:
                 async with connect(
@@ -130,15 +148,35 @@ class AsyncClient:
                     max_size=MAX_MESSAGE_BYTES,
                 ) as socket:
                     watching.opened()
+                    if watching.greeting is not None:
+                        await socket.send(watching.greeting)
                     while True:
-                        message = watching.take(await socket.recv())
-                        if message is not None:
-                            yield message
+                        yield await socket.recv()
             except FAILURES as error:
                 delay_s = watching.lost(error)
                 if delay_s is None:
                     return
                 await asyncio.sleep(delay_s)
+
+    async def _follow(self, session: str, after: str | None, patience_s: float) -> AsyncIterator[Message]:
+        following = Following(self.url, session, after, patience_s)
+        while True:
+            ended: Exception = httpx.RemoteProtocolError("the stream ended")
+            try:
+                async with self._http.stream(**following.request(self._timeout_s)) as response:
+                    if not response.is_success:
+                        await response.aread()
+                        raise calls.problem(response)
+                    following.answered(response)
+                    events = Events()
+                    async for part in response.aiter_bytes():
+                        for message in events.messages(part, following):
+                            yield message
+                            if isinstance(message, Gone):
+                                return
+            except httpx.TransportError as error:
+                ended = error
+            await asyncio.sleep(following.lost(ended) or 0)
 
 
 class AsyncSession:
@@ -266,6 +304,23 @@ class AsyncSession:
         of a message (in its `raw`), to go on from.
         """
         return self._client._watch(self.id, after, patience_s)
+
+    def follow(self, *, after: str | None = None, patience_s: float = PATIENCE_S) -> AsyncIterator[Message]:
+        """The same as `watch`, by server-sent events: where no socket passes, or only reading is wanted."""
+        return self._client._follow(self.id, after, patience_s)
+
+    def pictures(
+        self,
+        *,
+        form: Literal["jpeg", "webp"] = "jpeg",
+        view: Literal["road", "schematic"] = "road",
+        fps: int = 30,
+        side: int = 480,
+        patience_s: float = PATIENCE_S,
+    ) -> AsyncIterator[Picture]:
+        """Pictures as they are drawn, at most `fps` a second; none while nothing moves."""
+        wanted = {"frames": form, "view": view, "fps": fps, "side": side}
+        return self._client._pictures(self.id, patience_s, wanted)
 
     async def delete(self) -> None:
         """End it and forget it."""

@@ -72,12 +72,12 @@ def answered(call: Call[T], response: httpx.Response, again: Callable[[Call[T]],
     """The answer as its type. Raises `Refused` for a problem, `UnexpectedAnswer` for anything else."""
     if response.is_success:
         return call.read(response)
-    problem = _problem(response)
+    refused = problem(response)
     if second and call.method == "DELETE" and response.status_code == 404:
         return call.read(response)  # the first try, whose answer was lost, has done it
-    if isinstance(problem, Ambiguous) and call.said is not None:
-        problem.again = lambda text: again(call.saying(text))
-    raise problem
+    if isinstance(refused, Ambiguous) and call.said is not None:
+        refused.again = lambda text: again(call.saying(text))
+    raise refused
 
 
 def unreachable(url: str, error: Exception) -> NotReachable:
@@ -98,7 +98,8 @@ def body_of(response: httpx.Response) -> Any:
         raise UnexpectedAnswer(f"What answers at {response.url.host} is not this service.") from None
 
 
-def _problem(response: httpx.Response) -> Refused:
+def problem(response: httpx.Response) -> Refused:
+    """What was refused. Raises `UnexpectedAnswer` where that is no problem document."""
     document = body_of(response)
     if not isinstance(document, dict) or "detail" not in document:
         raise UnexpectedAnswer(f"What answers at {response.url.host} is not this service.")

@@ -15,7 +15,8 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus, WebSocketExce
 
 from service.client import calls, reading
 from service.client.errors import NotReachable, Refused, RoadtalkError, UnexpectedAnswer, refusal
-from service.client.reading import Result
+from service.client.media import Picture, picture
+from service.client.reading import Json, Result
 from service.client.results import (
     BriefDecision,
     Cell,
@@ -111,10 +112,14 @@ _KINDS: dict[str, type[Message]] = {
 class Watching:
     """One watcher's place in the stream, kept over lost connections; sends and reads nothing itself."""
 
-    def __init__(self, url: str, session: str, after: str | None, patience_s: float) -> None:
+    def __init__(
+        self, url: str, session: str, after: str | None, patience_s: float, wanted: Json | None = None
+    ) -> None:
+        """`wanted`: which pictures are asked for; then nothing else is passed on."""
+        self.session = session
+        self.after = after
+        self.wanted = wanted
         self._url = url
-        self._session = session
-        self._after = after
         self._patience_s = patience_s
         self._connected = self._heard = False
         self._problem: Refused | None = None
@@ -125,12 +130,27 @@ class Watching:
     def address(self) -> str:
         """Where to connect: the last message that was seen is named, never a key."""
         base = "ws" + self._url.removeprefix("http")
-        query = "" if self._after is None else "?" + urlencode({"after": self._after})
-        return f"{base}{calls.PREFIX}/sessions/{quote(self._session, safe='')}/stream{query}"
+        query = "" if self.after is None else "?" + urlencode({"after": self.after})
+        return f"{base}{calls.PREFIX}/sessions/{quote(self.session, safe='')}/stream{query}"
 
     def opened(self) -> None:
         """Connected; where nothing was missed no message says so."""
         self._connected, self._lost_since = True, None
+
+    @property
+    def greeting(self) -> str | None:
+        """What is said first on every connection, if anything."""
+        return None if self.wanted is None else json.dumps({"type": "subscribe", **self.wanted})
+
+    def seen(self, data: str | bytes) -> Picture | None:
+        """What was received, where pictures are asked for. Raises `Refused` for those that cannot be had."""
+        if isinstance(data, bytes):
+            self._delay_s = FIRST_DELAY_S
+            return picture(data)
+        self.take(data)
+        if self._problem is not None:
+            raise self._problem
+        return None
 
     def take(self, data: str | bytes) -> Message | None:
         """What was received; None for what is not for the reader. Raises `UnexpectedAnswer`."""
@@ -149,7 +169,7 @@ class Watching:
         if isinstance(message, Hello):
             message = replace(message, resumed=self._heard)
         self._heard, self._delay_s = True, FIRST_DELAY_S
-        self._after = values.get("event", self._after)
+        self.after = values.get("event", self.after)
         return message
 
     def lost(self, error: Exception) -> float | None:

@@ -13,7 +13,9 @@ from websockets.sync.client import connect
 from service.client import calls, html, media, results, unbound
 from service.client.calls import Call, Json
 from service.client.errors import RoadtalkError
-from service.client.messages import FAILURES, MAX_MESSAGE_BYTES, Message, Watching
+from service.client.following import Events, Following
+from service.client.media import Picture
+from service.client.messages import FAILURES, MAX_MESSAGE_BYTES, Gone, Message, Watching
 from service.client.reading import Page
 
 T = TypeVar("T")
@@ -125,6 +127,19 @@ class Client:
 
     def _watch(self, session: str, after: str | None, patience_s: float) -> Iterator[Message]:
         watching = Watching(self.url, session, after, patience_s)
+        for data in self._received(watching):
+            message = watching.take(data)
+            if message is not None:
+                yield message
+
+    def _pictures(self, session: str, patience_s: float, wanted: Json) -> Iterator[Picture]:
+        watching = Watching(self.url, session, None, patience_s, wanted)
+        for data in self._received(watching):
+            picture = watching.seen(data)
+            if picture is not None:
+                yield picture
+
+    def _received(self, watching: Watching) -> Iterator[str | bytes]:
         while True:
             try:
                 with connect(
@@ -134,15 +149,35 @@ class Client:
                     max_size=MAX_MESSAGE_BYTES,
                 ) as socket:
                     watching.opened()
+                    if watching.greeting is not None:
+                        socket.send(watching.greeting)
                     while True:
-                        message = watching.take(socket.recv())
-                        if message is not None:
-                            yield message
+                        yield socket.recv()
             except FAILURES as error:
                 delay_s = watching.lost(error)
                 if delay_s is None:
                     return
                 time.sleep(delay_s)
+
+    def _follow(self, session: str, after: str | None, patience_s: float) -> Iterator[Message]:
+        following = Following(self.url, session, after, patience_s)
+        while True:
+            ended: Exception = httpx.RemoteProtocolError("the stream ended")
+            try:
+                with self._http.stream(**following.request(self._timeout_s)) as response:
+                    if not response.is_success:
+                        response.read()
+                        raise calls.problem(response)
+                    following.answered(response)
+                    events = Events()
+                    for part in response.iter_bytes():
+                        for message in events.messages(part, following):
+                            yield message
+                            if isinstance(message, Gone):
+                                return
+            except httpx.TransportError as error:
+                ended = error
+            time.sleep(following.lost(ended) or 0)
 
 
 class Session:
@@ -277,6 +312,23 @@ class Session:
         of a message (in its `raw`), to go on from.
         """
         return self._client._watch(self.id, after, patience_s)
+
+    def follow(self, *, after: str | None = None, patience_s: float = PATIENCE_S) -> Iterator[Message]:
+        """The same as `watch`, by server-sent events: where no socket passes, or only reading is wanted."""
+        return self._client._follow(self.id, after, patience_s)
+
+    def pictures(
+        self,
+        *,
+        form: Literal["jpeg", "webp"] = "jpeg",
+        view: Literal["road", "schematic"] = "road",
+        fps: int = 30,
+        side: int = 480,
+        patience_s: float = PATIENCE_S,
+    ) -> Iterator[Picture]:
+        """Pictures as they are drawn, at most `fps` a second; none while nothing moves."""
+        wanted = {"frames": form, "view": view, "fps": fps, "side": side}
+        return self._client._pictures(self.id, patience_s, wanted)
 
     def delete(self) -> None:
         """End it and forget it."""
