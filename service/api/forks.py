@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from fastapi import APIRouter, Body, Request, Response
+from fastapi import APIRouter, Body, Query, Request, Response
 
 from service.api import bodies, examples, schemas
 from service.api.context import JSON_ONLY, Here, TheSession
@@ -90,6 +90,37 @@ async def rewind(
         return json_response(result_json(outcome, None, False), headers=etag(outcome.sequence))
 
     return told(await session.change(to_tick(body.tick), terms=terms(told)))
+
+
+@router.get(
+    "/saved",
+    response_model=schemas.MomentPage,
+    summary="Moments with a name, of all sessions",
+    responses=documented(Invalid, NotSaved),
+)
+async def all_saved(
+    here: Here,
+    after: Annotated[
+        str | None, Query(pattern=r"^[0-9]{1,15}$", description="`after` of the page before.")
+    ] = None,
+    limit: Annotated[int, Query(ge=1, le=200)] = 50,
+) -> Response:
+    """Those named last first, in pages. A name belongs to its session: `load` finds it there only."""
+    found = await here.manager.moments(limit + 1, int(after) if after else None)
+    page = found[:limit]
+    items = [
+        {
+            "name": each.name,
+            "session": each.session,
+            "session_name": each.session_name,
+            "sequence": each.sequence,
+            "tick": each.tick,
+            "links": links_json(each.session),
+        }
+        for each in page
+    ]
+    last = str(page[-1].number) if page else None
+    return json_response({"items": items, "after": last, "more": len(found) > limit})
 
 
 @router.get(

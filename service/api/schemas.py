@@ -18,6 +18,13 @@ from service.api.shapes import State as State
 from sim.kinds import Kind, Mode, Outcome
 
 
+class Parent(Answered):
+    """Where a fork was taken; the session it was taken from may be deleted since."""
+
+    id: str
+    tick: Tick
+
+
 class Session(Answered):
     """A session as it stands."""
 
@@ -34,6 +41,7 @@ class Session(Answered):
     seed: int
     config: dict[str, Any]
     sentence: str | None = Field(description="What to say for a road like this one; null where nothing does.")
+    parent: Parent | None = Field(description="Of a fork, or a session that a link opened; else null.")
     links: dict[str, str]
 
 
@@ -49,6 +57,22 @@ class SavedMoments(Answered):
     """Moments with a name, by name."""
 
     items: list[SavedMoment]
+
+
+class SessionMoment(SavedMoment):
+    """A moment with a name, and the session it is in."""
+
+    session: str
+    session_name: str | None
+    links: dict[str, str]
+
+
+class MomentPage(Answered):
+    """Moments with a name, of all sessions, those named last first."""
+
+    items: list[SessionMoment]
+    after: str | None = Field(description="Send as `after` for what follows.")
+    more: bool
 
 
 class Link(Answered):
@@ -68,6 +92,7 @@ class SessionSummary(Answered):
     seed: int
     live: bool
     tick: Tick = Field(description="Where it stands, or stood when last stored.")
+    parent: Parent | None = Field(description="Of a fork.")
     links: dict[str, str]
 
 

@@ -57,8 +57,15 @@ def session_json(session: Session, sentence: str | None) -> dict[str, Any]:
         "seed": run.config.seed,
         "config": asdict(run.config),
         "sentence": sentence,
+        "parent": parent_json(record),
         "links": links_json(session.id),
     }
+
+
+def parent_json(record: SessionRecord) -> dict[str, Any] | None:
+    """Where a fork was taken."""
+    branch = record.branch
+    return None if branch is None else {"id": branch.parent, "tick": branch.tick}
 
 
 def summary_json(record: SessionRecord, live: Session | None) -> dict[str, Any]:
@@ -70,6 +77,7 @@ def summary_json(record: SessionRecord, live: Session | None) -> dict[str, Any]:
         "seed": record.config["seed"],
         "live": live is not None,
         "tick": record.tick if live is None else live.timeline.tick,
+        "parent": parent_json(record),
         "links": links_json(record.id),
     }
 

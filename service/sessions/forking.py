@@ -29,10 +29,12 @@ class Way:
 
     timeline: Timeline
     branch: Branch
+    steps: int
+    """changes on it"""
 
     def history(self, paused: bool) -> History:
         """What can be undone of it, in a session that begins so."""
-        return History(ground=len(self.timeline.entries), ground_paused=paused)
+        return History(ground=len(self.timeline.entries), ground_steps=self.steps, ground_paused=paused)
 
 
 def way_to(timeline: Timeline, tick: int) -> Timeline:
@@ -54,7 +56,8 @@ def way_of(session_id: str, mixed: Collection[int], timeline: Timeline, tick: in
         for record in _records(parts)
     ]
     common = standing(numbers - written, last)
-    return Way(own, Branch(parent=session_id, sequence=last, tick=tick, standing=common, instead=instead))
+    branch = Branch(parent=session_id, sequence=last, tick=tick, standing=common, instead=instead)
+    return Way(own, branch, len(numbers) - len(written) + len(instead))
 
 
 def is_mixed(actions: Sequence[Action]) -> bool:

@@ -68,7 +68,13 @@ class History:
     undone: Chain[Step] = field(default_factory=Chain)
     saved: Mapping[str, Moment] = field(default_factory=dict)
     ground: int = 0
+    ground_steps: int = 0
     ground_paused: bool = True
+
+    @property
+    def steps(self) -> int:
+        """How many steps can be undone."""
+        return len(self.done) + self.ground_steps
 
     def copy(self) -> History:
         """A history that goes its own way."""
@@ -82,7 +88,7 @@ class History:
             jumps = [number for number, each in enumerate(self.done) if each.jump is not None]
             if len(jumps) > MOST_JUMPS:
                 self.done = Chain(self.done.after(jumps[0] + 1))
-                self.ground = 0
+                self.ground = self.ground_steps = 0
 
     def undo(self, timeline: Timeline) -> Step | None:
         """The latest step, put with what can be redone; None if there is none."""
@@ -93,6 +99,7 @@ class History:
             self.done = self.done.first(len(self.done) - 1)
         else:
             self.ground -= len(step.after)
+            self.ground_steps -= 1
         self.undone = self.undone.plus([step.left_after(timeline)])
         return step
 

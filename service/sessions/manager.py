@@ -34,7 +34,7 @@ from service.sessions.saved import with_names
 from service.sessions.session import Session, Surroundings
 from service.sessions.sleeping import Idleness, Sleeper
 from service.sessions.terms import ANY_TERMS, Terms
-from service.store import EntryRecord, KeptAnswer, SessionRecord, StoreError
+from service.store import EntryRecord, KeptAnswer, MomentRecord, SessionRecord, StoreError
 from sim.actions import Set
 from sim.config import Config, ConfigError
 from sim.timeline import Timeline
@@ -203,6 +203,10 @@ class SessionManager:
         """Kept sessions, newest first, each with its live self if it has one."""
         records = await self._around.store.newest(limit, before)
         return [(record, self._live.get(record.id)) for record in records]
+
+    async def moments(self, limit: int, before: int | None) -> Sequence[MomentRecord]:
+        """Named moments of all sessions, newest first."""
+        return await self._around.store.moments(limit, before)
 
     async def entries(self, session: Session) -> Sequence[EntryRecord]:
         """What was said to a session, as stored."""

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import islice
+from itertools import islice, takewhile
 from typing import TYPE_CHECKING
 
 from pydantic import ValidationError
@@ -19,11 +19,13 @@ from service import actions as contract
 from service.actions import Action
 from service.problems import Invalid, ProblemError
 from service.sessions.draft import Draft, ticks_to_run
-from service.sessions.facts import Answerable, Fact, happened_in
+from service.sessions.facts import Answerable, happened_in
+from service.sessions.forking import Way
 from service.sessions.log import Log
+from service.sessions.telling import reply
 from service.sessions.utterance import Outcome, Utterance
 from service.sessions.words import Words
-from service.store import EntryRecord
+from service.store import Branch, EntryRecord
 from sim.edit_error import EditError
 from sim.events import Event
 from sim.run import Run
@@ -62,7 +64,9 @@ class Replay:
         """Do these, and run on to `tick`. Raises `ReplayError`, also for more than `most` ticks to run."""
         ticks, session = 0, self._session
         actions = _loaded(entries)
-        for position, entry in enumerate(entries):
+        branch = session.record.branch
+        shared = 0 if branch is None else self._common(branch, entries, actions)
+        for position, entry in enumerate(entries[shared:], start=shared):
             try:
                 said = next(actions)
                 ticks += max(0, entry.tick - session.timeline.tick) + ticks_to_run(said)
@@ -74,11 +78,15 @@ class Replay:
         self.run_to(tick)
         self.tell()
 
-    def ground(self, entries: Sequence[EntryRecord], tick: int) -> None:
-        """Do what a fork has from its parent: it is there from the beginning, so no line tells of it."""
-        timeline = self._session.timeline
-        actions = _loaded(entries)
-        for position, entry in enumerate(entries):
+    def _common(
+        self, branch: Branch, entries: Sequence[EntryRecord], actions: Iterator[tuple[Action, ...]]
+    ) -> int:
+        """Do what a fork has from its parent, and answer how many entries that is.
+
+        It is there from the beginning, so no line tells of it.
+        """
+        timeline, common = self._session.timeline, 0
+        for entry in takewhile(lambda each: each.sequence <= branch.sequence, entries):
             try:
                 said = next(actions)
                 while timeline.tick < entry.tick:
@@ -86,9 +94,13 @@ class Replay:
                 timeline.apply(entry.sequence, said)  # type: ignore[arg-type]  # nothing else comes along
                 self._check(entry)
             except (ProblemError, EditError, ValidationError) as error:
-                raise ReplayError(position, str(error)) from error
-        while timeline.tick < tick:
+                raise ReplayError(common, str(error)) from error
+            common += 1
+        while timeline.tick < branch.tick:
             timeline.advance()
+        self._session.mixed.update(each["sequence"] for each in branch.instead)
+        self._session.begin_with(Way(timeline, branch, common))
+        return common
 
     def one(self, entry: EntryRecord, said: tuple[Action, ...], *, held: bool = True) -> None:
         """Do one kept utterance; `held`: the log will still hold a line of it. Raises `ProblemError`."""
@@ -150,13 +162,6 @@ class Replay:
         found = self._session.run.world.digest()
         if found != entry.digest:
             raise Invalid(f"Entry {entry.sequence} ends in {found}, not in {entry.digest} as it once did.")
-
-
-def reply(words: Words, facts: tuple[Fact, ...], answers: Sequence[dict[str, object]]) -> str:
-    """What is said of facts: what was done, then the answers."""
-    done = tuple(fact for fact in facts if not isinstance(fact, Answerable))
-    said = [words.done(done)] if done else []
-    return " ".join([*said, *(str(answer["text"]) for answer in answers)])
 
 
 def _loaded(entries: Sequence[EntryRecord]) -> Iterator[tuple[Action, ...]]:

@@ -12,8 +12,9 @@ from dataclasses import dataclass, field, replace
 
 from rapidfuzz import process
 
+from service.actions import Action, Load
 from service.problems import FieldProblem, UnknownName
-from service.store import EntryRecord
+from service.store import EntryRecord, Store, StoreError
 from sim.edit import Change
 from sim.timeline import Timeline
 
@@ -65,6 +66,21 @@ def with_names(entries: Sequence[EntryRecord], saved: Iterable[Moment]) -> Seque
     if not names:
         return entries
     return [replace(entry, names=names.get(entry.sequence, {})) for entry in entries]
+
+
+async def told_where(store: Store, problem: UnknownName, actions: Sequence[Action]) -> UnknownName:
+    """The problem, telling also of another session in which there is such a moment."""
+    (error,) = problem.errors
+    action = actions[int(error.field.split(".")[1])]
+    try:
+        found = await store.moments(1, name=action.name) if isinstance(action, Load) else ()
+    except StoreError:
+        return problem
+    if not found:
+        return problem
+    session = found[0].session_name or found[0].session
+    sentence = f"{problem.detail} It is saved in session {session}; a name is found where it was given."
+    return UnknownName(sentence, errors=[FieldProblem(error.field, sentence)], **problem.more)
 
 
 def unknown(name: str, names: Iterable[str], where: str) -> UnknownName:

@@ -11,26 +11,29 @@ import asyncio
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from contextlib import asynccontextmanager
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import structlog
 from anyio import to_thread
 
 from service import actions as contract
-from service.actions import Action, Advise, Ask, Hide, Load, Pause, Redo, Resume, Rewind, Show, Undo
-from service.problems import NotSaved, ProblemError, UnknownSession
-from service.sessions.availability import refusal
+from service.actions import Action, Advise, Ask, Hide, Show
+from service.problems import NotSaved, UnknownName, UnknownSession
 from service.sessions.clock import Clock
 from service.sessions.conversation import Conversation
 from service.sessions.draft import Draft, check_ticks
-from service.sessions.facts import Answerable, Asked, Fact, changes_of, happened_in, views_of
+from service.sessions.facts import Fact, happened_in, views_of
 from service.sessions.forking import Way, is_mixed
 from service.sessions.history import History
 from service.sessions.later import Later
 from service.sessions.log import Log, LogEvent
 from service.sessions.messages import changed_message, tick_message
 from service.sessions.pace import NORMAL, Pace, hurried, period_s, turn
-from service.sessions.replaying import Replay, reply
+from service.sessions.possible import possible
+from service.sessions.replaying import Replay
+from service.sessions.saved import told_where
+from service.sessions.telling import entry_of, long_to_answer, outcome_of
 from service.sessions.terms import ANY_TERMS, Terms
 from service.sessions.utterance import Outcome, Utterance
 from service.sessions.watchers import Watchers
@@ -38,7 +41,7 @@ from service.sessions.words import Words
 from service.settings import Settings
 from service.store import EntryRecord, SessionRecord, Store, StoreError
 from service.wire.state import Standing, state_json
-from sim.actions import Add, Remove, SetCount, SetMode
+from sim.actions import SetMode
 from sim.edit import Applied, Change
 from sim.events import Event
 from sim.explain.summary import long_to_tell
@@ -49,17 +52,8 @@ from sim.timeline import PlannerSilentError, Timeline
 
 _LOG = structlog.get_logger(__name__)
 
-TRIED = (Add, Remove, SetCount, SetMode, Undo, Redo, Pause, Resume, Rewind, Load)
-"""Actions that are tried on a copy at once, to know whether they are possible."""
-
 CHANGES_NOTHING = Ask | Advise | Show | Hide
 """Actions that leave the session as it is, and are not kept when nothing else is said with them."""
-
-QUICK_PLANNERS = frozenset(("priority",))
-"""Planners that decide in so little time that an answer from hundreds of decisions is at once."""
-
-LONG_QUESTIONS = frozenset(("what_if", "why_not", "confidence"))
-"""Questions for which whole episodes are run, with whatever planner."""
 
 THREAD_TICKS = 200
 """Work of more ticks than this is done beside the event loop."""
@@ -117,7 +111,8 @@ class Session:
     @property
     def standing(self) -> Standing:
         """What of the session is not in its run."""
-        return Standing(self.id, self.paused, self.sequence, self.pace)
+        steps, undone = self.history.steps, len(self.history.undone)
+        return Standing(self.id, self.paused, self.sequence, self.pace, steps, undone)
 
     @property
     def period_s(self) -> float:
@@ -218,15 +213,10 @@ class Session:
 
     def possible(self, actions: tuple[Action, ...]) -> bool:
         """Whether these would be done, and change something; long work is taken to be possible."""
-        if any(not isinstance(action, TRIED) for action in actions):
-            return all(refusal(action) is None for action in actions)
-        try:
-            facts = Draft(self.timeline, self.paused, self.history, self.pace).perform(
-                self.sequence + 1, actions
-            )
-        except ProblemError:
-            return False
-        return any(changes_of((fact,)) or not isinstance(fact, Applied) for fact in facts)
+        return possible(self._draft(), self.sequence, actions)
+
+    def _draft(self) -> Draft:
+        return Draft(self.timeline, self.paused, self.history, self.pace)
 
     @asynccontextmanager
     async def held(self, terms: Terms) -> AsyncIterator[None]:
@@ -267,7 +257,7 @@ class Session:
                 utterance = utterance(self.timeline)
             self._changing = True
             try:
-                draft = Draft(self.timeline, self.paused, self.history, self.pace)
+                draft = self._draft()
                 facts = await self._perform(draft, utterance)
                 if dry_run:
                     return await self._told(utterance, facts, self.sequence)
@@ -286,30 +276,17 @@ class Session:
                 self._take_tick_due()
 
     async def _perform(self, draft: Draft, utterance: Utterance) -> tuple[Fact, ...]:
-        if draft.work_ticks(utterance.actions) > THREAD_TICKS:
-            return await to_thread.run_sync(draft.perform, self.sequence + 1, utterance.actions)
-        return draft.perform(self.sequence + 1, utterance.actions)
-
-    def _outcome(self, utterance: Utterance, facts: tuple[Fact, ...], sequence: int) -> Outcome:
-        words = self._around.words
-        answers = [words.answer(fact) for fact in facts if isinstance(fact, Answerable)]
-        return Outcome(
-            utterance=utterance,
-            facts=facts,
-            reply=reply(words, facts, answers),
-            answer=answers[-1] if answers else None,
-            sequence=sequence,
-            changes=changes_of(facts),
-            before=self.run,
-        )
+        try:
+            if draft.work_ticks(utterance.actions) > THREAD_TICKS:
+                return await to_thread.run_sync(draft.perform, self.sequence + 1, utterance.actions)
+            return draft.perform(self.sequence + 1, utterance.actions)
+        except UnknownName as problem:
+            raise await told_where(self._around.store, problem, utterance.actions) from None
 
     async def _told(self, utterance: Utterance, facts: tuple[Fact, ...], sequence: int) -> Outcome:
-        """The outcome in words; beside the event loop where a question has a slow planner run many times."""
-        asked = [fact.ask.about for fact in facts if isinstance(fact, Asked)]
-        quick = self.run.config.planner in QUICK_PLANNERS and not LONG_QUESTIONS & set(asked)
-        if asked and not quick:
-            return await to_thread.run_sync(self._outcome, utterance, facts, sequence)
-        return self._outcome(utterance, facts, sequence)
+        """The outcome in words; beside the event loop where that takes long."""
+        told = partial(outcome_of, self._around.words, self.run, utterance, facts, sequence)
+        return await to_thread.run_sync(told) if long_to_answer(self.run.config.planner, facts) else told()
 
     async def _save(self, outcome: Outcome, draft: Draft, terms: Terms) -> None:
         kept = () if terms.answer is None else (terms.answer(outcome),)
@@ -317,24 +294,10 @@ class Session:
             if draft.timeline.tick < self.timeline.tick:
                 # First: where time once stood must never be run on to from a log that has gone back.
                 await self._around.store.save_ticks({self.id: draft.timeline.tick})
-            await self._around.store.append(self.id, self._entry(outcome, draft), *kept)
+            await self._around.store.append(self.id, entry_of(outcome, self.timeline.tick, draft), *kept)
         except StoreError as error:
             _LOG.error("a change was not saved", session=self.id, error=str(error))
             raise NotSaved from error
-
-    def _entry(self, outcome: Outcome, draft: Draft) -> EntryRecord:
-        return EntryRecord(
-            sequence=outcome.sequence,
-            tick=self.timeline.tick,
-            text=outcome.utterance.text,
-            actions=contract.dump(outcome.utterance.actions),
-            digest=draft.timeline.run.world.digest(),
-            names={
-                moment.name: moment.tick
-                for moment in draft.history.saved.values()
-                if moment.sequence == outcome.sequence
-            },
-        )
 
     def _become(self, draft: Draft, outcome: Outcome) -> None:
         """Take the draft's state and tell watchers."""
@@ -382,15 +345,7 @@ class Session:
         For a session that nobody else has yet, in any thread. Raises `ReplayError`, also where more than
         `most` ticks would have to be run: with going back, they may be more than where it ends.
         """
-        replay = Replay(self, self._around.words, self.log)
-        branch = self.record.branch
-        if branch is not None:
-            shared = [entry for entry in entries if entry.sequence <= branch.sequence]
-            replay.ground(shared, branch.tick)
-            self.mixed.update(each["sequence"] for each in branch.instead)
-            self.begin_with(Way(self.timeline, branch))
-            entries = entries[len(shared) :]
-        replay.all(entries, tick, most)
+        Replay(self, self._around.words, self.log).all(entries, tick, most)
         self.paused = True
 
     def repeat(self, entry: EntryRecord) -> None:

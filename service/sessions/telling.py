@@ -1,0 +1,65 @@
+"""What an utterance came to, in words and for keeping; and whether making it takes long."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from service import actions as contract
+from service.sessions.draft import Draft
+from service.sessions.facts import Answerable, Asked, Fact, changes_of
+from service.sessions.utterance import Outcome, Utterance
+from service.sessions.words import Words
+from service.store import EntryRecord
+from sim.run import Run
+
+QUICK_PLANNERS = frozenset(("priority",))
+"""Planners that decide in so little time that an answer from hundreds of decisions is at once."""
+
+LONG_QUESTIONS = frozenset(("what_if", "why_not", "confidence"))
+"""Questions for which whole episodes are run, with whatever planner."""
+
+
+def outcome_of(
+    words: Words, before: Run, utterance: Utterance, facts: tuple[Fact, ...], sequence: int
+) -> Outcome:
+    """The outcome of an utterance that was said in a state."""
+    answers = [words.answer(fact) for fact in facts if isinstance(fact, Answerable)]
+    return Outcome(
+        utterance=utterance,
+        facts=facts,
+        reply=reply(words, facts, answers),
+        answer=answers[-1] if answers else None,
+        sequence=sequence,
+        changes=changes_of(facts),
+        before=before,
+    )
+
+
+def entry_of(outcome: Outcome, tick: int, draft: Draft) -> EntryRecord:
+    """What is kept of an outcome, said at a tick, that led to a draft's state."""
+    return EntryRecord(
+        sequence=outcome.sequence,
+        tick=tick,
+        text=outcome.utterance.text,
+        actions=contract.dump(outcome.utterance.actions),
+        digest=draft.timeline.run.world.digest(),
+        names={
+            moment.name: moment.tick
+            for moment in draft.history.saved.values()
+            if moment.sequence == outcome.sequence
+        },
+    )
+
+
+def reply(words: Words, facts: tuple[Fact, ...], answers: Sequence[dict[str, Any]]) -> str:
+    """What is said of facts: what was done, then the answers."""
+    done = tuple(fact for fact in facts if not isinstance(fact, Answerable))
+    said = [words.done(done)] if done else []
+    return " ".join([*said, *(answer["text"] for answer in answers)])
+
+
+def long_to_answer(planner: str, facts: tuple[Fact, ...]) -> bool:
+    """Whether a question has a slow planner run many times, or whole episodes."""
+    asked = {fact.ask.about for fact in facts if isinstance(fact, Asked)}
+    return bool(asked) and (planner not in QUICK_PLANNERS or bool(LONG_QUESTIONS & asked))
