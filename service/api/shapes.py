@@ -111,6 +111,8 @@ class State(Answered):
     metrics: Metrics
     digest: str = Field(description="Equal exactly when two worlds are.")
     sequence: int = Field(description="Changes the session has accepted.")
+    undo: int = Field(description="How many changes can be taken back, one after the other.")
+    redo: int = Field(description="How many that were taken back can be made again.")
 
 
 class Option(Answered):

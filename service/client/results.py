@@ -98,6 +98,8 @@ class State(Result):
     metrics: Metrics
     digest: str
     sequence: int
+    undo: int = 0
+    redo: int = 0
 
     def things(self) -> list[Vehicle | Mover | Hazard]:
         """Everything on the road, the autonomous vehicles last."""

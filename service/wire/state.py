@@ -21,6 +21,8 @@ class Standing:
     paused: bool
     sequence: int
     playback_speed: float | str = 1.0
+    undo: int = 0
+    redo: int = 0
 
 
 def state_json(standing: Standing, run: Run) -> Json:
@@ -49,6 +51,8 @@ def state_json(standing: Standing, run: Run) -> Json:
         "metrics": metrics_json(run.metrics),
         "digest": world.digest(),
         "sequence": standing.sequence,
+        "undo": standing.undo,
+        "redo": standing.redo,
     }
 
 
