@@ -11,6 +11,8 @@ import asyncio
 from collections.abc import Coroutine
 from typing import Any
 
+import structlog
+
 from service.actions import Action, Hide, Show
 from service.problems import NotAvailable, ProblemError
 from service.sessions.clock import WheelClock
@@ -26,10 +28,13 @@ from service.window.loading import Loaded
 from service.window.panels import Panels, lacking
 from sim.config import Config
 
+_LOG = structlog.get_logger(__name__)
+
 SUBSTEP_S = 0.004
 """Time is brought in steps as short as the clock's shortest turn, so that none is left out."""
 MOST_BEHIND_S = 0.25
 """After a stall (the window was dragged) the road goes on from there, and does not catch up."""
+DEFECT = "This met a defect of the program; nothing was changed."
 TURNS = 12
 """Turns of the event loop in a frame in which something was said: enough for a reply to be there."""
 
@@ -116,7 +121,13 @@ class Game:
 
     def _finished(self, task: asyncio.Task[Exchange]) -> None:
         self._tasks.discard(task)
-        if not task.cancelled():
+        if task.cancelled():
+            return
+        defect = task.exception()
+        if defect is not None:
+            _LOG.error("something that was said met a defect", error=repr(defect))
+            self.exchanges.append(Exchange(None, DEFECT, done=False))
+        else:
             self.exchanges.append(task.result())
 
     async def _said(self, text: str) -> Exchange:

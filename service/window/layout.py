@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Final
 
 import pygame
@@ -34,8 +35,9 @@ def gap_of(size: tuple[int, int]) -> int:
     return 12 if min(size) >= 800 else 8
 
 
+@lru_cache(maxsize=8)
 def arrange(
-    size: tuple[int, int], shown: Collection[str], large: str | None, shape: Shape
+    size: tuple[int, int], shown: frozenset[str], large: str | None, shape: Shape
 ) -> Mapping[str, pygame.Rect]:
     """A place for each view that is shown, title included, and for the `console`."""
     gap = gap_of(size)
@@ -97,7 +99,7 @@ def _road_cell(width: int, top: int, above: Collection[str], gap: int, shape: Sh
     return min(int(room / (shape.columns + 0.5)), (top - HEAD_PX) // shape.seen)
 
 
-def _columns(room: pygame.Rect, above: list[str], gap: int, shape: Shape) -> dict[str, pygame.Rect]:
+def _columns(room: pygame.Rect, above: Collection[str], gap: int, shape: Shape) -> dict[str, pygame.Rect]:
     widths = _widths(room.width, room.height, above, gap, shape)
     places, x = {}, room.x
     for name in above:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Mapping
 from functools import partial
 from pathlib import Path
 from typing import Final
@@ -62,7 +62,7 @@ class Window:
         self._last_s = now_s
         self._showing: Showing | None = None
         self._controls: Controls | None = None
-        self._places: dict[str, pygame.Rect] = {}
+        self._places: Mapping[str, pygame.Rect] = {}
         self._over_spots: list[Spot] = []
         self._card: tuple[Hashable, pygame.Surface] | None = None
         self.start = Start(config_of)
@@ -223,7 +223,9 @@ class Window:
         run = self._showing.after
         shape = Shape(run.config.columns, run.config.rows, min(run.config.visible_rows, run.config.rows))
         overlay = self._controls.overlay
-        places = dict(arrange(self.canvas.screen.get_size(), self.panels.shown, self.panels.large, shape))
+        places = arrange(
+            self.canvas.screen.get_size(), frozenset(self.panels.shown), self.panels.large, shape
+        )
         if places != self._places or (overlay is None and self.canvas.covered):
             self._places = places
             self.canvas.clear()

@@ -25,7 +25,8 @@ def lay_ground(picture: pygame.Surface, camera: Camera, rows: int) -> None:
     for y in range(-(top % tile.get_height()), picture.get_height(), tile.get_height()):
         picture.blit(tile, (0, y))
     road = pygame.Rect(camera.verge_px, -top, camera.columns * camera.cell_px, rows * camera.cell_px)
-    _finish(picture, road, camera.cell_px)
+    if road.top + camera.cell_px > 0:
+        _finish(picture, road, camera.cell_px)
     start = pygame.Rect(road.left, road.bottom - camera.cell_px, road.width, max(2, camera.cell_px // 30))
     picture.fill(theme.EDGE_LINE, start)
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import pygame
 
 from sim.kinds import Outcome
@@ -25,7 +27,12 @@ def draw_figures(picture: pygame.Surface, run: Run, unit_px: int) -> None:
         ("episode", str(world.episode)),
         ("arrived", "–" if rate is None else f"{rate:.0%}"),
     ]
-    height, width = max(LEAST_PX, min(MOST_PX, int(unit_px * 0.45))), picture.get_width()
+    picture.blit(_strip(tuple(figures), picture.get_width(), unit_px), (0, 0))
+
+
+@lru_cache(maxsize=8)
+def _strip(shown: tuple[tuple[str, str], ...], width: int, unit_px: int) -> pygame.Surface:
+    figures, height = list(shown), max(LEAST_PX, min(MOST_PX, int(unit_px * 0.45)))
     strip = pygame.Surface((width, height), pygame.SRCALPHA)
     strip.fill(theme.PANEL)
     name_px, figure_px = int(height * 0.55), int(height * 0.68)
@@ -40,7 +47,7 @@ def draw_figures(picture: pygame.Surface, run: Run, unit_px: int) -> None:
         x = n * share + (share - name.get_width() - figure.get_width() - height // 5) // 2
         strip.blit(name, (x, (height - name.get_height()) // 2 + 1))
         strip.blit(figure, (x + name.get_width() + height // 5, (height - figure.get_height()) // 2))
-    picture.blit(strip, (0, 0))
+    return strip
 
 
 def draw_verdict(picture: pygame.Surface, run: Run, unit_px: int) -> None:

@@ -31,8 +31,8 @@ def draw_road(
     camera = camera_on(run.config, av[1], size)
     picture = pygame.Surface(camera.size)
     lay_ground(picture, camera, run.config.rows)
-    was = {thing.id: thing.cell for thing in before.things()}
-    for thing in sorted(world.things(), key=lambda thing: thing.kind not in HAZARDS):
+    was = {thing.id: thing.cell for thing in _things(before)}
+    for thing in _things(world):
         column, row = _gliding(was.get(thing.id, thing.cell), thing.cell, share)
         if camera.sees(row):
             _draw_thing(picture, camera, thing, column, row)
@@ -43,6 +43,21 @@ def draw_road(
     draw_figures(picture, run, camera.cell_px)
     draw_verdict(picture, run, camera.cell_px)
     return picture
+
+
+_SEEN: list[tuple[World, tuple[Thing, ...]]] = []
+"""The two latest worlds, each with what is in it: the same two are drawn for many frames."""
+
+
+def _things(world: World) -> tuple[Thing, ...]:
+    """What is on the road, from the ground up."""
+    for seen, things in _SEEN:
+        if seen is world:
+            return things
+    things = tuple(sorted(world.things(), key=lambda thing: thing.kind not in HAZARDS))
+    _SEEN.append((world, things))
+    del _SEEN[:-2]
+    return things
 
 
 def _gliding(start: Cell, end: Cell, share: float) -> tuple[float, float]:
