@@ -45,14 +45,20 @@ class Service:
 
 
 @asynccontextmanager
-async def serving(*, database: str | None = None, **settings: object) -> AsyncIterator[Service]:
-    """The real command with a file database of its own, or another; `settings` as in the environment."""
+async def serving(
+    *, database: str | None = None, quiet: bool = False, **settings: object
+) -> AsyncIterator[Service]:
+    """The real command with a file database of its own, or another; `settings` as in the environment.
+
+    `quiet`: what it has to say of each piece of rubbish is not shown.
+    """
     given = {f"ROADTALK_{name.upper()}": str(value) for name, value in settings.items()}
     with tempfile.TemporaryDirectory() as folder:
         kept = database or f"sqlite:///{folder}/measured.db"
         process = await asyncio.create_subprocess_exec(
             sys.executable, "-m", "service", "serve", "--port", "0", "--database", kept,
-            stdout=asyncio.subprocess.PIPE, env={**os.environ, **given},
+            stdout=asyncio.subprocess.PIPE, stderr=asyncio.subprocess.DEVNULL if quiet else None,
+            env={**os.environ, **given},
         )  # fmt: skip
         assert process.stdout is not None
         line = (await asyncio.wait_for(process.stdout.readline(), START_S)).decode()

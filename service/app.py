@@ -26,6 +26,7 @@ from service.api import (
     forks,
     frames,
     gate,
+    glance,
     health,
     insight,
     links,
@@ -138,6 +139,7 @@ def create_app(
     app.state.readers = sse.Readers()
     app.state.guard = guard
     app.state.metrics = counted
+    app.add_middleware(glance.Glance, manager=manager)
     app.add_middleware(edges.BodyLimit, most=partial(_body_bytes, settings))
     app.add_middleware(gate.Gate, guard=guard)
     app.add_middleware(edges.SecurityHeaders)

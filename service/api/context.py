@@ -57,6 +57,11 @@ async def json_only(connection: HTTPConnection) -> None:
         raise NotJson(f"Send the body as application/json, not as {kind or 'nothing said'}.")
 
 
-Here = Annotated[Context, Depends(context_of)]
+async def _here(connection: HTTPConnection) -> Context:
+    # A coroutine, although it waits for nothing: a plain function would be called in a thread each time.
+    return context_of(connection)
+
+
+Here = Annotated[Context, Depends(_here)]
 TheSession = Annotated[Session, Depends(_session)]
 JSON_ONLY = Depends(json_only)

@@ -103,7 +103,7 @@ def kept_answer(request: Request, told: Callable[[Told], Response]) -> Callable[
     return None if once is None else lambda of: once.keeping(told(of))
 
 
-def _terms(request: Request) -> OnTerms:
+async def _terms(request: Request) -> OnTerms:
     sequences = matched(request)
     return lambda told: Terms(sequences, kept_answer(request, told))
 

@@ -1,0 +1,201 @@
+"""REST against a bare FastAPI app that answers the same bytes, by turns in one run: `python -m bench.rest`.
+
+Both are asked by `wrk` where it is there, otherwise by a few connections of our own. The bare app reads the
+same body by the same model and sends a fixed answer of the same length; it checks nothing, knows nothing and
+stores nothing. Commands are asked of a service that keeps them in memory, which is the comparison, and of one
+with a file that is synchronised before each answer, which is stated apart.
+"""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import json
+import re
+import shutil
+import statistics
+import sys
+import tempfile
+import time
+from collections.abc import AsyncIterator
+from contextlib import AsyncExitStack, asynccontextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import uvloop
+
+from bench.asking import Line, request
+from bench.serving import serving
+
+LINES = 8
+"""Connections that ask at the same time."""
+
+ROUNDS = 5
+SENTENCE = b'{"text":"set the number of potholes to 5"}'
+_RATE = re.compile(r"Requests/sec:\s+([\d.]+)")
+_BAD = re.compile(r"Non-2xx or 3xx responses: (\d+)")
+
+_BARE = """
+import sys
+from pathlib import Path
+import uvicorn
+from fastapi import FastAPI, Response
+from pydantic import BaseModel
+
+state, result = (Path(each).read_bytes() for each in sys.argv[1:3])
+app = FastAPI()
+
+class Said(BaseModel):
+    text: str
+    dry_run: bool = False
+
+@app.get("/api/v1/sessions/{session_id}/state")
+async def look(session_id: str, tick: int | None = None) -> Response:
+    return Response(state, media_type="application/json")
+
+@app.post("/api/v1/sessions/{session_id}/commands")
+async def say(session_id: str, said: Said) -> Response:
+    return Response(result, media_type="application/json")
+
+class Server(uvicorn.Server):
+    async def startup(self, sockets=None):
+        await super().startup(sockets)
+        print("http://127.0.0.1:%d" % self.servers[0].sockets[0].getsockname()[1], flush=True)
+
+Server(uvicorn.Config(app, port=0, access_log=False, log_level="warning")).run()
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """One request, again and again, of one server."""
+
+    name: str
+    url: str
+    path: str
+    body: bytes = b""
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Measure and print the ratios."""
+    parser = argparse.ArgumentParser(
+        prog="bench.rest", description=__doc__.splitlines()[0] if __doc__ else None
+    )
+    parser.add_argument("--seconds", type=float, default=3.0, help="for each of the turns")
+    options = parser.parse_args([] if arguments is None else arguments)
+    with asyncio.Runner(loop_factory=uvloop.new_event_loop) as runner:
+        runner.run(_measured(options.seconds))
+
+
+async def _measured(seconds: float) -> None:
+    async with AsyncExitStack() as stack:
+        folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
+        kept = await stack.enter_async_context(serving(database="memory:"))
+        durable = await stack.enter_async_context(serving())
+        path, durable_path = [await _session(each.url) for each in (kept, durable)]
+        state = await _answer(Asked("", kept.url, f"{path}/state"))
+        result = await _answer(Asked("", kept.url, f"{path}/commands", SENTENCE))
+        (folder / "state").write_bytes(state)
+        (folder / "result").write_bytes(result)
+        bare = await stack.enter_async_context(_bare(folder))
+        asked = [
+            Asked("state, bare", bare, f"{path}/state"),
+            Asked("state", kept.url, f"{path}/state"),
+            Asked("command, bare", bare, f"{path}/commands", SENTENCE),
+            Asked("command, in memory", kept.url, f"{path}/commands", SENTENCE),
+            Asked("command, durable", durable.url, f"{durable_path}/commands", SENTENCE),
+        ]
+        rates: dict[str, list[float]] = {each.name: [] for each in asked}
+        for _ in range(ROUNDS):
+            for each in asked:
+                rates[each.name].append(await _rate(each, seconds, folder))
+    by = "wrk" if shutil.which("wrk") else "a loader of our own, since there is no wrk"
+    print(f"requests a second, {LINES} connections, median of {ROUNDS} turns of {seconds:g} s, asked by {by}")
+    print(f"(state {len(state)} bytes, answer to the command {len(result)} bytes)")
+    for name, own in rates.items():
+        base = rates[f"{name.partition(',')[0]}, bare"]
+        ratio = statistics.median(mine / bare for mine, bare in zip(own, base, strict=True))
+        print(f"  {name:<20} {statistics.median(own):8.0f}   {ratio:5.2f} × bare")
+
+
+async def _session(url: str) -> str:
+    """A paused session: its state does not change while it is looked at."""
+    async with Line(url) as line:
+        sent = request(
+            "POST",
+            "/api/v1/sessions",
+            line.host,
+            b'{"seed":7,"paused":true}',
+            Content_Type="application/json",
+        )
+        return (await line.ask(sent)).headers["location"]
+
+
+def _sent(asked: Asked, host: str) -> bytes:
+    if asked.body:
+        return request("POST", asked.path, host, asked.body, Content_Type="application/json")
+    return request("GET", asked.path, host)
+
+
+async def _answer(asked: Asked) -> bytes:
+    async with Line(asked.url) as line:
+        answer = await line.ask(_sent(asked, line.host))
+    if answer.status != 200:
+        raise SystemExit(f"{asked.path} was answered {answer.status}: {answer.body.decode()}")
+    return answer.body
+
+
+async def _rate(asked: Asked, seconds: float, folder: Path) -> float:
+    """Requests a second."""
+    if shutil.which("wrk") is None:
+        return await _own_rate(asked, seconds)
+    script = folder / "ask.lua"
+    lines = ""
+    if asked.body:
+        lines = f'wrk.method = "POST"\nwrk.body = {json.dumps(asked.body.decode())}\n'
+        lines += 'wrk.headers["Content-Type"] = "application/json"\n'
+    script.write_text(lines)
+    process = await asyncio.create_subprocess_exec(
+        "wrk", "-t1", f"-c{LINES}", f"-d{max(1, round(seconds))}s", "-s", str(script), asked.url + asked.path,
+        stdout=asyncio.subprocess.PIPE,
+    )  # fmt: skip
+    told = (await process.communicate())[0].decode()
+    rate, bad = _RATE.search(told), _BAD.search(told)
+    if rate is None or bad is not None:
+        raise SystemExit(f"{asked.name}: {told}")
+    return float(rate[1])
+
+
+async def _own_rate(asked: Asked, seconds: float) -> float:
+    until_s = time.perf_counter() + seconds
+    done = 0
+
+    async def one() -> None:
+        nonlocal done
+        async with Line(asked.url) as line:
+            sent = _sent(asked, line.host)
+            while time.perf_counter() < until_s:
+                if (await line.ask(sent)).status != 200:
+                    raise SystemExit(f"{asked.name} was refused")
+                done += 1
+
+    await asyncio.gather(*(one() for _ in range(LINES)))
+    return done / seconds
+
+
+@asynccontextmanager
+async def _bare(folder: Path) -> AsyncIterator[str]:
+    process = await asyncio.create_subprocess_exec(
+        sys.executable, "-c", _BARE, str(folder / "state"), str(folder / "result"),
+        stdout=asyncio.subprocess.PIPE,
+    )  # fmt: skip
+    assert process.stdout is not None
+    try:
+        yield (await asyncio.wait_for(process.stdout.readline(), 60)).decode().strip()
+    finally:
+        process.terminate()
+        await process.wait()
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
