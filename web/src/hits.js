@@ -20,6 +20,7 @@ import { egoOf } from "./world.js";
  * @property {(cell: Cell) => Place | null} placeOf
  * @property {(id: string) => Pose | null} [poseOf]  where a thing is seen on its way between two cells
  * @property {() => Pose[]} [poses]
+ * @property {() => [number, number] | null} [window]  the rows that are seen, from and to
  */
 
 /** @type {Map<Element, Places>} */

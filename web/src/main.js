@@ -21,6 +21,7 @@ import { watchPreferences } from "./theme.js";
 
 /** @import { Act } from "./acts.js" */
 /** @import { Otherwise } from "./counterfactual.js" */
+/** @import { Foresight } from "./foresight.js" */
 /** @import { Looking } from "./past.js" */
 /** @import { Action, ClientMessage } from "./protocol.js" */
 /** @import { State, Highlight, Event, Notice, Past } from "./state.js" */
@@ -38,6 +39,7 @@ import { watchPreferences } from "./theme.js";
  * @property {() => Act[]} acts  all that can be done by a key or from the palette
  * @property {() => State} state  the present, whatever tick is looked at
  * @property {(other: Otherwise) => void} [pick]  play what would have been beside what was
+ * @property {(foresight: Foresight) => void} foresee  what is about to happen has become known
  * @property {(views: Views, large?: string | null) => void} arrange  show (true), hide (false), enlarge
  * @property {(notice: Notice | null) => void} tell  a passing line over the page, read aloud as well
  * @property {() => void} wake  something is to be drawn anew
@@ -84,6 +86,7 @@ const page = {
   act: (actions, label, quiet = false) => send(label, quiet, (id) => ({ type: "actions", id, actions })),
   highlight: (highlight) => dispatch({ type: "highlight", highlight }),
   wake: () => loop.wake(),
+  foresee: (foresight) => dispatch({ type: "foresight", foresight }),
   arrange: (views, large) => dispatch({ type: "views", views, large }),
   tell: (notice) => dispatch({ type: "notice", notice }),
   look: (past) => dispatch({ type: "past", past }),

@@ -13,6 +13,7 @@ import { courseAfter, NO_COURSE } from "./time.js";
 import { AT_FIRST, viewsAfter } from "./views.js";
 import { worldAfter, worldOf } from "./world.js";
 
+/** @import { Foresight } from "./foresight.js" */
 /** @import { Line } from "./journal.js" */
 /** @import { ServerMessage, Decision, Cell, Problem, HelloMessage, TickMessage } from "./protocol.js" */
 /** @import { Phase } from "./socket.js" */
@@ -35,7 +36,8 @@ import { worldAfter, worldOf } from "./world.js";
  * @property {string | null} announcement  the latest sentence worth reading aloud
  * @property {Course} course  the run as the stream has told it
  * @property {Notice | null} notice  the latest thing worth a passing line over the page
- * @property {World | null} prior  the road at the tick before, where it was heard of
+ * @property {World | null} prior  the road at the tick before, as long as nothing but that tick has changed it
+ * @property {Foresight | null} foresight  what was last told to be about to happen
  * @property {Views} views  what is shown
  * @property {string | null} large  the part of the page that is enlarged
  * @property {Past | null} past  an earlier tick that is looked at instead of the present
@@ -61,6 +63,7 @@ import { worldAfter, worldOf } from "./world.js";
  *   | {type: "unsent", id: string}
  *   | {type: "highlight", highlight: Highlight | null}
  *   | {type: "notice", notice: Notice | null}
+ *   | {type: "foresight", foresight: Foresight}
  *   | {type: "views", views?: Views, large?: string | null}
  *   | {type: "past", past: Past | null}} PageEvent  what happened on this side of the wire
  */
@@ -82,6 +85,7 @@ export const INITIAL = {
   course: NO_COURSE,
   notice: null,
   prior: null,
+  foresight: null,
   views: AT_FIRST,
   large: null,
   past: null,
@@ -114,6 +118,8 @@ function after(state, event) {
       return { ...state, highlight: event.highlight };
     case "notice":
       return { ...state, notice: event.notice, announcement: event.notice?.text ?? state.announcement };
+    case "foresight":
+      return { ...state, foresight: event.foresight };
     case "views":
       return arranged(state, event.views, event.large);
     case "past":
@@ -126,11 +132,12 @@ function after(state, event) {
       return {
         ...(event.views ? arranged(state, event.views) : state),
         world: worldOf(event.state),
+        prior: null,
         log: event.views && !event.changes?.length ? state.log : logChange(state.log, event),
         highlight: null,
       };
     case "state":
-      return { ...state, world: worldOf(event.state) };
+      return { ...state, world: worldOf(event.state), prior: null };
     case "result":
       return {
         ...state,
@@ -184,6 +191,7 @@ function afterHello(state, hello) {
     session: hello.session.id,
     trouble: null,
     world: worldOf(hello.state),
+    prior: null,
     decision: hello.decision ?? null,
     narration: hello.decision?.narration ?? null,
     log: logEvents(state.log, hello.log ?? []),

@@ -18,6 +18,14 @@
  * @property {string} crack
  * @property {string} hole
  * @property {string} cause
+ * @property {string} surface
+ * @property {string} cell  of a plain grid
+ * @property {string} grid  its lines
+ * @property {string} text
+ * @property {string} faint
+ * @property {string} good
+ * @property {string} focus
+ * @property {Record<string, string>} kinds  of things, by kind, for signs
  * @property {number} lamps  how much lamps shine, 0–1
  */
 
@@ -37,7 +45,16 @@ const COLOURS = {
   crack: "--road-crack",
   hole: "--road-hole",
   cause: "--road-cause",
+  surface: "--surface",
+  cell: "--cell",
+  grid: "--line",
+  text: "--ink",
+  faint: "--ink-3",
+  good: "--good",
+  focus: "--accent",
 };
+
+const KINDS = ["av", "vehicle", "pedestrian", "pothole", "barrier"];
 
 /**
  * The palette in force.
@@ -48,7 +65,8 @@ export function readPalette(root) {
   const style = getComputedStyle(root);
   const read = (/** @type {string} */ name) => style.getPropertyValue(name).trim();
   const colours = Object.fromEntries(Object.entries(COLOURS).map(([key, name]) => [key, read(name)]));
-  return /** @type {Palette} */ ({ ...colours, lamps: Number(read("--road-lamps")) });
+  const kinds = Object.fromEntries(KINDS.map((kind) => [kind, read(`--kind-${kind}`)]));
+  return /** @type {Palette} */ ({ ...colours, kinds, lamps: Number(read("--road-lamps")) });
 }
 
 /**

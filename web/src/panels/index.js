@@ -10,13 +10,17 @@ import { createCommand } from "./command.js";
 import { createConnectionBadge } from "./connection.js";
 import { createControls } from "./controls.js";
 import { createExport } from "./export.js";
+import { createForesight } from "./foresight.js";
 import { createHelp } from "./help.js";
 import { createHands } from "./hands.js";
 import { createLog } from "./log.js";
+import { createMetrics } from "./metrics.js";
 import { createNames } from "./names.js";
 import { createNotice } from "./notice.js";
+import { createOccupancy } from "./occupancy.js";
 import { createPalette } from "./palette.js";
 import { createLooking, createPast } from "./past.js";
+import { createPlan } from "./plan.js";
 import { createRoad } from "./road.js";
 import { createSchematic } from "./schematic.js";
 import { createShare } from "./share.js";
@@ -54,7 +58,7 @@ export function createPanels(page) {
     createExport(byId("road"), page, looking),
     createNames(page, looking),
     createNotice(byId("notice"), page),
-    createSchematic(byId("schematic")),
+    createSchematic(byId("schematic"), road.places),
     createStatus(byId("status")),
     createCaption(byId("caption")),
     createControls(byId("controls"), page),
@@ -67,6 +71,10 @@ export function createPanels(page) {
     bubble,
     ...createHands(byId("road"), road.places, byId("log"), page, bubble),
     createViews(byId("views-menu"), page),
+    createForesight(page),
+    createPlan(byId("plan"), page),
+    createOccupancy(byId("occupancy")),
+    createMetrics(byId("metrics"), page),
     createReader(),
     createPalette(/** @type {HTMLDialogElement} */ (byId("palette")), page),
     createHelp(byId("help"), page),

@@ -63,6 +63,7 @@ export function createRoad(host) {
     },
     poseOf: (id) => stage.pose(id, performance.now()),
     poses: () => stage.poses(performance.now()),
+    window: () => (view === null || camera.top === null || host.clientWidth === 0 ? null : [camera.top, camera.top + view.visibleRows]),
   };
 
   return {

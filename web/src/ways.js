@@ -1,0 +1,45 @@
+// @ts-check
+/** The six moves of a decision, in an order that stays, each with what was found of it, in words. */
+
+import { STEPS } from "./foresight.js";
+import { nameOf } from "./hits.js";
+import { reasonWords } from "./words.js";
+
+/** @import { Cell, Decision, Move } from "./protocol.js" */
+/** @import { Way } from "./paint/plan.js" */
+/** @import { World } from "./world.js" */
+
+/** @typedef {Way & {reason: string, ids: string[]}} Told */
+
+const MOVES = /** @type {Move[]} */ (Object.keys(STEPS));
+
+/**
+ * @param {Decision} decision
+ * @param {Cell} from  where it was taken
+ * @param {World} world
+ * @returns {Told[]}
+ */
+export function waysOf(decision, from, world) {
+  return MOVES.map((move) => {
+    const [across, down] = STEPS[move];
+    /** @type {Cell} */
+    const cell = [from[0] + across, from[1] + down];
+    const option = decision.options?.find((each) => each.move === move);
+    const blocked = option ? (option.verdict === "free" ? null : option) : decision.blocked?.find((each) => each.move === move);
+    const ids = blocked?.causes ?? [];
+    if (blocked) {
+      const standing = blocked.reason === "off_road" ? "off_road" : "blocked";
+      return { move, cell, standing: decision.move === move ? "taken" : standing, reason: why(blocked.reason, ids, world), ids };
+    }
+    if (decision.move === move) return { move, cell, standing: "taken", reason: "free", ids };
+    const stuck = option && option.cost === null;
+    return { move, cell, standing: "free", reason: stuck ? "free, but leads nowhere" : "free, less preferred", ids };
+  });
+}
+
+/** @param {string} reason @param {string[]} ids @param {World} world */
+function why(reason, ids, world) {
+  const thing = world.things.get(ids[0]);
+  const words = reasonWords(reason);
+  return thing ? words.replace("something", nameOf(thing)) : words;
+}
