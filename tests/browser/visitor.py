@@ -74,7 +74,7 @@ class Visitor:
     @property
     def session(self) -> str:
         """The id that the address names."""
-        match = re.search(r"#/s/(.+)$", self.page.url)
+        match = re.search(r"#/s/([^/]+)", self.page.url)
         assert match, self.page.url
         return match[1]
 

@@ -38,7 +38,9 @@ export function createLooking(page) {
  * @returns {Panel}
  */
 export function createPast(host, page, looking) {
-  const where = make("span", { class: "past-where" });
+  const tick = make("span", { class: "past-tick" });
+  const now = make("span", { class: "past-now" });
+  const where = make("span", { class: "past-where" }, tick, now);
   const play = pressed("play", "Play from here", "play", () => looking.toggle());
   const bar = make(
     "div",
@@ -48,7 +50,7 @@ export function createPast(host, page, looking) {
     pressed("fork", "Fork here", "fork", () => perform("fork")),
     pressed("rewind", "Rewind here", "rewind", () => perform("rewind")),
     pressed("share", "Share", "share", () => perform("share")),
-    make("button", { class: "past-live", type: "button", "data-past": "live", title: "Back to the present  N", onclick: () => looking.live() }, "Back to live"),
+    make("button", { class: "past-live", type: "button", "data-past": "live", "aria-label": "Back to live", title: "Back to the present  N", onclick: () => looking.live() }, make("span", { class: "past-now" }, "Back to "), make("span", {}, "live")),
   );
   host.append(bar);
   /** @type {any} */ let timer = null;
@@ -59,12 +61,18 @@ export function createPast(host, page, looking) {
     page.acts().find((act) => act.name === name)?.now(page.state())?.run?.(page);
   }
 
+  function tell() {
+    if (looking.tick === null) return;
+    setText(tick, `Tick ${looking.tick}`);
+    setText(now, ` of ${page.state().world?.tick ?? looking.tick}`);
+  }
+
   function show() {
     const looked = looking.tick;
     bar.hidden = looked === null;
     document.body.classList.toggle("past-seen", looked !== null);
-    const { world, session } = page.state();
-    if (looked !== null) setText(where, `Tick ${looked} of ${world?.tick ?? looked}`);
+    const { session } = page.state();
+    tell();
     if (play.dataset.playing !== String(looking.playing)) {
       play.dataset.playing = String(looking.playing);
       play.replaceChildren(icon(looking.playing ? "pause" : "play"), make("span", { class: "past-label" }, looking.playing ? "Pause" : "Play"));
@@ -104,7 +112,7 @@ export function createPast(host, page, looking) {
       const latest = state.talk.at(-1);
       const done = latest && latest !== before.talk.at(-1) && latest.standing === "done" && changesOf(latest.result).some(({ path }) => path !== "playback_speed");
       if (done) looking.live(); // what was just changed is to be seen
-      if (state.past !== null) setText(where, `Tick ${looking.tick} of ${present.world?.tick}`);
+      tell();
     },
   };
 }

@@ -75,7 +75,7 @@ export function createShare(host, page, looking) {
     doing(async (session, wanted) => {
       const made = await forkAt(session, wanted, wanted === null ? undefined : true);
       noteFork(localHistory(), { child: made.id, parent: session, tick: made.tick });
-      looking.live();
+      history.replaceState(null, "", hashOf(session, wanted)); // the browser's way back leads to this moment
       location.hash = hashOf(made.id);
       page.tell({ text: `Forked at tick ${made.tick}: from here on this session goes its own way.` });
     });
