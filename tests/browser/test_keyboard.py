@@ -45,7 +45,7 @@ def test_space_pauses_arrow_steps_u_undoes(visit: Visit) -> None:
     keys.press("ArrowRight")
     expect(shown).to_have_text(str(tick + 2))
     potholes = visitor.script.count("pothole")
-    road = page.locator(".road-canvas")
+    road = page.locator("#road .road-canvas")
     before = visitor.description()
     visitor.script.act({"do": "add", "kind": "pothole", "count": 4})
     expect(road).to_have_attribute("aria-label", re.compile(f" {potholes + 4} potholes"))

@@ -77,7 +77,7 @@ def test_nothing_sticks_out_sideways(visit: Visit, width: int) -> None:
     visitor = visit(viewport={"width": width, "height": 800})
     talkative(visitor)
     assert visitor.page.evaluate("document.documentElement.scrollWidth") <= width
-    box = visitor.page.locator(".road-canvas").bounding_box()
+    box = visitor.page.locator("#road .road-canvas").bounding_box()
     assert box is not None
     assert box["width"] >= min(width, 768) * 0.5
 
@@ -85,7 +85,7 @@ def test_nothing_sticks_out_sideways(visit: Visit, width: int) -> None:
 def test_on_a_phone_road_reply_and_box_are_seen_together(visit: Visit) -> None:
     visitor = visit(viewport=NARROW)
     exchange = visitor.say("add five potholes")
-    for part in (visitor.page.locator(".road-canvas"), exchange.locator(".change").first, visitor.words):
+    for part in (visitor.page.locator("#road .road-canvas"), exchange.locator(".change").first, visitor.words):
         expect(part).to_be_in_viewport(ratio=0.9)
 
 

@@ -51,18 +51,35 @@ def test_a_question_back_offers_choices(visit: Visit) -> None:
     visitor.last_exchange(wanted)
 
 
-def test_undo_stands_next_to_the_latest_change_only(visit: Visit) -> None:
+def test_undo_stands_next_to_every_change(visit: Visit) -> None:
     visitor = visit()
     before = visitor.script.count("pothole")
     visitor.say("add two potholes")
-    latest = visitor.say("add three potholes")
-    undo = visitor.page.locator(".change-undo button")
-    expect(undo).to_have_count(1)
+    visitor.say("add three potholes")
+    latest = visitor.say("add one pothole")
     latest.get_by_role("button", name="Undo").click()
-    expect(visitor.page.locator(".road-canvas")).to_have_attribute(
-        "aria-label", re.compile(f"{before + 2} potholes")
+    expect(visitor.page.locator("#road .road-canvas")).to_have_attribute(
+        "aria-label", re.compile(f"{before + 5} potholes")
     )
-    assert visitor.script.count("pothole") == before + 2
+    first = visitor.page.locator(".exchange").filter(has_text="add two potholes").first
+    expect(first.get_by_role("button")).to_have_text("Undo this and the one after")
+    first.get_by_role("button").click()
+    expect(first.locator(".change-taken")).to_have_text("taken back")
+    assert visitor.script.count("pothole") == before
+
+
+def test_an_older_change_counts_what_others_did_since(visit: Visit) -> None:
+    visitor = visit()
+    before = visitor.script.count("pothole")
+    visitor.say("add two potholes")
+    exchange = visitor.page.locator(".exchange").filter(has_text="add two potholes")
+    visitor.script.act({"do": "add", "kind": "pothole", "count": 1})
+    visitor.script.act({"do": "pause"})
+    button = exchange.get_by_role("button", name="Undo")
+    expect(button).to_have_text("Undo this and the one after")
+    button.click()
+    expect(exchange.locator(".change-taken")).to_be_visible()
+    assert visitor.script.count("pothole") == before
 
 
 def test_text_is_shown_as_text(visit: Visit) -> None:

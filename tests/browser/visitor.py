@@ -17,7 +17,7 @@ document.addEventListener("securitypolicyviolation", (event) =>
 
 WATCH_PICTURES = """
 (durationMs) => new Promise((done) => {
-  const road = document.querySelector(".road-canvas");
+  const road = document.querySelector("#road .road-canvas");
   const small = new OffscreenCanvas(90, 90);
   const pen = small.getContext("2d", { willReadFrequently: true });
   const pictures = [];
@@ -125,7 +125,7 @@ class Visitor:
 
     def description(self) -> str:
         """The road in words, for those who do not see it."""
-        return self.page.locator(".road-canvas").get_attribute("aria-label") or ""
+        return self.page.locator("#road .road-canvas").get_attribute("aria-label") or ""
 
     def troubles(self) -> list[str]:
         """Errors logged, what the content security policy has stopped, requests that went elsewhere."""

@@ -25,6 +25,8 @@ export function wireState(changes = {}) {
     metrics: metrics(),
     digest: "d10",
     sequence: 100,
+    undo: 0,
+    redo: 0,
     ...changes,
   };
 }

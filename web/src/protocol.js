@@ -49,6 +49,8 @@
  * @property {Metrics} metrics
  * @property {string} digest
  * @property {number} sequence
+ * @property {number} undo  how many changes can be taken back
+ * @property {number} redo
  */
 
 /** @typedef {{move: Move, cell?: Cell | null, verdict: string, cost: number | null, reason: string, causes?: string[]}} Option */
@@ -132,7 +134,8 @@
 /** @typedef {{type: "error", problem: Problem} | {type: "gone"} | {type: "pong"} | {type: "unknown"}} OtherMessage */
 /** @typedef {HelloMessage | TickMessage | ChangedMessage | StateMessage | ResultMessage | ProblemMessage | OtherMessage} ServerMessage */
 
-/** @typedef {{type: "command", id: string, text: string, language?: string} | {type: "actions", id: string, actions: Action[]} | {type: "ping"}} ClientMessage */
+/** @typedef {{type: "command", id: string, text: string, language?: string} | {type: "actions", id: string, actions: Action[]} | {type: "ping"} | Subscription | {type: "unsubscribe"}} ClientMessage */
+/** @typedef {{type: "subscribe", frames: "webp" | "jpeg", view: "road" | "schematic", fps: number, side: number}} Subscription */
 
 const API = "/api/v1";
 

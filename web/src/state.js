@@ -8,6 +8,7 @@
  */
 
 import { logChange, logEvents, logTick } from "./journal.js";
+import { NO_STEPS, stepsAfter } from "./steps.js";
 import { answerExchange, beginExchange, endUnanswered, refuseExchange } from "./talk.js";
 import { courseAfter, NO_COURSE } from "./time.js";
 import { AT_FIRST, viewsAfter } from "./views.js";
@@ -17,6 +18,7 @@ import { worldAfter, worldOf } from "./world.js";
 /** @import { Line } from "./journal.js" */
 /** @import { ServerMessage, Decision, Cell, Problem, HelloMessage, TickMessage } from "./protocol.js" */
 /** @import { Phase } from "./socket.js" */
+/** @import { Steps } from "./steps.js" */
 /** @import { Exchange } from "./talk.js" */
 /** @import { Course } from "./time.js" */
 /** @import { Views } from "./views.js" */
@@ -34,12 +36,14 @@ import { worldAfter, worldOf } from "./world.js";
  * @property {Exchange[]} talk  what was said here and answered, newest last
  * @property {Highlight | null} highlight  what the reader points at
  * @property {string | null} announcement  the latest sentence worth reading aloud
+ * @property {string | null} fault  what the service last said against a message that was neither said nor done
  * @property {Course} course  the run as the stream has told it
  * @property {Notice | null} notice  the latest thing worth a passing line over the page
  * @property {World | null} prior  the road at the tick before, as long as nothing but that tick has changed it
  * @property {Foresight | null} foresight  what was last told to be about to happen
  * @property {Views} views  what is shown
  * @property {string | null} large  the part of the page that is enlarged
+ * @property {Steps} steps  which changes can be taken back
  * @property {Past | null} past  an earlier tick that is looked at instead of the present
  */
 
@@ -82,12 +86,14 @@ export const INITIAL = {
   talk: [],
   highlight: null,
   announcement: null,
+  fault: null,
   course: NO_COURSE,
   notice: null,
   prior: null,
   foresight: null,
   views: AT_FIRST,
   large: null,
+  steps: NO_STEPS,
   past: null,
 };
 
@@ -131,13 +137,14 @@ function after(state, event) {
     case "changed":
       return {
         ...(event.views ? arranged(state, event.views) : state),
+        steps: stepsAfter(state.steps, event.state.undo, event.sequence),
         world: worldOf(event.state),
         prior: null,
         log: event.views && !event.changes?.length ? state.log : logChange(state.log, event),
         highlight: null,
       };
     case "state":
-      return { ...state, world: worldOf(event.state), prior: null };
+      return { ...state, world: worldOf(event.state), prior: null, steps: stepsAfter(state.steps, event.state.undo, null) };
     case "result":
       return {
         ...state,
@@ -151,7 +158,7 @@ function after(state, event) {
         announcement: event.problem.detail,
       };
     case "error":
-      return { ...state, announcement: event.problem.detail };
+      return { ...state, announcement: event.problem.detail, fault: event.problem.detail };
     default:
       return state;
   }
@@ -195,6 +202,7 @@ function afterHello(state, hello) {
     decision: hello.decision ?? null,
     narration: hello.decision?.narration ?? null,
     log: logEvents(state.log, hello.log ?? []),
+    steps: stepsAfter(state.steps, hello.state.undo, null),
     past: null,
   };
 }

@@ -13,10 +13,11 @@ import { answerElement } from "./answer.js";
 /**
  * @param {Exchange} exchange
  * @param {Page} page
- * @param {boolean} undoable  whether this is the change that undo would take back
+ * @param {number} undos  how many undos would take it back; 0 where none would
+ * @param {boolean} taken  whether it was taken back
  * @returns {HTMLElement}
  */
-export function exchangeElement(exchange, page, undoable) {
+export function exchangeElement(exchange, page, undos, taken) {
   const { said, standing, result, problem } = exchange;
   const asked = problem?.choices?.length ? "asked" : standing;
   const element = make("article", { class: "exchange", "data-standing": asked, "data-id": exchange.id });
@@ -26,13 +27,13 @@ export function exchangeElement(exchange, page, undoable) {
     const text = "The connection was lost before an answer came. The road shows whether it was done.";
     element.append(make("p", { class: "reply" }, text));
   }
-  if (result) element.append(...resultParts(result, page, undoable));
+  if (result) element.append(...resultParts(result, page, undos, taken));
   if (problem) element.append(...problemParts(problem, page));
   return element;
 }
 
-/** @param {CommandResult} result @param {Page} page @param {boolean} undoable */
-function resultParts(result, page, undoable) {
+/** @param {CommandResult} result @param {Page} page @param {number} undos @param {boolean} taken */
+function resultParts(result, page, undos, taken) {
   const parts = [];
   for (const { from, to } of result.corrections ?? []) {
     parts.push(make("p", { class: "correction" }, "Read “", make("s", {}, from), "” as “", make("b", {}, to), "”."));
@@ -45,14 +46,8 @@ function resultParts(result, page, undoable) {
     const onRoad = changes.filter(({ path }) => !isSetting(path));
     const settings = changes.filter(({ path }) => isSetting(path));
     list.append(...onRoad.map(changeElement));
-    if (undoable) {
-      const undo = make(
-        "button",
-        { class: "button quiet small", type: "button", onclick: () => page.act([{ do: "undo" }], "Undo", true) },
-        "Undo",
-      );
-      list.append(make("li", { class: "change-undo" }, undo));
-    }
+    if (undos > 0) list.append(make("li", { class: "change-undo" }, undoButton(undos, page)));
+    if (taken) list.append(make("li", { class: "change-taken" }, "taken back"));
     parts.push(list);
     if (settings.length > 0) {
       const title = `${settings.length} ${settings.length === 1 ? "setting" : "settings"} changed`;
@@ -67,6 +62,17 @@ function resultParts(result, page, undoable) {
     }
   }
   return parts;
+}
+
+/**
+ * The latest change is undone; an earlier one together with all that came after it, which is said.
+ * @param {number} undos
+ * @param {Page} page
+ */
+function undoButton(undos, page) {
+  const label = undos === 1 ? "Undo" : `Undo this and the ${undos === 2 ? "one" : undos - 1} after`;
+  const undo = () => page.act(Array(undos).fill({ do: "undo" }), label, true);
+  return make("button", { class: "button quiet small", type: "button", onclick: undo }, label);
 }
 
 /** What future roads are made from, rather than what is on this one. @param {string} path */

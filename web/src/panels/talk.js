@@ -2,7 +2,8 @@
 /** The conversation: what was said and what came back; at first, three things to try. */
 
 import { make } from "../dom.js";
-import { changesOf, shown } from "../talk.js";
+import { standingOf } from "../steps.js";
+import { shown } from "../talk.js";
 import { exchangeElement } from "./exchange.js";
 
 /** @import { Page } from "../main.js" */
@@ -20,14 +21,13 @@ export function createTalk(host, page) {
   const list = make("div", { class: "exchanges", tabIndex: 0, role: "log", "aria-label": "Conversation", "aria-live": "off" });
   host.append(list);
   list.append(welcome(page));
-  /** @type {Map<string, {exchange: Exchange, undoable: boolean, element: HTMLElement}>} */
+  /** @type {Map<string, {exchange: Exchange, standing: string, element: HTMLElement}>} */
   const elements = new Map();
 
   return {
-    update({ talk }, before) {
-      if (talk === before.talk) return;
+    update({ talk, steps }, before) {
+      if (talk === before.talk && steps === before.steps) return;
       const exchanges = shown(talk);
-      const undoable = talk.findLast(({ result }) => changesOf(result).length > 0)?.id;
       const kept = new Set(exchanges.map(({ id }) => id));
       if (exchanges.length > 0) list.querySelector(".welcome")?.remove();
       /** @type {HTMLElement | null} */
@@ -39,13 +39,14 @@ export function createTalk(host, page) {
       }
       for (const exchange of exchanges) {
         const known = elements.get(exchange.id);
-        const canUndo = exchange.id === undoable;
-        if (known?.exchange === exchange && known.undoable === canUndo) continue;
-        const element = exchangeElement(exchange, page, canUndo);
+        const { undos, taken } = standingOf(steps, exchange.result?.sequence);
+        const standing = `${undos} ${taken}`;
+        if (known?.exchange === exchange && known.standing === standing) continue;
+        const element = exchangeElement(exchange, page, undos, taken);
         if (known) known.element.replaceWith(element);
         else list.append(element);
         if (known?.exchange !== exchange) newest = element;
-        elements.set(exchange.id, { exchange, undoable: canUndo, element });
+        elements.set(exchange.id, { exchange, standing, element });
       }
       newest?.scrollIntoView({ block: "nearest" });
     },
