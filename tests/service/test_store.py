@@ -15,7 +15,17 @@ from pathlib import Path
 import asyncpg
 import pytest
 
-from service.store import EntryRecord, MemoryStore, SessionRecord, SqlStore, Store, StoreError, open_store
+from service.store import (
+    Branch,
+    EntryRecord,
+    MemoryStore,
+    SessionRecord,
+    SqlStore,
+    Store,
+    StoreError,
+    open_store,
+)
+from service.store.lineage import standing
 from tests.service.postgres import Server
 
 MOMENT = datetime(2026, 3, 29, 1, 30, 15, 250_000, tzinfo=UTC)
@@ -119,6 +129,65 @@ async def test_numbers_are_never_given_twice(store: Store) -> None:
     first = await store.create(record("a"))
     await store.delete("a")
     assert (await store.create(record("b"))).number > first.number
+
+
+def branch(parent: str, sequence: int) -> Branch:
+    instead = [{"sequence": 2, "tick": 9, "actions": entry(2).actions}]
+    return Branch(
+        parent=parent, sequence=sequence, tick=9, standing=standing([1, 4], sequence), instead=instead
+    )
+
+
+async def test_a_fork_begins_with_what_stands_of_its_parent(store: Store) -> None:
+    await store.create(record("a"), [entry(number) for number in range(1, 7)])
+    kept = await store.create(record("b", branch=branch("a", 4)))
+    await store.append("b", entry(5, tick=11))
+    assert await store.get("b") == kept
+    unsaid = [replace(entry(1), text=None), replace(entry(2, tick=9), text=None, digest=None)]
+    both = [*unsaid, replace(entry(4), text=None), entry(5, tick=11)]
+    assert list(await store.entries("b")) == both
+    await store.create(record("c", branch=branch("b", 5)))
+    again = replace(entry(2, tick=9), text=None, digest=None)
+    assert list(await store.entries("c")) == [unsaid[0], again, replace(entry(4), text=None)]
+    with pytest.raises(StoreError):
+        await store.create(record("d", branch=branch("nobody", 4)))
+    assert await store.get("d") is None
+
+
+async def test_a_parent_is_kept_unseen_for_its_forks(store: Store) -> None:
+    await store.create(record("a"), [entry(number) for number in range(1, 7)])
+    await store.create(record("b", branch=branch("a", 4)))
+    await store.create(record("c", branch=branch("b", 4)))
+    log = list(await store.entries("c"))
+    assert await store.delete("a") is True
+    assert await store.delete("a") is False
+    assert await store.delete("b") is True
+    assert await store.get("a") is None
+    assert list(await store.entries("a")) == []
+    assert [each.id for each in await store.newest(5)] == ["c"]
+    assert list(await store.entries("c")) == log
+    with pytest.raises(StoreError):
+        await store.append("a", entry(7))
+    assert await store.delete("c") is True
+    await store.create(record("a"))  # nothing of it is left
+    assert list(await store.entries("a")) == []
+
+
+async def test_named_moments_of_all_sessions(store: Store) -> None:
+    await store.create(record("a"), [replace(entry(1), names={"hill": 3, "dale": 4})])
+    await store.create(record("b"))
+    await store.append("b", replace(entry(1), names={"hill": 7}))
+    await store.append("a", replace(entry(2), names={"dale": 9}))
+    found = await store.moments(9)
+    assert [(each.session, each.session_name, each.name, each.sequence, each.tick) for each in found] == [
+        ("a", "road a", "dale", 2, 9),
+        ("b", "road b", "hill", 1, 7),
+        ("a", "road a", "hill", 1, 3),
+    ]
+    assert [each.tick for each in await store.moments(1, before=found[0].number)] == [7]
+    assert [each.session for each in await store.moments(9, name="hill")] == ["b", "a"]
+    await store.delete("b")
+    assert [each.session for each in await store.moments(9)] == ["a", "a"]
 
 
 async def test_ticks_are_remembered(store: Store) -> None:
