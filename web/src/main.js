@@ -37,6 +37,8 @@ import { watchPreferences } from "./theme.js";
  * @property {() => void} startSession
  * @property {() => void} reconnect  now rather than after the pause
  * @property {() => Act[]} acts  all that can be done by a key or from the palette
+ * @property {(message: ClientMessage) => void} send  what is neither said nor done
+ * @property {(data: ArrayBuffer) => void} [picture]  a picture has come from the service
  * @property {() => State} state  the present, whatever tick is looked at
  * @property {(other: Otherwise) => void} [pick]  play what would have been beside what was
  * @property {(foresight: Foresight) => void} foresee  what is about to happen has become known
@@ -93,6 +95,7 @@ const page = {
   startSession: () => void startSession(),
   reconnect: () => void connection?.open(),
   acts: () => acts,
+  send: (message) => void connection?.send(message),
   state: () => state,
 };
 
@@ -124,6 +127,7 @@ function followAddress() {
     page: location,
     find: findSession,
     onMessage: dispatch,
+    onPicture: (data) => page.picture?.(data),
     onPhase: (phase) => dispatch({ type: "phase", phase }),
   });
   void connection.open();

@@ -19,6 +19,7 @@ import { decode, encode, ProtocolError, streamUrl } from "./protocol.js";
  * @property {(id: string) => Promise<"here" | "missing" | "unreachable">} find
  * @property {(message: ServerMessage) => void} onMessage
  * @property {(phase: Phase) => void} onPhase
+ * @property {(data: ArrayBuffer) => void} [onPicture]
  * @property {(url: string) => WebSocket} [open]
  * @property {(work: () => void, delayMs: number) => unknown} [later]
  * @property {(timer: any) => void} [cancel]
@@ -72,6 +73,7 @@ export class Connection {
     if (presence === "unreachable") return this.#retry();
     const socket = this.wiring.open(streamUrl(this.wiring.page, this.session, this.#sequence));
     this.#socket = socket;
+    socket.binaryType = "arraybuffer";
     socket.onmessage = (event) => this.#receive(event.data);
     socket.onclose = () => this.#lose(socket);
     this.#listen(PATIENCE_MS);
@@ -97,6 +99,10 @@ export class Connection {
 
   /** @param {unknown} data */
   #receive(data) {
+    if (data instanceof ArrayBuffer) {
+      this.#listen(PING_AFTER_MS);
+      return this.wiring.onPicture?.(data);
+    }
     let message;
     try {
       message = decode(String(data));

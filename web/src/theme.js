@@ -26,6 +26,7 @@
  * @property {string} good
  * @property {string} focus
  * @property {Record<string, string>} kinds  of things, by kind, for signs
+ * @property {Record<string, string>} roadKinds  the same on asphalt
  * @property {number} lamps  how much lamps shine, 0–1
  */
 
@@ -65,8 +66,10 @@ export function readPalette(root) {
   const style = getComputedStyle(root);
   const read = (/** @type {string} */ name) => style.getPropertyValue(name).trim();
   const colours = Object.fromEntries(Object.entries(COLOURS).map(([key, name]) => [key, read(name)]));
-  const kinds = Object.fromEntries(KINDS.map((kind) => [kind, read(`--kind-${kind}`)]));
-  return /** @type {Palette} */ ({ ...colours, kinds, lamps: Number(read("--road-lamps")) });
+  const [kinds, roadKinds] = ["--kind-", "--road-kind-"].map((prefix) =>
+    Object.fromEntries(KINDS.map((kind) => [kind, read(prefix + kind)])),
+  );
+  return /** @type {Palette} */ ({ ...colours, kinds, roadKinds, lamps: Number(read("--road-lamps")) });
 }
 
 /**

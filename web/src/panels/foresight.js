@@ -22,7 +22,7 @@ export function createForesight(page) {
       const same = world === before.world && views === before.views && past === before.past && connection === before.connection;
       if (same || !world || !session || connection.phase !== "live") return;
       const moving = underWay(state);
-      const shown = (views.plan && !(moving && !world.paused)) || views.forecast;
+      const shown = ((views.plan || views.path) && !(moving && !world.paused)) || views.forecast;
       if (!shown || foreseen(state)) return latest.drop();
       // After a step the plan first shows the move under way, and what comes next when that is made.
       latest.pauseMs = moving && !views.forecast && world !== prior ? world.stepS * 900 : 0;

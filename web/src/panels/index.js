@@ -13,6 +13,7 @@ import { createExport } from "./export.js";
 import { createForesight } from "./foresight.js";
 import { createHelp } from "./help.js";
 import { createHands } from "./hands.js";
+import { createLanes } from "./lanes.js";
 import { createLog } from "./log.js";
 import { createMetrics } from "./metrics.js";
 import { createNames } from "./names.js";
@@ -20,6 +21,7 @@ import { createNotice } from "./notice.js";
 import { createOccupancy } from "./occupancy.js";
 import { createPalette } from "./palette.js";
 import { createLooking, createPast } from "./past.js";
+import { createPixels } from "./pixels.js";
 import { createPlan } from "./plan.js";
 import { createRoad } from "./road.js";
 import { createSchematic } from "./schematic.js";
@@ -71,6 +73,8 @@ export function createPanels(page) {
     bubble,
     ...createHands(byId("road"), road.places, byId("log"), page, bubble),
     createViews(byId("views-menu"), page),
+    createPixels(byId("road"), page),
+    createLanes(byId("road")),
     createForesight(page),
     createPlan(byId("plan"), page),
     createOccupancy(byId("occupancy")),

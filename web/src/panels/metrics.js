@@ -18,7 +18,7 @@ import { percent } from "../words.js";
 const FIGURES = [
   { name: "rate", label: "Success", value: ({ success_rate, episodes, successes }) => (episodes ? `${percent(success_rate)} · ${successes} of ${episodes}` : "no end yet") },
   { name: "distance", label: "Driven", value: ({ distance_m }) => (distance_m < 1000 ? `${Math.round(distance_m)} m` : `${(distance_m / 1000).toFixed(2)} km`) },
-  { name: "moves", label: "Ahead · aside · waits", value: ({ moves }) => `${moves.forward} · ${moves.lateral + moves.diagonal} · ${moves.stay}` },
+  { name: "moves", label: "Ahead · aside · wait", value: ({ moves }) => `${moves.forward} · ${moves.lateral + moves.diagonal} · ${moves.stay}` },
 ];
 
 const ENDS = /** @type {const} */ (["successes", "crashes", "stuck"]);
@@ -80,9 +80,9 @@ export function createMetrics(host, page) {
     const { ticks, known, lost } = book.sum(tick);
     const latest = book.items.get(tick - 1);
     const [risk, regret] = charts;
-    setText(risk.told, latest ? `${latest.blocked} of 6 moves blocked` : "–");
+    setText(risk.told, latest ? `${latest.blocked} of 6 blocked` : "–");
     setText(regret.told, failed || (known === 0 ? "–" : lost ? "the road was lost" : `${ticksWords(ticks)} lost in ${known}`));
-    risk.canvas.setAttribute("aria-label", `Moves blocked at each of the last ${WINDOW} ticks; at the latest ${risk.told.textContent}`);
+    risk.canvas.setAttribute("aria-label", `Moves blocked, of six, at each of the last ${WINDOW} ticks; at the latest ${risk.told.textContent}`);
     regret.canvas.setAttribute("aria-label", `Ticks lost against the best possible drive; ${regret.told.textContent}`);
   }
 

@@ -3,8 +3,10 @@
 
 import { Camera, viewOf } from "../camera.js";
 import { make } from "../dom.js";
+import { foreseen, STEPS } from "../foresight.js";
 import { ease, Stage } from "../motion.js";
 import { drawCell, drawImpact, drawMove, drawRing, drawTrail, drawWait } from "../paint/marks.js";
+import { drawBoxes, drawForecast, drawHazards } from "../paint/overlays.js";
 import { Sprites } from "../paint/sprites.js";
 import { drawLines, laySurface, surfaceTile } from "../paint/surface.js";
 import { drawThing, isFixed } from "../paint/things.js";
@@ -109,14 +111,18 @@ export function createRoad(host) {
       const progress = still ? 1 : stage.progress(now);
       const scene = { pen, sprites, palette, progress, now: still ? 0 : now };
       for (const pose of seen) if (isFixed(pose.thing)) drawThing(scene, pose, null);
-      drawTrail(pen, stage.trail.slice(0, -1), palette);
+      const { views } = state;
+      if (views.potholes) drawHazards(pen, seen, palette);
+      if (views.path) drawTrail(pen, stage.trail.slice(0, -1), palette);
       drawCauses(seen, progress);
-      if (egoPose && state.decision && world.status === "running") drawIntent(egoPose, progress);
+      if (views.path && egoPose && world.status === "running") drawIntent(egoPose, progress);
+      if (views.forecast) drawForecast(pen, seen, aheadOf(state), palette);
       const signal = state.decision?.move ?? null;
       if (world.status === "crash" && egoPose) {
         at(egoPose.column, egoPose.row, () => drawImpact(pen, ease(progress), palette));
       }
       for (const pose of seen) if (!isFixed(pose.thing)) drawThing(scene, pose, signal);
+      if (views.boxes) drawBoxes(pen, seen, palette);
       drawHighlight(seen);
       return scrolling || stage.moving(now);
     },
@@ -133,7 +139,14 @@ export function createRoad(host) {
 
   /** @param {Pose} ego @param {number} progress */
   function drawIntent({ thing, column, row }, progress) {
-    if (state?.decision?.move === "stay") drawWait(pen, [column, row], progress, palette);
+    // What comes next is shown once the move before it is made.
+    const next = progress === 1 && state?.world?.paused ? foreseen(state)?.decision : null;
+    if (next) {
+      const [across, down] = STEPS[next.move];
+      if (next.move === "stay") drawWait(pen, [column, row], 0, palette);
+      else drawMove(pen, [column, row], [thing.cell[0] + across, thing.cell[1] + down], 0, palette);
+    } else if (!state?.decision) return;
+    else if (state.decision.move === "stay") drawWait(pen, [column, row], progress, palette);
     else drawMove(pen, [column, row], thing.cell, progress, palette);
   }
 
@@ -157,4 +170,14 @@ export function createRoad(host) {
     draw();
     pen.restore();
   }
+}
+
+/**
+ * Where movers will be in the ticks to come, as far as that was told.
+ * @param {State} state
+ */
+function aheadOf({ foresight, world }) {
+  const tick = world?.tick ?? 0;
+  if (!foresight || foresight.tick > tick) return [];
+  return foresight.ahead.filter((each) => each.tick > tick).map(({ movers }) => movers);
 }
