@@ -1,10 +1,10 @@
 """Live sessions, each watched by one socket: how late ticks are, what they cost, what is missed.
 
 The service is the real command in a process of its own, with its file database; the clients are another, so
-that their work is not the service's. Each session is simulated, its decision put into
-words, and all of it sent. Lateness is the service's own measure, from a tick's deadline to its beginning, over
-all ticks of the stretch that is measured; a delay is what a client sees: how much later than the session's
-steady pace a tick arrives.
+that their work is not the service's. Each session is simulated, its decision put into words, and all of it
+sent. Lateness is the service's own measure, from a tick's deadline to its beginning, over all ticks of the
+stretch that is measured; a delay is what a client sees: how much later than the session's steady pace a tick
+arrives.
 
     python -m bench.live --sessions 200 --seconds 20
     python -m bench.live --write          # the whole table, into bench/LIVE.md

@@ -19,6 +19,9 @@ import uvloop
 
 from bench.asking import Line, request
 from bench.live import Heard
+from bench.rubbish import garbage as one_garbage
+from bench.rubbish import message as one_message
+from bench.rubbish import poured
 from bench.serving import Service, serving
 from bench.sockets import opened
 
@@ -99,10 +102,10 @@ async def garbage(count: int) -> None:
         path = await _session(service)
         dice = random.Random(5)
         answers: Counter[int] = Counter()
-        odd = [_garbage(dice, path, service.url.removeprefix("http://")) for _ in range(500)]
+        odd = [one_garbage(dice, path, service.url.removeprefix("http://")) for _ in range(500)]
         await _asked(service, odd, Counter())  # what is made once and stays is not what is measured
         before_mb = service.memory_mb()
-        odd = [_garbage(dice, path, service.url.removeprefix("http://")) for _ in range(count)]
+        odd = [one_garbage(dice, path, service.url.removeprefix("http://")) for _ in range(count)]
         await _asked(service, odd, answers)
         grown_mb = service.memory_mb() - before_mb
         alive = await _alive(service)
@@ -129,7 +132,7 @@ async def rubbish(count: int) -> None:
         while sent < count:
             socket = await opened(service.url, f"{path}/stream", heard)
             while not socket.ended.is_set() and sent < count:
-                socket.say(_message(dice))
+                socket.say(one_message(dice))
                 sent += 1
                 await asyncio.sleep(0)
             await asyncio.wait_for(socket.ended.wait(), 20)
@@ -148,7 +151,8 @@ async def too_much() -> None:
         path = await _session(service)
         await _warm(service, path)
         before_mb = service.memory_mb()
-        told = [await _body(service, f"{path}/actions", chunked=chunked) for chunked in (False, True)]
+        url, posted = service.url, f"{path}/actions"
+        told = [await poured(url, posted, BODY_BYTES, chunked=chunked) for chunked in (False, True)]
         socket = await opened(service.url, f"{path}/stream", lambda _: None)
         socket.say(b'{"type":"ping","x":"' + b"x" * MESSAGE_BYTES + b'"}')
         await asyncio.wait_for(socket.ended.wait(), 20)
@@ -226,93 +230,6 @@ async def _asked(service: Service, wanted: list[bytes], answers: Counter[int]) -
 
     await asyncio.gather(*(one() for _ in range(LINES)))
     return bodies
-
-
-async def _body(service: Service, path: str, *, chunked: bool) -> tuple[int, int]:
-    """The status of a body that is too large, and how many bytes of it were taken before that."""
-    host = service.url.removeprefix("http://")
-    name, _, port = host.partition(":")
-    reader, writer = await asyncio.open_connection(name, int(port))
-    length = "Transfer-Encoding: chunked" if chunked else f"Content-Length: {BODY_BYTES}"
-    head = f"POST {path} HTTP/1.1\r\nHost: {host}\r\nContent-Type: application/json\r\n{length}\r\n\r\n"
-    piece = b" " * 65_536
-    if chunked:
-        piece = b"10000\r\n" + piece + b"\r\n"
-    taken = 0
-    answer = asyncio.ensure_future(reader.readline())
-    try:
-        writer.write(head.encode())
-        while taken < BODY_BYTES and not answer.done():
-            writer.write(piece)
-            taken += len(piece)
-            await asyncio.wait((asyncio.ensure_future(writer.drain()), answer), return_when="FIRST_COMPLETED")
-            await asyncio.sleep(0.002)
-    except ConnectionError:
-        pass  # it hung up; what it said before that has been read
-    status = (await asyncio.wait_for(answer, 20)).split()
-    writer.transport.abort()
-    return (int(status[1]) if len(status) > 1 else 0), taken
-
-
-def _garbage(dice: random.Random, path: str, host: str) -> bytes:
-    """A request that makes no sense."""
-    methods = ("GET", "POST", "PUT", "PATCH", "DELETE", "HEAD", "OPTIONS", "BREW")
-    tails = (
-        "",
-        "/state",
-        "/commands",
-        "/actions",
-        "/step",
-        "/ask",
-        "/parse",
-        "/events",
-        "/forks",
-        "/nothing",
-    )
-    places = (path + dice.choice(tails), "/api/v1/sessions", "/api/v1/" + _word(dice), "/" + _word(dice))
-    target, method = dice.choice(places), dice.choice(methods)
-    if method == "DELETE" and target == path:
-        target += "/nothing"
-    if dice.random() < 0.3:
-        target += f"?tick={_word(dice)}&limit={dice.randrange(-9, 10**20)}&after={_word(dice)}"
-    odd = (
-        {},
-        _JSON,
-        _JSON,
-        _JSON,
-        {**_JSON, "If_Match": _word(dice)},
-        {**_JSON, "Idempotency_Key": _word(dice)},
-        {"Origin": "http://" + _word(dice)},
-    )
-    return request(method, target, host, _rubbish(dice), **dice.choice(odd))
-
-
-def _rubbish(dice: random.Random) -> bytes:
-    """A body or message that makes no sense, or not the one that is wanted."""
-    values = (None, True, -1, 1e308, "", "x" * 600, [], {}, [[]] * 20, {"do": "add", "kind": "dragon"})
-    match dice.randrange(6):
-        case 0:
-            return dice.randbytes(dice.randrange(200))
-        case 1:
-            return b"[" * dice.randrange(1, 5_000)
-        case 2:
-            return b'{"text":"' + dice.randbytes(20) + b'"}'
-        case 3:
-            return b'{"text":NaN,"actions":[Infinity],"ticks":1e999}'
-        case 4:
-            keys = ("text", "actions", "ticks", "question", "config", "seed", "recording", "type", "id")
-            return json.dumps({dice.choice(keys): dice.choice(values) for _ in range(3)}).encode()
-        case _:
-            return json.dumps({"text": " ".join(_word(dice) for _ in range(dice.randrange(1, 30)))}).encode()
-
-
-def _message(dice: random.Random) -> bytes:
-    """Text that is no message; a socket is to be sent UTF-8."""
-    return _rubbish(dice).decode("utf-8", "replace").encode()
-
-
-def _word(dice: random.Random) -> str:
-    return "".join(dice.choices("abcxyz0129-_.~%2e", k=dice.randrange(1, 20)))
 
 
 if __name__ == "__main__":

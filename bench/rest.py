@@ -32,6 +32,8 @@ LINES = 8
 
 ROUNDS = 5
 SENTENCE = b'{"text":"set the number of potholes to 5"}'
+ACTIONS = b'{"actions":[{"do":"set_count","kind":"pothole","count":5}]}'
+"""The same without a sentence that has to be read."""
 _RATE = re.compile(r"Requests/sec:\s+([\d.]+)")
 _BAD = re.compile(r"Non-2xx or 3xx responses: (\d+)")
 
@@ -103,6 +105,7 @@ async def _measured(seconds: float) -> None:
             Asked("state", kept.url, f"{path}/state"),
             Asked("command, bare", bare, f"{path}/commands", SENTENCE),
             Asked("command, in memory", kept.url, f"{path}/commands", SENTENCE),
+            Asked("command, typed", kept.url, f"{path}/actions", ACTIONS),
             Asked("command, durable", durable.url, f"{durable_path}/commands", SENTENCE),
         ]
         rates: dict[str, list[float]] = {each.name: [] for each in asked}
