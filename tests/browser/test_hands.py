@@ -174,6 +174,39 @@ def test_free_road_takes_what_is_put_there_from_the_bubble(road: Road) -> None:
     assert road.in_cell(cell) == ["pedestrian-1"] or road.in_cell(cell)[0].startswith("pedestrian")
 
 
+def test_the_bubble_goes_with_what_moves(road: Road) -> None:
+    road.put("vehicle", road.ahead(6))
+    road.page.mouse.click(*road.at(road.ahead(6)))
+    expect(road.bubble).to_contain_text("Car")
+    lanes = road.bubble.locator(".bubble-lines > :first-child")
+    before, place = lanes.inner_text(), road.bubble.bounding_box()
+    road.script.act({"do": "step", "ticks": 1})
+    expect(lanes).not_to_have_text(before)
+    road.page.wait_for_function(
+        "([x, y]) => { const at = document.querySelector('#bubble').getBoundingClientRect();"
+        " return Math.abs(at.x - x) + Math.abs(at.y - y) > 20; }",
+        arg=[place["x"], place["y"]] if place else [0, 0],
+    )
+    expect(road.bubble).to_contain_text("Car")
+
+
+def test_the_schematic_tells_too(road: Road) -> None:
+    name = road.put("barrier", road.ahead(12))
+    canvas = road.page.locator("#schematic canvas")
+    x, y = road.page.evaluate(
+        """async (cell) => {
+          const { viewUnder } = await import("/src/hits.js");
+          const at = viewUnder(document.querySelector("#schematic canvas")).places.placeOf(cell);
+          return [at.left + at.width / 2, at.top + at.height / 2];
+        }""",
+        road.ahead(12),
+    )
+    expect(canvas).to_be_visible()
+    road.page.mouse.move(x, y - 40)
+    road.page.mouse.move(x, y)
+    expect(road.bubble).to_contain_text(name)
+
+
 def test_a_past_decision_in_the_log_tells_its_moves_by_keyboard(road: Road) -> None:
     for _ in range(3):
         road.script.act({"do": "step", "ticks": 1})
@@ -238,6 +271,16 @@ def test_the_two_play_in_step_and_stop_when_told(road: Road) -> None:
     expect(tick).to_have_text(f"tick {int(stood.split()[1]) + 1}")
     expect(road.beside.locator(".beside-summary")).to_contain_text("It arrives 1 tick later.")
     assert road.script.state()["tick"] == 1
+
+
+def test_who_wants_little_motion_gets_the_tick_where_they_part(visit: Visit, service: ServiceProcess) -> None:
+    road = empty_road(visit, service, reduced_motion="reduce")
+    road.script.act({"do": "step", "ticks": 2})
+    expect(road.page.locator("[data-figure=tick] .figure-value")).to_have_text("2")
+    road.page.mouse.click(*road.at(road.ego))
+    road.bubble.locator(".bubble-move", has_text="stay").click()
+    expect(road.beside.locator(".beside-tick")).to_have_text("tick 2")
+    expect(road.beside.get_by_role("button", name="Play both")).to_be_visible()
 
 
 def test_imagining_a_thing_away_answers_and_plays(road: Road) -> None:
@@ -402,9 +445,8 @@ def test_letters_put_delete_removes_m_moves(road: Road) -> None:
 
 def test_enter_goes_into_the_bubble_and_escape_back_to_the_road(road: Road) -> None:
     keys = road.page.keyboard
-    keys.press("Tab")
-    road.surface.focus()
-    keys.press("Home")
+    keys.press("g")
+    expect(road.surface).to_be_focused()
     keys.press("Enter")
     expect(road.bubble.get_by_role("button").first).to_be_focused()
     keys.press("Escape")
@@ -436,8 +478,9 @@ def test_arrows_drive_where_a_person_drives(road: Road) -> None:
     road.page.get_by_role("group", name="Drive").get_by_role("button", name="right", exact=True).click()
     expect(shown).to_have_text("4")
     assert road.ego == [column + 1, row - 3]
-    keys.press("m")
+    road.page.get_by_role("button", name="Let it drive itself").click()
     expect(road.page.locator(".drive-pad")).to_be_hidden()
+    assert road.script.state()["mode"] == "auto"
 
 
 def test_a_move_held_back_is_told_in_the_services_words(road: Road) -> None:

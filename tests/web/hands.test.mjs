@@ -104,6 +104,24 @@ test("free road is offered for what fits, and the move that led there can be ask
   assert.deepEqual(told.offers[1].act.actions, [{ do: "ask", about: "why_not", tick: 9, move: "left" }]);
 });
 
+test("what is past is imagined otherwise there, and not changed", () => {
+  const past = { world, decision, narration: null };
+  const state = { ...INITIAL, world, decision, past };
+  const thing = tellOf({ kind: "cell", cell: [3, 15], id: "pothole-1" }, state, decision);
+  assert.deepEqual(thing.offers.map(({ text }) => text), ["Ask why", "What if it weren't there?"]);
+  assert.equal(thing.offers[1].pick.tick, world.tick);
+  assert.equal(thing.offers[1].act, undefined);
+  assert.deepEqual(tellOf({ kind: "cell", cell: [0, 0], id: null }, state, decision).offers, []);
+  const ego = tellOf({ kind: "cell", cell: [4, 20], id: "av-1" }, state, decision);
+  assert.deepEqual(ego.offers.map(({ text }) => text), ["Ask why"]);
+});
+
+test("who drives can be changed at the vehicle", () => {
+  const offers = (mode) => tellOf({ kind: "cell", cell: [4, 20], id: "av-1" }, { ...INITIAL, world: { ...world, mode } }, null).offers;
+  assert.deepEqual(offers("auto")[0].act.actions, [{ do: "mode", mode: "manual" }]);
+  assert.deepEqual(offers("manual")[0].act.actions, [{ do: "mode", mode: "auto" }]);
+});
+
 test("of a decision the moves that could have been driven can be watched", () => {
   const told = tellOf({ kind: "decision", tick: 9 }, { ...INITIAL, world }, decision);
   assert.deepEqual(told.moves.map(({ move }) => move), ["forward", "left"]);

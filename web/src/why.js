@@ -42,8 +42,9 @@ export function tellOf(about, state, decision) {
   if (world === null) return null;
   if (about.kind === "decision") return ofDecision(about.tick, decision);
   const thing = thingOf(world, about);
-  if (thing === null) return ofFree(world, about.cell, decision);
-  return thing.kind === "av" ? ofEgo(world, thing, decision, state.narration) : ofThing(world, thing, decision);
+  const past = state.past !== null;
+  if (thing === null) return ofFree(world, about.cell, decision, past);
+  return thing.kind === "av" ? ofEgo(world, thing, decision, state.narration, past) : ofThing(world, thing, decision, past);
 }
 
 /** @param {World} world @param {{cell: Cell, id: string | null}} at @returns {Thing | null} */
@@ -51,8 +52,15 @@ export function thingOf(world, { cell, id }) {
   return (id !== null && world.things.get(id)) || thingIn(world, cell);
 }
 
-/** @param {World} world @param {Thing} thing @param {Decision | null} decision @returns {Told} */
-function ofThing(world, thing, decision) {
+/**
+ * What is past is told, and imagined otherwise; it is not changed.
+ * @param {World} world
+ * @param {Thing} thing
+ * @param {Decision | null} decision
+ * @param {boolean} past
+ * @returns {Told}
+ */
+function ofThing(world, thing, decision, past) {
   const { id, kind } = thing;
   const part = decidedAbout(decision, id);
   const change = removing(thing);
@@ -69,16 +77,23 @@ function ofThing(world, thing, decision) {
       ...(decision && part ? [asking("Ask why", decision)] : []),
       {
         text: "What if it weren't there?",
-        act: { actions: [{ do: "ask", about: "what_if", change }], label: `What if ${id} weren't there?` },
-        pick: { kind: "change", tick: null, actions: change, label: labelOf(change) },
+        ...(past ? {} : { act: { actions: [{ do: "ask", about: "what_if", change }], label: `What if ${id} weren't there?` } }),
+        pick: { kind: "change", tick: past ? world.tick : null, actions: change, label: labelOf(change) },
       },
-      { text: "Remove", act: { actions: change, label: `Remove ${id}`, quiet: true } },
+      ...(past ? [] : [{ text: "Remove", act: { actions: change, label: `Remove ${id}`, quiet: true } }]),
     ],
   };
 }
 
-/** @param {World} world @param {Thing} ego @param {Decision | null} decision @param {string | null} narration @returns {Told} */
-function ofEgo(world, ego, decision, narration) {
+/**
+ * @param {World} world
+ * @param {Thing} ego
+ * @param {Decision | null} decision
+ * @param {string | null} narration
+ * @param {boolean} past
+ * @returns {Told}
+ */
+function ofEgo(world, ego, decision, narration, past) {
   return {
     kind: "av",
     title: world.mode === "manual" ? "the vehicle you drive" : nameOf(ego),
@@ -87,15 +102,20 @@ function ofEgo(world, ego, decision, narration) {
     moves: rejected(decision),
     offers: [
       ...(decision ? [asking("Ask why", decision)] : []),
-      world.mode === "manual"
-        ? { text: "Let it drive itself", act: { actions: [{ do: "mode", mode: "auto" }], label: "Let it drive itself", quiet: true } }
-        : { text: "Drive by hand", act: { actions: [{ do: "mode", mode: "manual" }], label: "Drive by hand", quiet: true } },
+      ...(past ? [] : [steering(world)]),
     ],
   };
 }
 
-/** @param {World} world @param {Cell} cell @param {Decision | null} decision @returns {Told} */
-function ofFree(world, cell, decision) {
+/** Who drives. @param {World} world @returns {Offer} */
+function steering({ mode }) {
+  return mode === "manual"
+    ? { text: "Let it drive itself", act: { actions: [{ do: "mode", mode: "auto" }], label: "Let it drive itself", quiet: true } }
+    : { text: "Drive by hand", act: { actions: [{ do: "mode", mode: "manual" }], label: "Drive by hand", quiet: true } };
+}
+
+/** @param {World} world @param {Cell} cell @param {Decision | null} decision @param {boolean} past @returns {Told} */
+function ofFree(world, cell, decision, past) {
   const on = decidedOn(decision, cell);
   /** @type {Offer[]} */
   const offers = [];
@@ -105,7 +125,7 @@ function ofFree(world, cell, decision) {
     offers.push(asking("Ask why not", decision, move));
   }
   for (const { kind, name } of TOOLS) {
-    if (hindrance(world, kind, cell) !== null) continue;
+    if (past || hindrance(world, kind, cell) !== null) continue;
     const label = `Put a ${name.toLowerCase()} here`;
     offers.push({ text: name, small: true, act: { actions: placing(kind, cell), label, quiet: true } });
   }

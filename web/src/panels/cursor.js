@@ -64,6 +64,8 @@ export function createCursor(host, places, page, card, hands) {
   /** @type {Cell | null} */ let cell = null;
   /** @type {Thing | null} */ let grabbed = null;
   let rest = 0;
+  /** Whether the keys were used last: the pointer has a mark of its own. */
+  let byKeys = false;
 
   /** @param {Cell} next @param {boolean} [aloud] */
   function go(next, aloud = true) {
@@ -87,7 +89,7 @@ export function createCursor(host, places, page, card, hands) {
 
   function place() {
     const at = cell && places.placeOf(cell);
-    const shown = !!at && document.activeElement === host && sceneOf(page.state()).world?.mode !== "manual";
+    const shown = !!at && byKeys && document.activeElement === host && sceneOf(page.state()).world?.mode !== "manual";
     mark.hidden = !shown;
     if (shown && at) lay(mark, at);
   }
@@ -106,6 +108,14 @@ export function createCursor(host, places, page, card, hands) {
     if (cell === null || !lowest || !highest || cell[1] >= world.rows) return;
     const row = Math.max(highest[1], Math.min(lowest[1], cell[1]));
     if (row !== cell[1]) go([cell[0], row], false);
+  }
+
+  function reach() {
+    host.focus({ preventScroll: true });
+    const { world } = sceneOf(page.state());
+    if (world === null || world.mode === "manual") return;
+    byKeys = true;
+    go(cell !== null && onRoad(world, cell) ? cell : ahead(world));
   }
 
   /** Escape while holding: it stays where it is. */
@@ -177,6 +187,7 @@ export function createCursor(host, places, page, card, hands) {
     const { world } = sceneOf(page.state());
     if (event.target !== host || event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
     if (world === null || world.mode === "manual") return;
+    byKeys = true;
     if (!pressed(event, world)) return;
     event.preventDefault();
     event.stopPropagation();
@@ -184,7 +195,16 @@ export function createCursor(host, places, page, card, hands) {
   host.addEventListener("focus", () => {
     const { world } = sceneOf(page.state());
     if (world === null || !host.matches(":focus-visible")) return;
+    byKeys = true;
     go(cell !== null && onRoad(world, cell) ? cell : ahead(world), world.mode !== "manual");
+  });
+  host.addEventListener("pointerdown", ({ clientX, clientY }) => {
+    byKeys = false;
+    letGo();
+    const { world } = sceneOf(page.state());
+    const at = places.cellAt(clientX, clientY);
+    if (world !== null && at !== null && onRoad(world, at)) cell = at;
+    place();
   });
   host.addEventListener("blur", () => {
     clearTimeout(rest);
@@ -194,6 +214,15 @@ export function createCursor(host, places, page, card, hands) {
   });
 
   return {
+    acts: [
+      {
+        name: "cursor",
+        group: "Road",
+        key: "g",
+        keyName: "G",
+        now: ({ world }) => world && { label: "Go over the road cell by cell", run: reach },
+      },
+    ],
     update({ world }) {
       if (world === null || cell === null || document.activeElement !== host) return;
       carry(world);

@@ -18,6 +18,11 @@ import { MOVES } from "../words.js";
 const BUSY = "input, textarea, select, [contenteditable], dialog, .beside, [role=slider], [role=menu], [role=listbox], [role=tablist]";
 const PAD = /** @type {Move[]} */ (["forward_left", "forward", "forward_right", "left", "stay", "right"]);
 
+const HOW = () =>
+  matchMedia("(pointer: coarse)").matches
+    ? "You drive: tap where to go."
+    : "You drive: arrow keys, two at once for a diagonal, S to wait.";
+
 /** @param {HTMLElement} host  the road @param {Page} page @returns {Panel} */
 export function createDriving(host, page) {
   const words = make("p", { class: "drive-words", role: "status" });
@@ -32,7 +37,12 @@ export function createDriving(host, page) {
       ),
     ),
   );
-  const box = make("div", { class: "driving", hidden: true }, words, pad);
+  const back = make(
+    "button",
+    { class: "drive-end", type: "button", onclick: () => void page.act([{ do: "mode", mode: "auto" }], "Let it drive itself", true) },
+    "Let it drive itself",
+  );
+  const box = make("div", { class: "driving", hidden: true }, make("div", { class: "drive-side" }, words, back), pad);
   host.append(box);
 
   /** @type {Set<string>} */ const held = new Set();
@@ -127,7 +137,7 @@ export function createDriving(host, page) {
       box.hidden = !on;
       host.toggleAttribute("data-manual", on);
       if (!on) return held.clear();
-      if (before.world?.mode !== "manual") setText(words, "You drive: arrow keys, two for a diagonal; S waits; M gives it back.");
+      if (before.world?.mode !== "manual") setText(words, HOW());
       if (log === before.log) return;
       const line = log.at(-1);
       const back = log.findLast(({ type }) => type === "held_back");
