@@ -5,7 +5,8 @@ Stands around the handler of each route, so that no route can forget it.
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Mapping
+from typing import Any
 
 from fastapi import Request, Response
 
@@ -27,7 +28,10 @@ async def kept_contract(request: Request, handler: Handler) -> Response:
         session = await context.manager.get(session_id)
         return preconditions.tagged(request, response, session.sequence)
 
-    async def is_meant() -> None:
+    async def is_meant(given: Mapping[str, Any]) -> None:
+        language = getattr(given.get("body"), "language", None)
+        if language is not None:
+            context.listener.languages[language]  # which there are belongs to a request's form
         session = await context.manager.get(request.path_params["session_id"])
         preconditions.checked(request, session.sequence)
 

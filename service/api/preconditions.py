@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Mapping
 from contextvars import ContextVar
 from functools import wraps
 from typing import Annotated, Any, ParamSpec, TypeVar
@@ -30,7 +30,7 @@ CHANGING = ("POST", "PATCH", "DELETE")
 
 _TAG = re.compile(r'(W/)?"([\x21\x23-\x7e]*)"')
 _TAGS = re.compile(rf"\s*{_TAG.pattern}(\s*,\s*{_TAG.pattern})*\s*")
-_DOCUMENTED = r'^(\*|(W/)?"[!#-~]*"(, ?(W/)?"[!#-~]*")*)$'
+_DOCUMENTED = r'^\s*(\*|(W/)?"[!#-~]*"(\s*,\s*(W/)?"[!#-~]*")*)\s*$'
 """What may stand in `If-Match`, in words that every reader of schemas knows."""
 _SEQUENCE = re.compile(r"([0-9]{1,15})(-[0-9a-f]+)?")
 
@@ -57,14 +57,17 @@ def checked(request: Request, sequence: int) -> None:
     Terms(matched(request)).check(sequence)
 
 
-_BEFORE: ContextVar[Callable[[], Awaitable[None]] | None] = ContextVar("before", default=None)
+Check = Callable[[Mapping[str, Any]], Awaitable[None]]
+"""Given what an endpoint is called with."""
+
+_BEFORE: ContextVar[Check | None] = ContextVar("before", default=None)
 """What is to be looked at between a request's form and what it asks for."""
 
 Given = ParamSpec("Given")
 Made = TypeVar("Made")
 
 
-def before(check: Callable[[], Awaitable[None]] | None) -> None:
+def before(check: Check | None) -> None:
     """What is looked at once the request that is being handled is known to be well formed; None: nothing."""
     _BEFORE.set(check)
 
@@ -76,7 +79,7 @@ def checked_first(endpoint: Callable[Given, Awaitable[Made]]) -> Callable[Given,
     async def meant(*args: Given.args, **given: Given.kwargs) -> Made:
         check = _BEFORE.get()
         if check is not None:
-            await check()
+            await check(given)
         return await endpoint(*args, **given)
 
     return meant

@@ -57,6 +57,12 @@ def body_of(operation: Json) -> Json | None:
     return value
 
 
+def schema_of(operation: Json) -> str:
+    """The name of what a call is sent, where it has one."""
+    schema = operation["requestBody"]["content"]["application/json"]["schema"]
+    return str(schema.get("$ref", "")).rsplit("/", 1)[-1]
+
+
 @pytest.fixture
 async def client() -> AsyncIterator[httpx.AsyncClient]:
     async with httpx.AsyncClient(transport=httpx.ASGITransport(APP), base_url="http://localhost") as client:
@@ -180,6 +186,9 @@ async def test_what_is_wrong_by_its_form_is_told_before_what_is_stale(
         if path.endswith("/config"):  # a merge patch is any object; what it may hold the session says
             bad = [1]  # type: ignore[assignment]
         problem(await client.request(method, target, json=bad, headers=stale), 422, "invalid")
+        if "language" in str(DOCUMENT["components"]["schemas"].get(schema_of(operation), "")):
+            klingon = {**(body_of(operation) or {}), "language": "tlh"}
+            problem(await client.request(method, target, json=klingon, headers=stale), 422, "invalid")
         json_type = {"content-type": "application/json"}
         broken = await client.request(method, target, content=b"{", headers=stale | json_type)
         problem(broken, 400, "malformed")
