@@ -20,15 +20,16 @@ import sys
 import time
 from array import array
 from collections.abc import Awaitable, Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
+from typing import TypeVar
 
 import httpx
 import uvloop
 
 from bench.serving import Service, machine, serving
-from bench.sockets import Socket, opened
+from bench.sockets import opened
 
 AT_ONCE = 40
 """Sessions asked for at the same time."""
@@ -38,6 +39,8 @@ SETTLE_S = 3.0
 
 PROMISED_S = 0.02
 """Ticks later than this are too late."""
+
+Done = TypeVar("Done")
 
 RESULTS = Path(__file__).parent / "LIVE.md"
 _TICK = b'{"type":"tick","tick":'
@@ -59,6 +62,22 @@ class Load:
 
 
 @dataclass(frozen=True, slots=True)
+class Memory:
+    """What the service held, in megabytes: at first, with all sessions, with all sockets, at last."""
+
+    base_mb: float
+    made_mb: float
+    watched_mb: float
+    last_mb: float
+
+    def told(self, sessions: int) -> str:
+        """A session that has begun to run, what its socket adds, and what both came to."""
+        made, watched = self.made_mb - self.base_mb, self.watched_mb - self.made_mb
+        parts = (made, watched, self.last_mb - self.base_mb)
+        return " | ".join(f"{1e3 * part / sessions:.0f} kB" for part in parts)
+
+
+@dataclass(frozen=True, slots=True)
 class Figures:
     """What came of it."""
 
@@ -73,19 +92,13 @@ class Figures:
     delay_p99_ms: float
     cpu: float
     """share of one core"""
-    base_mb: float
-    full_mb: float
+    memory: Memory
     missed: int
 
     @property
     def tick_us(self) -> float:
         """Processor time of a tick, with everything that belongs to it."""
         return 1e6 * self.cpu / self.ticks_a_s if self.ticks_a_s else 0.0
-
-    @property
-    def session_kb(self) -> float:
-        """Memory of a session and its socket."""
-        return 1e3 * (self.full_mb - self.base_mb) / (self.load.sessions + self.load.hurried)
 
 
 class Heard:
@@ -154,13 +167,17 @@ async def measured(load: Load, seconds: float) -> Figures:
     async with serving(max_sessions=room) as service:
         async with httpx.AsyncClient(base_url=service.url, timeout=60) as client:
             base_mb = service.memory_mb()
-            heard = [Heard() for _ in range(load.sessions)]
-            watch = partial(_watched, client, service)
-            sockets = await _all(AT_ONCE, [partial(watch, each, load.hz) for each in heard])
-            hurried = [Heard() for _ in range(load.hurried)]
-            sockets += await _all(AT_ONCE, [partial(watch, each, None) for each in hurried])
+            paces = [load.hz] * load.sessions + [None] * load.hurried
+            streams = await _all([partial(_made, client, pace) for pace in paces])
             await asyncio.sleep(SETTLE_S)
-            figures = await _look(load, service, client, heard, hurried, base_mb, seconds)
+            made_mb = service.memory_mb()
+            heard = [Heard() for _ in streams]
+            sockets = await _all(
+                [partial(opened, service.url, *each) for each in zip(streams, heard, strict=True)]
+            )
+            await asyncio.sleep(SETTLE_S)
+            memory = Memory(base_mb, made_mb, service.memory_mb(), 0.0)
+            figures = await _look(load, service, client, heard, memory, seconds)
         for socket in sockets:
             socket.close()
     return figures
@@ -171,11 +188,11 @@ async def _look(
     service: Service,
     client: httpx.AsyncClient,
     heard: list[Heard],
-    hurried: list[Heard],
-    base_mb: float,
+    memory: Memory,
     seconds: float,
 ) -> Figures:
-    for each in (*heard, *hurried):
+    steady = heard[: load.sessions]
+    for each in heard:
         each.clear()
     before = await _buckets(client)
     cpu_s, began_s = service.cpu_s(), time.perf_counter()
@@ -186,10 +203,10 @@ async def _look(
     busy_s, wall_s = service.cpu_s() - cpu_s, time.perf_counter() - began_s
     after = await _buckets(client)
     counts = {bound: count - before[bound] for bound, count in after.items()}
-    delays = sorted(delay for each in heard for delay in each.delays_ms(1 / load.hz))
+    delays = sorted(delay for each in steady for delay in each.delays_ms(1 / load.hz))
     return Figures(
         load=load,
-        ticks_a_s=sum(each.count + each.missed for each in (*heard, *hurried)) / wall_s,
+        ticks_a_s=sum(each.count + each.missed for each in heard) / wall_s,
         p50_ms=_quantile_ms(counts, 0.5),
         p99_ms=_quantile_ms(counts, 0.99),
         max_ms=worst_ms,
@@ -197,27 +214,26 @@ async def _look(
         delay_p50_ms=_at(delays, 0.5),
         delay_p99_ms=_at(delays, 0.99),
         cpu=busy_s / wall_s,
-        base_mb=base_mb,
-        full_mb=service.memory_mb(),
-        missed=sum(each.missed for each in heard),
+        memory=replace(memory, last_mb=service.memory_mb()),
+        missed=sum(each.missed for each in steady),
     )
 
 
-async def _watched(client: httpx.AsyncClient, service: Service, heard: Heard, hz: float | None) -> Socket:
-    """A new session with a socket; `hz` None is as fast as possible."""
+async def _made(client: httpx.AsyncClient, hz: float | None) -> str:
+    """The stream of a new session; `hz` None is as fast as possible."""
     made = (await client.post("/api/v1/sessions", json={})).raise_for_status().json()
     speed = "max" if hz is None else hz * made["config"]["step_seconds"]
     if speed != 1.0:
         action = {"do": "set", "parameter": "playback_speed", "value": speed}
         done = await client.post(f"{made['links']['self']}/actions", json={"actions": [action]})
         done.raise_for_status()
-    return await opened(service.url, made["links"]["stream"], heard)
+    return str(made["links"]["stream"])
 
 
-async def _all(at_once: int, works: list[Callable[[], Awaitable[Socket]]]) -> list[Socket]:
-    gate = asyncio.Semaphore(at_once)
+async def _all(works: list[Callable[[], Awaitable[Done]]]) -> list[Done]:
+    gate = asyncio.Semaphore(AT_ONCE)
 
-    async def one(work: Callable[[], Awaitable[Socket]]) -> Socket:
+    async def one(work: Callable[[], Awaitable[Done]]) -> Done:
         async with gate:
             return await work()
 
@@ -248,9 +264,9 @@ def _at(ordered: list[float], share: float) -> float:
 
 _HEAD = (
     "| sessions | ticks/s | lateness p50 | p99 | max | ≤ 20 ms | arrival p50 | p99 | core | CPU a tick "
-    "| memory a session | missed |"
+    "| session | + socket | at last | missed |"
 )
-_RULE = "| --- |" + " ---: |" * 11
+_RULE = "| --- |" + " ---: |" * 13
 
 
 def _row(found: Figures) -> str:
@@ -258,7 +274,7 @@ def _row(found: Figures) -> str:
         f"| {found.load} | {found.ticks_a_s:.0f} | {found.p50_ms:.1f} ms | {found.p99_ms:.1f} ms "
         f"| {found.max_ms:.0f} ms | {100 * found.in_time:.2f} % | {found.delay_p50_ms:.1f} ms "
         f"| {found.delay_p99_ms:.1f} ms | {100 * found.cpu:.0f} % | {found.tick_us:.0f} µs "
-        f"| {found.session_kb:.0f} kB | {found.missed} |"
+        f"| {found.memory.told(found.load.sessions + found.load.hurried)} | {found.missed} |"
     )
 
 
@@ -273,8 +289,9 @@ words, and sent to one socket.
 *Lateness* is from a tick's deadline to its beginning, of all ticks of the stretch (quantiles between the
 bounds of `/metrics`); *arrival* is how much later than the session's own steady pace a message is there, at
 the clients. *CPU a tick* is processor time of the whole service process, all threads, for each tick:
-simulation, decision, words, message and sending. *Memory a session* is what the process grew by, sockets
-included. *Missed* are ticks that a socket at the steady pace was not sent.
+simulation, decision, words, message and sending. *Session* is the memory that each
+has taken a few seconds after all were made, before anyone watches, *+ socket* what the process grew by when
+each was watched, *at last* both at the end. *Missed* are ticks that a socket at the steady pace was not sent.
 """
 
 

@@ -18,6 +18,10 @@ from pathlib import Path
 import httpx
 import pytest
 
+from service.app import create_app
+from service.cli import warmed
+from service.settings import Settings
+
 ROOT = Path(__file__).parents[2]
 COMMAND = [sys.executable, "-m", "service"]
 ENVIRONMENT = {**os.environ, "PYTHONPATH": os.environ.get("PYTHONPATH", str(ROOT)), "PYTHONUNBUFFERED": "1"}
@@ -175,3 +179,10 @@ def test_what_was_acknowledged_survives_a_kill(database: Path) -> None:
             except httpx.TransportError:
                 killer.join()
     assert acknowledged > 20
+
+
+async def test_what_the_first_request_builds_is_built_before_anyone_asks() -> None:
+    app = create_app(Settings(database="memory:"))
+    counted = app.state.metrics
+    assert await warmed(app) == 200
+    assert not counted.refusals
