@@ -170,10 +170,10 @@ class Store(Protocol):
     async def date_answers(self, newest: int) -> None:
         """Move all answers in time together, so that the newest is of this moment."""
 
-    async def teach(self, record: PhraseRecord) -> None:
+    async def teach(self, record: PhraseRecord, answer: KeptAnswer | None = None) -> None:
         """Keep a phrase, in place of the one of that owner, language and key if there is one."""
 
-    async def forget(self, owner: str, language: str, key: str) -> bool:
+    async def forget(self, owner: str, language: str, key: str, answer: KeptAnswer | None = None) -> bool:
         """Forget a phrase; whether there was one."""
 
     async def phrases(self, owner: str) -> Sequence[PhraseRecord]:

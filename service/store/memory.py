@@ -161,12 +161,14 @@ class MemoryStore:
             raise StoreError(f"there is an answer under the key {answer.key} already")
         self._answers[answer.key] = answer
 
-    async def teach(self, record: PhraseRecord) -> None:
+    async def teach(self, record: PhraseRecord, answer: KeptAnswer | None = None) -> None:
         """See `Store.teach`."""
+        await self._keep(answer)
         self._phrases[record.owner, record.language, record.key] = record
 
-    async def forget(self, owner: str, language: str, key: str) -> bool:
+    async def forget(self, owner: str, language: str, key: str, answer: KeptAnswer | None = None) -> bool:
         """See `Store.forget`."""
+        await self._keep(answer)
         return self._phrases.pop((owner, language, key), None) is not None
 
     async def phrases(self, owner: str) -> Sequence[PhraseRecord]:

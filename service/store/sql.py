@@ -5,6 +5,10 @@ service on the same one is refused at its start.
 
 Changes that arrive while one is being written are committed together (group commit): the disk is
 waited for once for all of them, and none is acknowledged before its own commit.
+
+Where a server is lost in the midst of a commit, nobody knows whether that was done. It is tried once more;
+whoever is then told that nothing was saved must be right, so what may be there all the same is taken out
+with whatever is asked of the server next.
 """
 
 from __future__ import annotations
@@ -14,7 +18,7 @@ from collections.abc import AsyncIterator, Mapping, Sequence
 from contextlib import asynccontextmanager
 
 from sqlalchemy import Delete, bindparam, delete, func, insert, select, update
-from sqlalchemy.exc import SQLAlchemyError
+from sqlalchemy.exc import DBAPIError, SQLAlchemyError
 from sqlalchemy.ext.asyncio import AsyncConnection, AsyncEngine
 
 from service.store.base import (
@@ -35,6 +39,10 @@ from service.store.tables import ENTRIES, IDEMPOTENCY, MOMENTS, PHRASES, SESSION
 _Pending = tuple[str, EntryRecord, KeptAnswer | None, "asyncio.Future[None]"]
 
 
+class _LostError(StoreError):
+    """The server is gone, or does not answer: what was under way is done or is not."""
+
+
 class SqlStore:
     """`Store` in a database named by URL (`sqlite:///roadtalk.db`, `postgresql://host/name`)."""
 
@@ -46,6 +54,8 @@ class SqlStore:
         self._writer: asyncio.Task[None] | None = None
         self._unseen: set[str] = set()
         """deleted meanwhile, but for their forks"""
+        self._doubtful: list[Delete] = []
+        """takes out what was not acknowledged, and may be there"""
 
     async def open(self) -> None:
         """Open the database, making its tables or bringing older ones up if need be. Raises `StoreError`."""
@@ -76,6 +86,16 @@ class SqlStore:
         self, record: SessionRecord, entries: Sequence[EntryRecord] = (), answer: KeptAnswer | None = None
     ) -> SessionRecord:
         """See `Store.create`."""
+        try:
+            return await self._create(record, entries, answer)
+        except _LostError:
+            self._doubtful.append(delete(SESSIONS).where(SESSIONS.c.id == record.id))
+            self._doubt_answers(answer)
+            raise
+
+    async def _create(
+        self, record: SessionRecord, entries: Sequence[EntryRecord], answer: KeptAnswer | None
+    ) -> SessionRecord:
         async with self._transaction() as connection:
             if record.branch is not None:
                 there = select(SESSIONS.c.number).where(SESSIONS.c.id == record.branch.parent)
@@ -208,7 +228,7 @@ class SqlStore:
                 moved = IDEMPOTENCY.c.at + (newest - latest)
                 await connection.execute(update(IDEMPOTENCY).values(at=moved))
 
-    async def teach(self, record: PhraseRecord) -> None:
+    async def teach(self, record: PhraseRecord, answer: KeptAnswer | None = None) -> None:
         """See `Store.teach`."""
         values = {
             "owner": record.owner,
@@ -220,11 +240,15 @@ class SqlStore:
         async with self._transaction() as connection:
             await connection.execute(_one_phrase(record.owner, record.language, record.key))
             await connection.execute(insert(PHRASES), values)
+            if answer is not None:
+                await connection.execute(insert(IDEMPOTENCY), answer_values(answer))
 
-    async def forget(self, owner: str, language: str, key: str) -> bool:
+    async def forget(self, owner: str, language: str, key: str, answer: KeptAnswer | None = None) -> bool:
         """See `Store.forget`."""
         async with self._transaction() as connection:
             result = await connection.execute(_one_phrase(owner, language, key))
+            if answer is not None:
+                await connection.execute(insert(IDEMPOTENCY), answer_values(answer))
         return result.rowcount > 0
 
     async def phrases(self, owner: str) -> Sequence[PhraseRecord]:
@@ -248,7 +272,7 @@ class SqlStore:
         finally:
             self._writer = None
 
-    async def _write_batch(self, batch: list[_Pending]) -> None:
+    async def _write_batch(self, batch: list[_Pending], *, again: bool = True) -> None:
         try:
             async with self._transaction() as connection:
                 await _insert(connection, [(of, entry) for of, entry, _, _ in batch])
@@ -256,10 +280,20 @@ class SqlStore:
                 if answers:
                     await connection.execute(insert(IDEMPOTENCY), answers)
         except StoreError as error:
-            if len(batch) > 1:
+            if isinstance(error, _LostError):
+                for of, entry, answer, _ in batch:
+                    self._doubtful.append(
+                        delete(ENTRIES).where(
+                            ENTRIES.c.session_id == of, ENTRIES.c.sequence == entry.sequence
+                        )
+                    )
+                    self._doubt_answers(answer)
+            if isinstance(error, _LostError) and again:
+                await self._write_batch(batch, again=False)
+            elif len(batch) > 1:
                 # One bad entry must not fail its neighbours: each gets its own commit.
                 for pending in batch:
-                    await self._write_batch([pending])
+                    await self._write_batch([pending], again=False)
             elif not batch[0][3].done():
                 batch[0][3].set_exception(error)
         else:
@@ -267,15 +301,27 @@ class SqlStore:
                 if not done.done():
                     done.set_result(None)
 
+    def _doubt_answers(self, *answers: KeptAnswer | None) -> None:
+        for answer in answers:
+            if answer is not None:
+                self._doubtful.append(delete(IDEMPOTENCY).where(IDEMPOTENCY.c.key == answer.key))
+
     @asynccontextmanager
     async def _transaction(self) -> AsyncIterator[AsyncConnection]:
         if self._engine is None:
             raise StoreError("The database is not open")
         try:
             async with self._engine.begin() as connection:
+                doubtful = len(self._doubtful)
+                for statement in self._doubtful[:doubtful]:
+                    await connection.execute(statement)
                 yield connection
+            del self._doubtful[:doubtful]
         except (SQLAlchemyError, OSError) as error:
-            raise StoreError(reason(error)) from error
+            lost = isinstance(error, OSError) or (
+                isinstance(error, DBAPIError) and error.connection_invalidated
+            )
+            raise (_LostError if lost else StoreError)(reason(error)) from error
         except ValueError as error:
             # Reading JSON: the file was damaged in a place that its own structure does not show.
             raise StoreError(f"what is kept cannot be read: {error}") from error

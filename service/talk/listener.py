@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from service import actions as contract
-from service.actions import Action, Advise, Ask, Forget, Hide, Show, Teach
+from service.actions import Action, Advise, Ask, Forget, Hide, Pause, Redo, Resume, Show, Step, Teach, Undo
 from service.language.parse_types import Ambiguous as AmbiguousParse
 from service.language.parse_types import Correction, Refused, Understood
 from service.language.references import heard
@@ -19,6 +19,7 @@ from service.language.sentences import Unsayable
 from service.language.topic import ALONE, Topic
 from service.llm.protocol import LanguageModel
 from service.problems import Ambiguous, FieldProblem, Invalid, NotAQuestion, NotUnderstood
+from service.sessions.facts import Lesson
 from service.sessions.session import Session
 from service.sessions.terms import ANY_TERMS, Terms
 from service.sessions.utterance import Outcome, Utterance
@@ -26,12 +27,19 @@ from service.sessions.words import Words
 from service.talk.languages import DEFAULT, Languages
 from service.talk.phrasebook import Phrasebook
 from service.talk.preview import Preview, preview
-from sim.actions import Scenario
+from sim.actions import Add, Adjust, Drive, Prefer, Remove, Scenario, Set, SetCount, SetMode
 from sim.config import Config
 from sim.described import UndescribableError, actions_for
 
 HARMLESS = (Ask, Advise, Show, Hide)
 """Actions that change no session: an interpretation that is only these needs no confirmation."""
+
+UNASKED = (
+    *(*HARMLESS, Add, Remove, SetCount, Set, Adjust, Prefer, SetMode, Drive),
+    *(Pause, Resume, Step, Undo, Redo),
+)
+"""What may be done unconfirmed of what a model made out, where the settings allow that at all: all of it
+stays in the session and can be taken back or done again. Never names, phrases, or time itself."""
 
 MOST_SUGGESTED = 3
 
@@ -145,13 +153,31 @@ class Listener:
             raise Invalid(sentence, errors=[FieldProblem("actions", sentence)])
         (action,) = utterance.actions
         assert isinstance(action, Teach | Forget)
-        lesson = await self.phrasebook.learn(action, code, dry_run=dry_run)
-        reply = self._words.lesson(lesson)
+        terms.check(session.sequence)
+        made: list[Outcome] = []
+
+        def outcome_of(lesson: Lesson) -> Outcome:
+            if not made:
+                reply = self._words.lesson(lesson)
+                made.append(
+                    Outcome(
+                        utterance=utterance,
+                        facts=(),
+                        reply=reply,
+                        answer=None,
+                        sequence=session.sequence,
+                        changes=(),
+                    )
+                )
+            return made[0]
+
+        answer = terms.answer
+        kept = None if answer is None else lambda lesson: answer(outcome_of(lesson))
+        lesson = await self.phrasebook.learn(action, code, dry_run=dry_run, answer=kept)
+        outcome = outcome_of(lesson)
         if not dry_run:
-            session.tell("taught" if lesson.taught else "forgotten", utterance.text, reply)
-        return Outcome(
-            utterance=utterance, facts=(), reply=reply, answer=None, sequence=session.sequence, changes=()
-        )
+            session.tell("taught" if lesson.taught else "forgotten", utterance.text, outcome.reply)
+        return outcome
 
     async def _reworded(self, outcome: Outcome) -> Outcome:
         """The answer in a model's words, where one may reword and its words are true to the facts."""
@@ -185,8 +211,8 @@ class Listener:
         if not reading.actions:
             refusal.detail = f"{refusal.detail} {reading.told}".strip()
             raise refusal
-        harmless = all(isinstance(action, HARMLESS) for action in reading.actions)
-        if harmless or not self._confirm:
+        at_once = HARMLESS if self._confirm else UNASKED
+        if all(isinstance(action, at_once) for action in reading.actions):
             return Heard(text, reading.actions, source="llm", language=code)
         try:
             said = self.languages[DEFAULT].sentence(reading.actions)

@@ -7,6 +7,7 @@ There is one owner as long as the service does not tell its users apart.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 from service import actions as contract
@@ -17,7 +18,7 @@ from service.language.topic import Phrases, Topic
 from service.problems import FieldProblem, NotAvailable, NotSaved, NotTeachable
 from service.sessions.availability import refusal
 from service.sessions.facts import Lesson
-from service.store import PhraseRecord, Store, StoreError
+from service.store import KeptAnswer, PhraseRecord, Store, StoreError
 from service.talk.languages import DEFAULT, Languages
 from sim.actions import Where
 from sim.kinds import PLACEABLE, Kind
@@ -61,24 +62,36 @@ class Phrasebook:
         """What was taught in a language, in the order of the alphabet."""
         return sorted((each for each in self._kept.values() if each.language == code), key=lambda e: e.key)
 
-    async def learn(self, action: Teach | Forget, code: str, *, dry_run: bool) -> Lesson:
-        """Teach or forget. Raises `NotTeachable`, `NotAvailable` or `NotSaved`; nothing is then changed."""
+    async def learn(
+        self,
+        action: Teach | Forget,
+        code: str,
+        *,
+        dry_run: bool,
+        answer: Callable[[Lesson], KeptAnswer] | None = None,
+    ) -> Lesson:
+        """Teach or forget, and keep an `answer` with it.
+
+        Raises `NotTeachable`, `NotAvailable` or `NotSaved`; nothing is then changed.
+        """
         key = " ".join(self._languages[code].words_of(action.phrase))
         before = self._kept.get((code, key))
         told = None if before is None else self.told(contract.load(before.meaning), code)
         if isinstance(action, Forget):
             if before is None:
                 raise _not_teachable(f"No phrase “{action.phrase}” was ever taught.")
+            lesson = Lesson(action.phrase, told or "", taught=False, before=told)
             if not dry_run:
-                await self._forget(before)
-            return Lesson(action.phrase, told or "", taught=False, before=told)
+                await self._forget(before, None if answer is None else answer(lesson))
+            return lesson
         self._check(action, code, key, new=before is None)
         record = PhraseRecord(
             owner=OWNER, language=code, key=key, phrase=action.phrase, meaning=contract.dump(action.meaning)
         )
+        lesson = Lesson(action.phrase, self.told(action.meaning, code), taught=True, before=told)
         if not dry_run:
-            await self._teach(record)
-        return Lesson(action.phrase, self.told(action.meaning, code), taught=True, before=told)
+            await self._teach(record, None if answer is None else answer(lesson))
+        return lesson
 
     def told(self, actions: tuple[Action, ...], code: str) -> str:
         """The actions as a sentence, or by their names where the language has none."""
@@ -104,17 +117,17 @@ class Phrasebook:
             if (sentence := refusal(meant)) is not None:
                 raise NotAvailable(sentence, errors=[FieldProblem("meaning", sentence)])
 
-    async def _teach(self, record: PhraseRecord) -> None:
+    async def _teach(self, record: PhraseRecord, answer: KeptAnswer | None) -> None:
         try:
-            await self._store.teach(record)
+            await self._store.teach(record, answer)
         except StoreError as error:
             raise NotSaved from error
         self._kept[record.language, record.key] = record
         self._ready.pop(record.language, None)
 
-    async def _forget(self, record: PhraseRecord) -> None:
+    async def _forget(self, record: PhraseRecord, answer: KeptAnswer | None) -> None:
         try:
-            await self._store.forget(record.owner, record.language, record.key)
+            await self._store.forget(record.owner, record.language, record.key, answer)
         except StoreError as error:
             raise NotSaved from error
         self._kept.pop((record.language, record.key), None)

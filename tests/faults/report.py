@@ -7,6 +7,7 @@ import tempfile
 from pathlib import Path
 
 from tests.faults.cases import CASES, CannotError, Row
+from tests.faults.outages import server_faults
 
 
 def line(row: Row) -> str:
@@ -21,7 +22,7 @@ def main() -> None:
     parser.add_argument("--only", help="the faults whose function has this in its name")
     given = parser.parse_args()
     print("| fault | answer | loop held | lost | well again |\n| --- | --- | --- | --- | --- |")
-    for case in CASES:
+    for case in (*CASES, server_faults):
         if given.only and given.only not in case.__name__:
             continue
         with tempfile.TemporaryDirectory(prefix="roadtalk-") as folder:

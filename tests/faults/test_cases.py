@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.faults.cases import CASES, CannotError, Row
+from tests.faults.outages import server_faults
 
 MOST_S = 0.5
 """The aim is 50 ms, which `report` measures; machines that test share, and what must be found here, a wait
@@ -16,7 +17,7 @@ for a lock or a disk, is a second or more."""
 FITTING = ("200", "201", "503 not-saved: ", "503 not-restorable: ", "not started: The database /")
 
 
-@pytest.mark.parametrize("case", CASES, ids=lambda case: case.__name__)
+@pytest.mark.parametrize("case", [*CASES, server_faults], ids=lambda case: case.__name__)
 def test_a_fault_is_told_and_loses_nothing(case: Callable[[Path], Iterator[Row]], tmp_path: Path) -> None:
     try:
         rows = list(case(tmp_path))

@@ -6,11 +6,12 @@ import asyncio
 import os
 import pwd
 import shutil
+import signal
 import socket
 import subprocess
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
@@ -32,6 +33,9 @@ class Server:
     """A running server."""
 
     port: int
+    folder: Path
+    programs: Path
+    user: int | None
 
     def url(self, database: str) -> str:
         return f"postgresql://roadtalk@127.0.0.1:{self.port}/{database}"
@@ -53,6 +57,42 @@ class Server:
     def new_database(self) -> str:
         """The same as `database`, outside of a loop."""
         return asyncio.run(self.database())
+
+    def start(self) -> None:
+        """Start it, for the first time or again."""
+        # Locks of a server that was killed; where nobody buries its processes, they still look alive.
+        for lock in (self.folder / "data" / "postmaster.pid", *self.folder.glob(".s.PGSQL.*.lock")):
+            lock.unlink(missing_ok=True)
+        options = f"-p {self.port} -c listen_addresses=127.0.0.1 -c unix_socket_directories={self.folder}"
+        self._control("-w", "-l", str(self.folder / "log"), "-o", options, "start")
+
+    def stop(self) -> None:
+        """Stop it without waiting for anyone."""
+        self._control("-m", "immediate", "stop")
+
+    def signal(self, how: signal.Signals) -> None:
+        """Send all its processes a signal, the first of them first."""
+        first = int((self.folder / "data" / "postmaster.pid").read_text().split()[0])
+        others = Path(f"/proc/{first}/task/{first}/children").read_text().split()
+        for each in (first, *map(int, others)):
+            with suppress(ProcessLookupError):
+                os.kill(each, how)
+
+    @contextmanager
+    def locked(self, database: str, table: str) -> Iterator[None]:
+        """Hold a table of a database, by its URL, against all others."""
+        with asyncio.Runner() as runner:
+            connection = runner.run(asyncpg.connect(database))
+            runner.run(connection.execute(f"BEGIN; LOCK TABLE {table} IN ACCESS EXCLUSIVE MODE"))
+            try:
+                yield
+            finally:
+                runner.run(connection.execute("ROLLBACK"))
+                runner.run(connection.close())
+
+    def _control(self, *arguments: str) -> None:
+        command = [self.programs / "pg_ctl", "-D", str(self.folder / "data"), *arguments]
+        subprocess.run(command, user=self.user, cwd=self.folder, check=True, stdout=subprocess.DEVNULL)
 
 
 @contextmanager
@@ -78,14 +118,12 @@ def serving(programs: Path) -> Iterator[Server]:
             "UTF8",
             "--no-sync",
         ]
-        options = f"-p {port} -c listen_addresses=127.0.0.1 -c unix_socket_directories={folder}"
-        starting = [programs / "pg_ctl", "-D", data, "-w", "-l", folder / "log", "-o", options, "start"]
-        for command in (making, starting):
-            subprocess.run(command, user=user, cwd=folder, check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(making, user=user, cwd=folder, check=True, stdout=subprocess.DEVNULL)
+        server = Server(port, folder, programs, user)
+        server.start()
         try:
-            yield Server(port)
+            yield server
         finally:
-            stopping = [programs / "pg_ctl", "-D", data, "-m", "immediate", "stop"]
-            subprocess.run(stopping, user=user, cwd=folder, check=True, stdout=subprocess.DEVNULL)
+            server.stop()
     finally:
         shutil.rmtree(folder)

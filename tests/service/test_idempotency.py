@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import uuid
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ import pytest
 from service.api.idempotency import KEPT_S, Answers
 from service.app import create_app
 from service.settings import Settings
-from service.store import EntryRecord, KeptAnswer, MemoryStore, SqlStore, Store, StoreError
+from service.store import EntryRecord, KeptAnswer, MemoryStore, PhraseRecord, SqlStore, Store, StoreError
 from tests.browser.service_process import ServiceProcess
 from tests.service.conftest import Service
 from tests.service.fakes import FewSentences, HandClock
@@ -247,3 +248,40 @@ async def test_the_file_moves_its_answers_in_time_together(tmp_path: Path) -> No
     assert kept.at == 10_400
     assert await store.kept("a") is None
     await store.close()
+
+
+@pytest.mark.parametrize("kind", ["memory", "sqlite"])
+async def test_a_phrase_and_its_answer_are_kept_together_or_not_at_all(kind: str, tmp_path: Path) -> None:
+    store: Store = MemoryStore() if kind == "memory" else SqlStore(f"sqlite:///{tmp_path}/roads.db")
+    await store.open()
+    answer = KeptAnswer(key="one", request="r", at=1, status=200, headers={}, body=b"{}")
+    phrase = PhraseRecord(owner="o", language="en", key="x", phrase="x", meaning=[{"do": "pause"}])
+    await store.teach(phrase, answer)
+    assert await store.kept("one") == answer
+    with pytest.raises(StoreError):
+        await store.forget("o", "en", "x", answer)
+    assert await store.phrases("o") == [phrase], "not forgotten where its answer cannot be kept"
+    with pytest.raises(StoreError):
+        await store.teach(replace(phrase, key="y", phrase="y"), answer)
+    assert await store.phrases("o") == [phrase]
+    assert await store.forget("o", "en", "x", replace(answer, key="two"))
+    assert (await store.phrases("o"), (await store.kept("two")) is None) == ([], False)
+    await store.close()
+
+
+async def test_a_phrase_is_taught_with_its_answer_in_one_go(service: Service) -> None:
+    """And not where it was asked for in a session that has gone on meanwhile."""
+    kept: list[KeptAnswer | None] = []
+    teach = service.store.teach
+
+    async def noted(record: PhraseRecord, answer: KeptAnswer | None = None) -> None:
+        kept.append(answer)
+        await teach(record, answer)
+
+    service.store.teach = noted  # type: ignore[method-assign]
+    path = await service.session(paused=True)
+    stale = {"If-Match": '"7"'}
+    refused = await service.client.post(f"{path}/actions", json=TAUGHT, headers=keyed() | stale)
+    assert (refused.status_code, kept) == (412, [])
+    first = await service.client.post(f"{path}/actions", json=TAUGHT, headers=keyed())
+    assert [answer.body for answer in kept if answer is not None] == [first.content]

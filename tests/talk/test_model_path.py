@@ -202,8 +202,14 @@ async def test_what_is_not_available_is_refused_all_the_same(
         ([{"do": "set", "parameter": "weather", "value": "snow"}], "not-available"),
         ([{"do": "pause"}, {"do": "remove", "kind": "barrier", "count": 3}], "does-not-fit"),
         ([{"do": "undo"}], "nothing-to-undo"),
-        ([{"do": "load", "name": "x"}], "unknown-name"),
-        ([{"do": "pause"}, {"do": "teach", "phrase": "x", "meaning": [{"do": "pause"}]}], "invalid"),
+        # What stays beyond the session, or moves time, is asked about even then.
+        ([{"do": "save", "name": "x"}], "ambiguous"),
+        ([{"do": "load", "name": "x"}], "ambiguous"),
+        ([{"do": "pause"}, {"do": "save", "name": "x"}], "ambiguous"),
+        ([{"do": "pause"}, {"do": "teach", "phrase": "x", "meaning": [{"do": "pause"}]}], "ambiguous"),
+        ([{"do": "teach", "phrase": "x", "meaning": [{"do": "pause"}]}], "ambiguous"),
+        ([{"do": "forget", "phrase": "x"}], "ambiguous"),
+        ([{"do": "reset"}], "ambiguous"),
     ],
 )
 async def test_unconfirmed_it_can_do_no_more_than_anyone(
