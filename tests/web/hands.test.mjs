@@ -7,6 +7,7 @@ import { endWords, fetchBeside, fetchDecision, labelOf, nameOfOther, partOf, sum
 import { isDriving, moveOf } from "../../web/src/drive.js";
 import { hindrance, isLoose, moving, placing, removing } from "../../web/src/edit.js";
 import { cellWords, decidedAbout, decidedOn, headingWords, onRoad, placeWords, thingAt, thingIn } from "../../web/src/hits.js";
+import { servedView } from "../../web/src/served.js";
 import { INITIAL } from "../../web/src/state.js";
 import { tellOf } from "../../web/src/why.js";
 import { worldOf } from "../../web/src/world.js";
@@ -189,6 +190,19 @@ const answering = (value, ok = true) => {
   };
   return { http, asked };
 };
+
+test("cells are found on a picture that the service has drawn", () => {
+  const road = { columns: 8, rows: 30, visibleRows: 8 };
+  // 8 cells of 70 pixels and 17 of verge on either side.
+  const view = servedView({ width: 300, height: 400 }, { width: 594, height: 560 }, road, 25);
+  const scale = 300 / 594;
+  assert.ok(Math.abs(view.cell - 70 * scale) < 1e-9);
+  assert.ok(Math.abs(view.left - 17 * scale) < 1e-9);
+  assert.ok(Math.abs(view.top - (400 - 560 * scale) / 2) < 1e-9);
+  assert.ok(Math.abs(view.row - 19.9) < 1e-9);
+  assert.equal(servedView({ width: 300, height: 400 }, { width: 594, height: 560 }, road, 29).row, 22);
+  assert.equal(servedView({ width: 300, height: 400 }, { width: 594, height: 560 }, road, 1).row, 0);
+});
 
 test("both runs come as worlds in step", async () => {
   const { http, asked } = answering(TOLD);
