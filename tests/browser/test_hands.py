@@ -58,7 +58,9 @@ class Road:
         """Wait until the page shows as many of a kind as there are."""
         count = self.script.count(kind)
         words = f"{count} {kind}s?" if count else "."
-        expect(self.page.locator(".road-canvas").first).to_have_attribute("aria-label", re.compile(words))
+        expect(self.page.locator("#road .road-canvas").first).to_have_attribute(
+            "aria-label", re.compile(words)
+        )
 
     def in_cell(self, cell: Cell) -> list[str]:
         """What is in a cell, by id."""
@@ -103,7 +105,7 @@ def empty_road(visit: Visit, service: ServiceProcess, **context: Any) -> Road:
     made = httpx.post(f"{service.url}/api/v1/sessions", json={"seed": 7, "paused": True})
     found = Road(visit(f"/#/s/{made.json()['id']}", **context))
     found.script.act({"do": "remove", "kind": "everything", "count": "all"})
-    expect(found.page.locator(".road-canvas").first).to_have_attribute(
+    expect(found.page.locator("#road .road-canvas").first).to_have_attribute(
         "aria-label", re.compile("nothing on it")
     )
     return found
@@ -273,6 +275,46 @@ def test_the_two_play_in_step_and_stop_when_told(road: Road) -> None:
     assert road.script.state()["tick"] == 1
 
 
+def test_a_move_in_the_plan_can_be_watched(road: Road) -> None:
+    road.put("barrier", road.ahead(1))
+    way = road.page.locator("#plan button", has_text="Forward").filter(has_text="barrier")
+    way.click()
+    expect(road.page.locator("#beside-title")).to_have_text("If it had gone forward at tick 0")
+    expect(road.beside.locator("[data-side=changed] .beside-end")).to_contain_text("crashes into a barrier")
+    expect(road.beside.locator("[data-side=real] .beside-end")).to_contain_text("arrives")
+
+
+def test_the_past_is_told_and_not_changed(road: Road) -> None:
+    start = road.ahead(4)
+    name = road.put("barrier", start)
+    for _ in range(2):
+        road.script.act({"do": "step", "ticks": 1})
+    expect(road.page.locator("[data-figure=tick] .figure-value")).to_have_text("2")
+    road.page.keyboard.press("ArrowLeft")
+    expect(road.page.locator("[data-figure=tick] .figure-value")).to_have_text("1")
+    road.page.mouse.click(*road.at(start))
+    expect(road.bubble).to_contain_text("3 rows ahead")
+    expect(road.bubble.get_by_role("button", name="Remove")).to_have_count(0)
+    road.bubble.get_by_role("button", name="What if it weren't there?").click()
+    expect(road.beside.locator(".beside-tick")).to_contain_text(re.compile("tick [123]"))
+    expect(road.page.locator("#beside-title")).to_have_text(f"If {name} wasn’t there")
+    road.page.keyboard.press("Escape")
+    road.drag(road.at(start), road.at(road.ahead(1, 1)))
+    expect(road.page.locator(".road-toast")).to_contain_text("This is the past")
+    assert road.in_cell(start) == [name]
+
+
+def test_the_services_drawing_is_pointed_at_like_the_pages_own(road: Road) -> None:
+    name = road.put("barrier", road.ahead(3, 2))
+    road.page.locator("#views-menu button").first.click()
+    road.page.get_by_text("Drawn by the service").click()
+    road.page.keyboard.press("Escape")
+    expect(road.page.locator(".service-canvas")).to_be_visible()
+    x, y = road.at(road.ahead(3, 2))
+    road.page.mouse.click(x, y)
+    expect(road.bubble).to_contain_text(name)
+
+
 def test_who_wants_little_motion_gets_the_tick_where_they_part(visit: Visit, service: ServiceProcess) -> None:
     road = empty_road(visit, service, reduced_motion="reduce")
     road.script.act({"do": "step", "ticks": 2})
@@ -376,7 +418,7 @@ def test_the_tray_gives_what_is_dragged_or_clicked(road: Road) -> None:
     expect(page.locator(".tray-tool[data-kind=barrier]")).to_have_attribute("aria-pressed", "true")
     for lanes in (1, 2):
         page.mouse.click(*road.at(road.ahead(4, lanes)))
-        expect(page.locator(".road-canvas").first).to_have_attribute(
+        expect(page.locator("#road .road-canvas").first).to_have_attribute(
             "aria-label", re.compile(f"{lanes} barriers?")
         )
     assert road.script.count("barrier") == 2
