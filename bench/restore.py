@@ -1,19 +1,28 @@
-"""How long a session of 10,000 entries takes to come back, and any tick of it: `python -m bench.restore`."""
+"""How long a session of 10,000 entries takes to come back, and to fork: `python -m bench.restore`.
+
+Three sessions: counts set and steps in turn, the same with mixed actions (things added and removed, undone
+and redone, moves, modes), and 10,000 mixed entries over 50,000 ticks. Where it is not said otherwise, times
+are CPU time of the process: on a machine that does other work as well, only that can be compared.
+"""
 
 from __future__ import annotations
 
 import asyncio
 import random
 import statistics
+import sys
 import tempfile
 import time
+from collections.abc import Awaitable, Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 from service import actions as contract
 from service.narrate import Narrator
+from service.problems import ProblemError
 from service.sessions.clock import WheelClock
 from service.sessions.manager import SessionManager
-from service.sessions.session import Surroundings
+from service.sessions.session import Session, Surroundings
 from service.sessions.utterance import Utterance
 from service.settings import Settings
 from service.store import SqlStore
@@ -21,46 +30,115 @@ from sim.config import Config
 
 ENTRIES = 10_000
 LOOKS = 200
+FORKS = 20
+
+Said = dict[str, Any]
 
 
-async def measure(entries: int, folder: Path) -> None:
-    """Make a session, let it go, bring it back, and look at ticks of it by chance."""
-    store = SqlStore(f"sqlite:///{folder}/roads.db")
+def counts_and_steps(entries: int) -> Iterator[Said]:
+    """A count set, a step, and so on."""
+    for number in range(entries):
+        if number % 2:
+            yield {"do": "step", "ticks": 1}
+        else:
+            yield {"do": "set_count", "kind": "pothole", "count": 1 + number // 2 % 6}
+
+
+def mixed(entries: int, ticks: int) -> Iterator[Said]:
+    """Whatever people do, with steps of so many ticks in every other entry."""
+    dice = random.Random(5)
+    others: list[Said] = [
+        {"do": "add", "kind": "pothole", "count": 1},
+        {"do": "add", "kind": "vehicle", "count": 2, "where": {"side": "ahead"}},
+        {"do": "remove", "kind": "everything", "count": "all", "where": {"lane": "left"}},
+        {"do": "set_count", "kind": "vehicle", "count": 9},
+        {"do": "mode", "mode": "manual"},
+        {"do": "mode", "mode": "auto"},
+        {"do": "drive", "move": "left"},
+        {"do": "prefer", "preference": "cautious"},
+        {"do": "undo"},
+        {"do": "redo"},
+        {"do": "reset"},
+        {"do": "save", "name": "here"},
+    ]
+    for number in range(entries):
+        yield {"do": "step", "ticks": ticks} if number % 2 else dice.choice(others)
+
+
+async def measure(name: str, script: Callable[[int], Iterator[Said]], entries: int, folder: Path) -> None:
+    """Make a session, let it go, bring it back, look at ticks of it by chance, and fork it."""
+    store = SqlStore(f"sqlite:///{folder}/{name.replace(' ', '-')}.db")
     await store.open()
     around = Surroundings(store, WheelClock(), Narrator.load(), Settings())
     manager = SessionManager(around)
     session = await manager.create("long", Config(seed=7), paused=True)
-    for number in range(entries):
-        said = (
-            {"do": "step", "ticks": 1}
-            if number % 2
-            else {"do": "set_count", "kind": "pothole", "count": 1 + number // 2 % 6}
-        )
-        await session.change(Utterance(actions=contract.load([said])))
+    sayings = script(10**9)
+    while session.sequence < entries:
+        try:
+            await session.change(Utterance(actions=contract.load([next(sayings)])))
+        except ProblemError:
+            continue
     digest, tick = session.run.world.digest(), session.timeline.tick
     await manager.close()
 
     again = SessionManager(around)
-    began = time.perf_counter()
-    back = await again.get(session.id)
-    restored_s = time.perf_counter() - began
+    back, restored_s, restored_cpu_s = await timed(lambda: again.get(session.id))
     if back.run.world.digest() != digest or back.timeline.tick != tick:
         raise SystemExit("it came back as another")
-    dice, looks = random.Random(1), []
+    dice = random.Random(1)
+    looks, rewinds, forks, walls = [], [], [], []
     for _ in range(LOOKS):
         at = dice.randrange(tick)
-        began = time.perf_counter()
-        back.timeline.at(at)
-        looks.append((time.perf_counter() - began) * 1000)
-    looks.sort()
-    print(
-        f"{entries} entries, {tick} ticks: restored in {restored_s:.2f} s; a tick by chance: "
-        f"median {statistics.median(looks):.1f} ms, worst of {LOOKS} {looks[-1]:.1f} ms"
-    )
+        looks.append(spent(lambda at=at: back.timeline.at(at)))
+        rewinds.append(spent(lambda at=at: back.timeline.copy().rewind(at)))
+    for number in range(FORKS):
+        at = dice.randrange(tick) if number % 2 else tick
+        child, wall_s, cpu_s = await timed(lambda at=at: again.fork(back, at))
+        if child.run != back.timeline.at(at):
+            raise SystemExit("a fork is another")
+        forks.append(cpu_s * 1000)
+        walls.append(wall_s * 1000)
+    last = child.id
     await again.close()
+    third = SessionManager(around)
+    _, _, woken_s = await timed(lambda: third.get(last))
+    print(
+        f"{name}: {entries} entries, {tick} ticks: restored in {restored_cpu_s:.2f} s "
+        f"({restored_s:.2f} s by the clock); at a tick: {told(looks)}; back to a tick: {told(rewinds)}; "
+        f"fork: {told(forks)} (by the clock {told(walls)}); a fork restored in {woken_s:.2f} s",
+        flush=True,
+    )
+    await third.close()
     await store.close()
 
 
-if __name__ == "__main__":
+async def timed(work: Callable[[], Awaitable[Session]]) -> tuple[Session, float, float]:
+    """What it answers, and the seconds it took: by the clock, and of this process."""
+    began, cpu = time.perf_counter(), time.process_time()
+    found = await work()
+    return found, time.perf_counter() - began, time.process_time() - cpu
+
+
+def spent(work: Callable[[], object]) -> float:
+    """Milliseconds of CPU time that it took."""
+    began = time.process_time()
+    work()
+    return (time.process_time() - began) * 1000
+
+
+def told(times: list[float]) -> str:
+    """Median and worst."""
+    return f"median {statistics.median(times):.1f} ms, worst of {len(times)} {max(times):.1f} ms"
+
+
+async def main(entries: int) -> None:
+    """All three."""
     with tempfile.TemporaryDirectory() as made:
-        asyncio.run(measure(ENTRIES, Path(made)))
+        folder = Path(made)
+        await measure("counts and steps", counts_and_steps, entries, folder)
+        await measure("mixed", lambda most: mixed(most, 1), entries, folder)
+        await measure("mixed and long", lambda most: mixed(most, 10), entries, folder)
+
+
+if __name__ == "__main__":
+    asyncio.run(main(int(sys.argv[1]) if len(sys.argv) > 1 else ENTRIES))

@@ -152,3 +152,32 @@ async def test_another_end_than_once_names_the_entry(tmp_path: Path) -> None:
     answer = await state_of(path, made.json()["id"])
     assert (answer.status_code, answer.json()["type"]) == (503, "/problems/not-restorable")
     assert "entry 2" in answer.json()["detail"]
+
+
+async def test_names_given_before_version_4_are_listed(tmp_path: Path) -> None:
+    """Each with the latest moment it was given to, at the tick that time stood at by then."""
+    path = tmp_path / "roads.db"
+    shutil.copy(DATA / "version1.sqlite", path)
+    connection = sqlite3.connect(path)
+    (session,) = connection.execute("SELECT id FROM sessions ORDER BY number LIMIT 1").fetchone()
+    said = [
+        (901, 40, [{"do": "save", "name": "hill"}]),
+        (902, 50, [{"do": "step", "ticks": 3}, {"do": "save", "name": "dale"}]),
+        (
+            903,
+            60,
+            [{"do": "load", "name": "dale"}, {"do": "rewind", "ticks": 2}, {"do": "save", "name": "hill"}],
+        ),
+    ]
+    for sequence, tick, actions in said:
+        row = (session, sequence, tick, None, json.dumps(actions))
+        connection.execute(
+            "INSERT INTO entries (session_id, sequence, tick, text, actions) VALUES (?, ?, ?, ?, ?)", row
+        )
+    connection.commit()
+    connection.close()
+    store = SqlStore(f"sqlite:///{path}")
+    await store.open()
+    found = [(each.name, each.sequence, each.tick) for each in await store.moments(9)]
+    await store.close()
+    assert found == [("hill", 903, 51), ("dale", 902, 53)]

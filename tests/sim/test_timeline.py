@@ -259,3 +259,24 @@ def test_undo_reaches_across_the_end_of_an_episode() -> None:
     undone(timeline)
     assert timeline.run == played([(61, [])])[0].run
     assert timeline.run.world.count(Kind.AV) == 1
+
+
+def test_states_are_kept_by_the_work_between_them_also_within_one_tick() -> None:
+    """However much is said at one tick, no state is far from one that is kept."""
+    timeline = Timeline(CONFIG)
+    for number in range(1, 200):
+        timeline.apply(number, [SetCount(kind="pothole", count=number % 5)])
+    timeline.advance()
+    assert len(timeline._snapshots) > 4
+    there = timeline.at(0)
+    assert timeline.work_to(0) <= SNAPSHOT_TICKS
+    timeline.rewrite(timeline.entries[:150], 0)
+    straight = Timeline(CONFIG)
+    for number in range(1, 151):
+        straight.apply(number, [SetCount(kind="pothole", count=number % 5)])
+    assert timeline.at(0) == straight.run != there
+    straight.advance()
+    assert timeline.run == straight.run
+    assert timeline.work_since(0) > timeline.work_to(0)
+    timeline.rewind(0)
+    assert timeline.run.world == straight.at(0).world
