@@ -8,6 +8,7 @@ are CPU time of the process: on a machine that does other work as well, only tha
 from __future__ import annotations
 
 import asyncio
+import gc
 import random
 import statistics
 import sys
@@ -81,6 +82,8 @@ async def measure(name: str, script: Callable[[int], Iterator[Said]], entries: i
     digest, tick = session.run.world.digest(), session.timeline.tick
     await manager.close()
 
+    gc.collect()
+    gc.freeze()  # as the service does once it has started
     again = SessionManager(around)
     back, restored_s, restored_cpu_s = await timed(lambda: again.get(session.id))
     if back.run.world.digest() != digest or back.timeline.tick != tick:
