@@ -23,6 +23,8 @@ from rich.text import Text
 from service.client import Client, RoadtalkError
 from service.commands.terminal import console, plain
 from service.settings import Settings
+from service.store import wal
+from service.store.tables import VERSION
 
 LEAST_PYTHON = (3, 11)
 NEEDED = (
@@ -105,9 +107,18 @@ def database(settings: Settings) -> Finding:
         return Finding("ok", "a database server, which is tried when the service starts")
     path = Path(settings.database.removeprefix(prefix))
     elsewhere = "Choose another file: ROADTALK_DATABASE=sqlite:///<file>"
+    said = f"{path} can be written"
     try:
         if path.exists():
-            _lock(path)
+            lost = wal.defect(path)
+            if lost is not None:
+                return Finding("fault", f"{path} is damaged: {lost}", "Put a copy in its place.")
+            version = _lock(path)
+            if version is not None and version > VERSION:
+                found = f"{path} was made by a newer roadtalk (version {version} of its tables)"
+                return Finding("fault", found, "Install that one, or choose another file.")
+            if version is not None and version < VERSION:
+                said += f"; its tables, of version {version}, are brought up to {VERSION} at the next start"
         else:
             with tempfile.TemporaryFile(dir=path.parent):
                 return Finding("ok", f"{path} will be made")
@@ -117,7 +128,7 @@ def database(settings: Settings) -> Finding:
         return Finding("fault", f"{path} cannot be written: {error}", elsewhere)
     except (sqlite3.DatabaseError, OSError) as error:
         return Finding("fault", f"{path} cannot be used: {error}", elsewhere)
-    return Finding("ok", f"{path} can be written")
+    return Finding("ok", said)
 
 
 def port(settings: Settings) -> Finding:
@@ -177,14 +188,22 @@ CHECKS: dict[str, Callable[[Settings], Finding]] = {
 }
 
 
-def _lock(path: Path) -> None:
-    """Take the write lock and let it go; also reads the file, which shows damage at its head."""
+def _lock(path: Path) -> int | None:
+    """Take the write lock and let it go; also reads the file, which shows damage at its head.
+
+    Answers the version of its tables; None where it holds none, or none that is a number.
+    """
     if not os.access(path, os.W_OK):
         raise PermissionError(f"it is not writable for {os.environ.get('USER', 'this user')}")
     with closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=rw", uri=True, timeout=0)) as connection:
         connection.execute("PRAGMA schema_version").fetchone()
         connection.execute("BEGIN IMMEDIATE")
         connection.rollback()
+        tables = "SELECT 1 FROM sqlite_master WHERE name = 'alembic_version'"
+        if connection.execute(tables).fetchone() is None:
+            return None
+        row = connection.execute("SELECT version_num FROM alembic_version").fetchone()
+    return int(row[0]) if row is not None and str(row[0]).isdecimal() else None
 
 
 def _version() -> str:
