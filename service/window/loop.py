@@ -28,6 +28,7 @@ class NoDisplayError(Exception):
 
 def open_display(size: tuple[int, int]) -> pygame.Surface:
     """A window that can be resized. Raises `NoDisplayError`."""
+    environ.setdefault("SDL_VIDEO_X11_WMCLASS", "Roadtalk")  # how desktops group and name it
     try:
         pygame.display.init()
         driver = pygame.display.get_driver()
