@@ -90,7 +90,7 @@ def test_space_on_a_button_presses_it_once(visit: Visit) -> None:
 def test_everything_reached_by_tab_shows_its_focus(visit: Visit) -> None:
     visitor = visit()
     seen = []
-    for _ in range(20):
+    for _ in range(80):
         visitor.page.keyboard.press("Tab")
         focus = visitor.page.evaluate(
             """() => {

@@ -1,10 +1,10 @@
 // @ts-check
-/** Things to take away (a picture, a film, the recording) and a recording brought back, also by dropping it. */
+/** Things to take away (a picture, the recording, a film) and a recording brought back, also by dropping it. */
 
-import { makeDialog } from "../dialog.js";
-import { make, setText } from "../dom.js";
-import { fetched, fileName, filmPath, recordingIn, recordingPath, save, stretch } from "../downloads.js";
+import { make } from "../dom.js";
+import { fetched, fileName, recordingIn, recordingPath, save } from "../downloads.js";
 import { words } from "../http.js";
+import { onDemand } from "../lazy.js";
 import { hashOf, openRecording } from "../links.js";
 
 /** @import { Act } from "../acts.js" */
@@ -14,7 +14,7 @@ import { hashOf, openRecording } from "../links.js";
 
 /** @param {HTMLElement} road  where the road's canvas is @param {Page} page @param {Looking} looking @returns {Panel} */
 export function createExport(road, page, looking) {
-  const film = filmDialog(page, looking);
+  const film = onDemand(page, async () => (await import("./film.js")).filmDialog(page, looking));
   const chooser = make("input", { type: "file", accept: ".json,application/json", hidden: true, "aria-label": "Recording" });
   const over = make("div", { class: "drop", hidden: true }, make("p", {}, "Drop a recording to open it as a new session"));
   document.body.append(chooser, over);
@@ -79,105 +79,9 @@ export function createExport(road, page, looking) {
   /** @type {Act[]} */
   const acts = [
     { name: "picture", group, now: ({ past }) => ({ label: past ? `Save a picture of tick ${past.world.tick}` : "Save a picture of the road", run: picture }) },
-    { name: "film", group, now: () => ({ label: "Make a film…", run: film.open }) },
+    { name: "film", group, now: () => ({ label: "Make a film…", run: () => film((dialog) => dialog.open()) }) },
     { name: "recording", group, now: () => ({ label: "Save the recording", run: () => void recording() }) },
     { name: "open-recording", group, now: () => ({ label: "Open a recording…", run: () => chooser.click() }) },
   ];
   return { acts };
-}
-
-/**
- * @param {string} label
- * @param {HTMLElement} control
- */
-function row(label, control) {
-  return make("label", { class: "form-row" }, make("span", {}, label), control);
-}
-
-/** @param {[string, string][]} options @param {string} name */
-function choice(options, name) {
-  return make("select", { class: "field", name }, ...options.map(([value, label]) => make("option", { value }, label)));
-}
-
-/** @param {Page} page @param {Looking} looking */
-function filmDialog(page, looking) {
-  const from = make("input", { class: "field", type: "number", min: "0", required: true });
-  const to = make("input", { class: "field", type: "number", min: "0", required: true });
-  const view = choice([["road", "The road"], ["schematic", "Its plan"]], "view");
-  const format = choice([["gif", "GIF"], ["mp4", "MP4"]], "format");
-  const side = choice([["320", "Small · 320"], ["480", "Middle · 480"], ["720", "Large · 720"]], "side");
-  side.value = "480";
-  const told = make("p", { class: "dialog-note", role: "status" });
-  const progress = make("progress", { class: "progress", hidden: true, "aria-label": "Making the film" });
-  const start = make("button", { class: "button strong", type: "submit" }, "Make film");
-  const cancel = make("button", { class: "button", type: "button", hidden: true, onclick: () => making?.abort() }, "Cancel");
-  const form = make(
-    "form",
-    { class: "form" },
-    make("div", { class: "form-pair" }, row("From tick", from), row("To tick", to)),
-    row("Show", view),
-    make("div", { class: "form-pair" }, row("Format", format), row("Size", side)),
-    told,
-    progress,
-    make("div", { class: "form-end" }, cancel, start),
-  );
-  const dialog = makeDialog("Make a film", form);
-  /** @type {AbortController | null} */ let making = null;
-
-  function length() {
-    const ticks = to.valueAsNumber - from.valueAsNumber;
-    const stepS = page.state().world?.stepS ?? 0.5;
-    told.dataset.tone = "plain";
-    setText(told, ticks > 0 ? `${ticks} ticks, ${(ticks * stepS).toFixed(1)} s long.` : "");
-  }
-  form.addEventListener("input", length);
-  dialog.addEventListener("close", () => making?.abort());
-
-  form.addEventListener("submit", async (event) => {
-    event.preventDefault();
-    const { session, world } = page.state();
-    if (!session || !world || making) return;
-    making = new AbortController();
-    const { signal } = making;
-    const wish = /** @type {import("../downloads.js").FilmWish} */ ({
-      from: from.valueAsNumber, to: to.valueAsNumber, format: format.value, view: view.value, side: Number(side.value),
-    });
-    const began = performance.now();
-    const say = () => setText(told, `Drawing ${wish.to - wish.from} ticks: ${Math.round((performance.now() - began) / 1000)} s`);
-    told.dataset.tone = "plain";
-    say();
-    const clock = setInterval(say, 1_000);
-    show(true);
-    try {
-      const data = await fetched(filmPath(session, wish, world.stepS), signal);
-      save(data, fileName(session, `${wish.from}-${wish.to}`, wish.format));
-      setText(told, `Saved: ${Math.max(1, Math.round(data.size / 1000))} kB.`);
-    } catch (error) {
-      told.dataset.tone = signal.aborted ? "plain" : "bad";
-      setText(told, signal.aborted ? "Cancelled." : words(error));
-    } finally {
-      clearInterval(clock);
-      making = null;
-      show(false);
-    }
-  });
-
-  /** @param {boolean} busy */
-  function show(busy) {
-    progress.hidden = cancel.hidden = !busy;
-    start.disabled = busy;
-  }
-
-  function open() {
-    const { world } = page.state();
-    const now = world?.tick ?? 0;
-    const part = stretch(now, looking.tick);
-    from.value = `${part.from}`;
-    to.value = `${part.to}`;
-    from.max = to.max = `${now}`;
-    length();
-    dialog.showModal();
-    start.focus();
-  }
-  return { open };
 }

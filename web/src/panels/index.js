@@ -16,7 +16,6 @@ import { createHands } from "./hands.js";
 import { createLanes } from "./lanes.js";
 import { createLog } from "./log.js";
 import { createMetrics } from "./metrics.js";
-import { createNames } from "./names.js";
 import { createNotice } from "./notice.js";
 import { createOccupancy } from "./occupancy.js";
 import { createPalette } from "./palette.js";
@@ -58,7 +57,6 @@ export function createPanels(page) {
     createPast(byId("road"), page, looking),
     createShare(byId("session-menu"), page, looking),
     createExport(byId("road"), page, looking),
-    createNames(page, looking),
     createNotice(byId("notice"), page),
     createSchematic(byId("schematic"), road.places),
     createStatus(byId("status")),

@@ -1,5 +1,5 @@
 // @ts-check
-/** Moments with a name, and the sessions that are kept: to go to, to make, to delete. */
+/** The dialogs of moments with a name and of the sessions that are kept; fetched when they are first opened. */
 
 import { makeDialog } from "../dialog.js";
 import { make, setText } from "../dom.js";
@@ -7,35 +7,13 @@ import { ask, askJson, words } from "../http.js";
 import { hashOf } from "../links.js";
 import { SESSIONS_PATH, sessionPath } from "../protocol.js";
 
-/** @import { Act } from "../acts.js" */
 /** @import { Page } from "../main.js" */
 /** @import { Looking } from "../past.js" */
-/** @import { Panel } from "./index.js" */
 
 const LONGEST_NAME = 40;
 
-/** @param {Page} page @param {Looking} looking @returns {Panel} */
-export function createNames(page, looking) {
-  const moments = momentsDialog(page, looking);
-  const sessions = sessionsDialog(page);
-  const group = "Session";
-  /** @type {Act[]} */
-  const acts = [
-    { name: "save-moment", group, now: () => ({ label: "Save this moment as…", run: () => void moments.open(true) }) },
-    { name: "moments", group, now: () => ({ label: "Saved moments…", run: () => void moments.open(false) }) },
-    { name: "sessions", group, now: () => ({ label: "Sessions…", run: () => void sessions.open() }) },
-    { name: "new-session", group, now: () => ({ label: "New session", run: () => page.startSession() }) },
-  ];
-  return {
-    acts,
-    update(state, before) {
-      if (state.talk !== before.talk) moments.refresh();
-    },
-  };
-}
-
 /** @param {Page} page @param {Looking} looking */
-function momentsDialog(page, looking) {
+export function momentsDialog(page, looking) {
   const name = make("input", { class: "field", maxLength: LONGEST_NAME, placeholder: "A name for this moment", "aria-label": "Name", required: true });
   const form = make("form", { class: "form-line" }, name, make("button", { class: "button strong", type: "submit" }, "Save"));
   const told = make("p", { class: "dialog-note", role: "status" });
@@ -123,7 +101,7 @@ function momentsDialog(page, looking) {
 /** @typedef {{id: string, name: string | null, created_at: string, seed: number, live: boolean, tick: number}} Kept */
 
 /** @param {Page} page */
-function sessionsDialog(page) {
+export function sessionsDialog(page) {
   const list = make("ul", { class: "rows" });
   const told = make("p", { class: "dialog-note", role: "status" });
   const more = make("button", { class: "button small", type: "button", hidden: true, onclick: () => void show() }, "More");
@@ -190,6 +168,22 @@ function sessionsDialog(page) {
       setText(told, "");
       dialog.showModal();
       await show();
+    },
+  };
+}
+
+/** A link that cannot be copied by the page, to be copied by hand. */
+export function linkDialog() {
+  const field = make("input", { class: "field", readOnly: true, "aria-label": "Link", onfocus: () => field.select() });
+  const told = make("p", { class: "dialog-note" });
+  const dialog = makeDialog("Copy this link", field, told);
+  return {
+    /** @param {string} url @param {string} what */
+    open(url, what) {
+      field.value = url;
+      setText(told, `This browser does not let a page copy. ${what}`);
+      dialog.showModal();
+      field.focus();
     },
   };
 }

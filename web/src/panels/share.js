@@ -1,11 +1,11 @@
 // @ts-check
 /** A moment handed on: forked into a session of its own, gone back to, or put into a link. */
 
-import { makeDialog } from "../dialog.js";
 import { make } from "../dom.js";
 import { localHistory } from "../history.js";
 import { askJson, words } from "../http.js";
 import { icon } from "../icons.js";
+import { onDemand } from "../lazy.js";
 import { forkAt, forks, hashOf, noteFork, shareLink } from "../links.js";
 import { createMenu } from "../menu.js";
 import { sessionPath } from "../protocol.js";
@@ -41,9 +41,11 @@ export function createShare(host, page, looking) {
     return items.filter((item) => item !== undefined);
   });
 
-  const field = make("input", { class: "field", readOnly: true, "aria-label": "Link", onfocus: () => field.select() });
-  const explained = make("p", { class: "dialog-note" });
-  const linkDialog = makeDialog("Copy this link", field, explained);
+  const names = onDemand(page, async () => {
+    const { linkDialog, momentsDialog, sessionsDialog } = await import("./names.js");
+    return { link: linkDialog(), moments: momentsDialog(page, looking), sessions: sessionsDialog(page) };
+  });
+  /** @type {(() => void) | null} */ let refresh = null;
 
   /** @param {(session: string, tick: number | null) => Promise<void>} work */
   async function doing(work) {
@@ -64,10 +66,7 @@ export function createShare(host, page, looking) {
         await navigator.clipboard.writeText(url);
         page.tell({ text: `Link to tick ${tick} copied. ${what}` });
       } catch {
-        field.value = url; // not allowed, or no clipboard here
-        explained.textContent = `This browser does not let a page copy. ${what}`;
-        linkDialog.showModal();
-        field.focus();
+        names(({ link }) => link.open(url, what)); // not allowed, or no clipboard here
       }
     });
 
@@ -93,9 +92,19 @@ export function createShare(host, page, looking) {
   const parentOf = (session) => forks(localHistory()).findLast(({ child }) => child === session);
 
   return {
-    acts: shareActs({ share, fork, rewind, parentOf }),
+    acts: [
+      ...shareActs({ share, fork, rewind, parentOf }),
+      ...nameActs(page, (naming) =>
+        names(({ moments }) => {
+          refresh = moments.refresh;
+          void moments.open(naming);
+        }),
+        () => names(({ sessions }) => void sessions.open()),
+      ),
+    ],
 
-    update({ session }, before) {
+    update({ session, talk }, before) {
+      if (talk !== before.talk) refresh?.();
       if (session === before.session) return;
       const from = parentOf(session);
       origin.hidden = !from;
@@ -130,5 +139,21 @@ function shareActs({ share, fork, rewind, parentOf }) {
         return from ? { label: `Go back to the session it was forked from`, run: () => (location.hash = hashOf(from.parent, from.tick)) } : null;
       },
     },
+  ];
+}
+
+/**
+ * @param {Page} page
+ * @param {(naming: boolean) => void} moments
+ * @param {() => void} sessions
+ * @returns {Act[]}
+ */
+function nameActs(page, moments, sessions) {
+  const group = "Session";
+  return [
+    { name: "save-moment", group, now: () => ({ label: "Save this moment as…", run: () => moments(true) }) },
+    { name: "moments", group, now: () => ({ label: "Saved moments…", run: () => moments(false) }) },
+    { name: "sessions", group, now: () => ({ label: "Sessions…", run: sessions }) },
+    { name: "new-session", group, now: () => ({ label: "New session", run: () => page.startSession() }) },
   ];
 }
