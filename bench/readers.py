@@ -31,6 +31,9 @@ MESSAGES = 1_000
 SESSIONS = 10_000
 BODY_BYTES = 50_000_000
 MESSAGE_BYTES = 200_000
+BEFORE_CLOSED = 20
+"""Malformed messages after which a socket is closed."""
+
 LINES = 16
 """Connections that ask at the same time."""
 
@@ -131,10 +134,9 @@ async def rubbish(count: int) -> None:
 
         while sent < count:
             socket = await opened(service.url, f"{path}/stream", heard)
-            while not socket.ended.is_set() and sent < count:
+            for _ in range(BEFORE_CLOSED):
                 socket.say(one_message(dice))
                 sent += 1
-                await asyncio.sleep(0)
             await asyncio.wait_for(socket.ended.wait(), 20)
             codes[socket.code] += 1
         grown_mb = service.memory_mb() - before_mb
