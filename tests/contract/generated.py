@@ -34,8 +34,13 @@ WORDS = "409: could mean several things; 422: the words mean nothing here"
 PAST = "422: a tick that has not come yet, which only the session knows"
 REFUSED: dict[tuple[str, str], tuple[tuple[int, ...], tuple[str, ...]]] = {
     ("POST", SESSIONS): (
-        (409, 422, 429),
-        (WORDS, "422: parts that cannot stand beside one another", "429: quota"),
+        (409, 413, 422, 429),
+        (
+            WORDS,
+            "422: parts that cannot stand beside one another",
+            "413: a long recording is more bytes than are read",
+            "429: quota",
+        ),
     ),
     ("DELETE", OWN): ((412, 422), (TAG,)),
     ("PATCH", f"{OWN}/config"): ((412, 422), (TAG, ROAD, "422: a part that needs another road")),
