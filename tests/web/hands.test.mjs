@@ -213,7 +213,10 @@ test("both runs come as worlds in step", async () => {
   assert.equal(found.changed.frames.at(-1).world.status, "crash");
   assert.deepEqual(found.changed.frames.at(-1).world.cause.ids, ["pothole-1"]);
   assert.deepEqual(partOf(found), { at: 1, tick: 9, real: "left", changed: "forward" });
-  assert.equal(sumOf(found), "At tick 9 it goes forward instead of going left. It crashes into a pothole at tick 11; in the real run it arrives after 3 ticks.");
+  assert.deepEqual(sumOf(found), {
+    text: "At tick 9 it goes forward instead of going left.",
+    ends: "It crashes into a pothole at tick 11; in the real run it arrives after 3 ticks.",
+  });
 });
 
 test("a change now is sent without a tick", async () => {
@@ -222,14 +225,14 @@ test("a change now is sent without a tick", async () => {
   const found = await fetchBeside("s1", { kind: "change", tick: null, actions, label: "x" }, http);
   assert.deepEqual(asked[0][1], { actions });
   assert.equal(partOf(found), null);
-  assert.equal(sumOf(found), "It is driven the same way. It arrives at the same tick.");
+  assert.equal(sumOf(found).text, "It is driven the same way. It arrives at the same tick.");
 });
 
 test("how much later or earlier it arrives is told", () => {
   const side = (driven) => ({ frames: [], end: { outcome: "success", driven } });
   const found = { tick: 1, insteadOf: null, saidSince: 2, real: side(10), changed: side(11) };
-  assert.match(sumOf(found), /It arrives 1 tick later\. What was said after that tick is left out of both\./);
-  assert.match(sumOf({ ...found, changed: side(7) }), /It arrives 3 ticks earlier\./);
+  assert.match(sumOf(found).text, /It arrives 1 tick later\. What was said after that tick is left out of both\./);
+  assert.match(sumOf({ ...found, changed: side(7) }).text, /It arrives 3 ticks earlier\./);
 });
 
 test("a refusal is told with its reason, and a service that is not there too", async () => {

@@ -118,8 +118,9 @@ export function titleOf(other, found) {
 }
 
 /**
- * What the difference comes to, in a sentence or two.
+ * What the difference comes to, in a sentence or two; `ends` stand over the two roads as well.
  * @param {Beside} found
+ * @returns {{text: string, ends: string}}
  */
 export function sumOf(found) {
   const { real, changed, saidSince } = found;
@@ -127,15 +128,13 @@ export function sumOf(found) {
   const told = [];
   if (part === null) told.push("It is driven the same way.");
   else told.push(`At tick ${part.tick} it ${does(part.changed)} instead of ${doing(part.real)}.`);
-  if (real.end.outcome !== changed.end.outcome || changed.end.outcome === "crash") {
-    told.push(`It ${endWords(changed.end)}; in the real run it ${endWords(real.end)}.`);
-  } else if (changed.end.outcome === "success") {
+  if (real.end.outcome === "success" && changed.end.outcome === "success") {
     const later = changed.end.driven - real.end.driven;
     const ticks = Math.abs(later) === 1 ? "1 tick" : `${Math.abs(later)} ticks`;
     told.push(later === 0 ? "It arrives at the same tick." : `It arrives ${ticks} ${later > 0 ? "later" : "earlier"}.`);
   }
   if (saidSince > 0) told.push("What was said after that tick is left out of both.");
-  return told.join(" ");
+  return { text: told.join(" "), ends: `It ${endWords(changed.end)}; in the real run it ${endWords(real.end)}.` };
 }
 
 /** @param {Move} move */

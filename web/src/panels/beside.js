@@ -115,7 +115,8 @@ export function createBeside(host, page) {
     last = Math.max(...SIDES.map((side) => answer[side].frames.length)) - 1;
     slider.max = String(last);
     setText(title, titleOf(other, answer));
-    setText(summary, sumOf(answer));
+    const { text, ends } = sumOf(answer);
+    summary.replaceChildren(text, make("span", { class: "unseen" }, ` ${ends}`));
     setText(sides[1].name, nameOfOther(other));
     for (const side of sides) {
       const { end } = answer[side.key];

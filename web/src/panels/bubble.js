@@ -38,6 +38,8 @@ import { egoOf } from "../world.js";
 
 const LEAVE_MS = 280;
 const GAP_PX = 10;
+/** A trace is asked for so often at most, however fast the ticks come. */
+const APART_MS = 400;
 
 /** @param {HTMLElement} host @param {Page} page @returns {Panel & Card} */
 export function createBubble(host, page) {
@@ -51,6 +53,7 @@ export function createBubble(host, page) {
   /** @type {Decision | null} the trace of the decision that is spoken of */ let trace = null;
   /** @type {AbortController | null} */ let asking = null;
   let written = "";
+  let askedAt = -Infinity;
 
   /** @param {Target} next @param {boolean} [pin] */
   function show(next, pin = false) {
@@ -86,6 +89,7 @@ export function createBubble(host, page) {
     const tick = target?.kind === "decision" ? target.tick : state.decision?.tick;
     if (tick === undefined || state.session === null || trace?.tick === tick) return;
     asking?.abort();
+    askedAt = performance.now();
     const mine = (asking = new AbortController());
     try {
       trace = await fetchDecision(state.session, tick, mine.signal);
@@ -245,7 +249,7 @@ export function createBubble(host, page) {
       if (target.id !== null && !state.world?.things.has(target.id)) return hide();
       if (trace !== null && trace.tick !== state.decision?.tick) trace = null;
       write();
-      void ask();
+      if (performance.now() - askedAt > APART_MS) void ask();
     },
 
     draw() {

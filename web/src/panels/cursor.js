@@ -223,12 +223,16 @@ export function createCursor(host, places, page, card, hands) {
         now: ({ world }) => world && { label: "Go over the road cell by cell", run: reach },
       },
     ],
-    update({ world }) {
+    update({ world, session }, before) {
+      if (session !== before.session) {
+        cell = null;
+        letGo();
+      }
       if (world === null || cell === null || document.activeElement !== host) return;
       carry(world);
     },
     draw() {
-      if (cell !== null) place();
+      if (cell !== null && byKeys) place();
       return false;
     },
   };

@@ -41,7 +41,8 @@ function resultParts(result, page, undos, taken) {
   if (result.answer) parts.push(answerElement(result.answer, result.reply, page));
   else parts.push(make("p", { class: "reply" }, result.reply));
   const changes = changesOf(result);
-  if (changes.length > 0) {
+  // A thing moved changes no figure, and can be taken back all the same.
+  if (changes.length > 0 || undos > 0 || taken) {
     const list = make("ul", { class: "changes", "aria-label": "What changed" });
     const onRoad = changes.filter(({ path }) => !isSetting(path));
     const settings = changes.filter(({ path }) => isSetting(path));

@@ -253,7 +253,7 @@ export function createTouch(host, surface, places, page, card) {
     },
 
     draw() {
-      tray.draw();
+      if (host.hasAttribute("data-tray")) tray.draw();
       if (dragging) aim();
       return false;
     },

@@ -46,19 +46,23 @@ export function createTray(host, places, { grab, choose }) {
   function open() {
     const on = host.toggleAttribute("data-tray");
     opener.setAttribute("aria-expanded", String(on));
-    if (!on) choose(null);
+    if (on) draw();
+    else choose(null);
+  }
+
+  /** Each as it looks on the road, of the size it has there. */
+  function draw() {
+    const size = places.placeOf([0, 0])?.width ?? 0;
+    if (size === painted || size === 0) return;
+    painted = size;
+    for (const { kind, tool } of tools) tool.replaceChildren(portrait(places, kind, `${kind}-0`));
   }
 
   return {
+    draw,
     /** @param {string | null} kind */
     press(kind) {
       for (const each of tools) each.tool.setAttribute("aria-pressed", String(each.kind === kind));
-    },
-    draw() {
-      const size = places.placeOf([0, 0])?.width ?? 0;
-      if (size === painted || size === 0) return;
-      painted = size;
-      for (const { kind, tool } of tools) tool.replaceChildren(portrait(places, kind, `${kind}-0`));
     },
     repaint() {
       painted = 0;
