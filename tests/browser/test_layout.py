@@ -45,7 +45,7 @@ FAINT_TEXT = """
 
 SMALL_TARGETS = """
 () => [...document.querySelectorAll(
-    "header button, .controls button, .command button, .command input, .example, .offer")]
+    ".top button, .controls button, .command button, .command input, .example, .offer")]
   .filter((element) => element.checkVisibility())
   .map((element) => [element.textContent || element.id, element.getBoundingClientRect()])
   .filter(([, box]) => box.width < 44 || box.height < 44)
@@ -85,7 +85,11 @@ def test_nothing_sticks_out_sideways(visit: Visit, width: int) -> None:
 def test_on_a_phone_road_reply_and_box_are_seen_together(visit: Visit) -> None:
     visitor = visit(viewport=NARROW)
     exchange = visitor.say("add five potholes")
-    for part in (visitor.page.locator("#road .road-canvas"), exchange.locator(".change").first, visitor.words):
+    for part in (
+        visitor.page.locator("#road .road-canvas"),
+        exchange.locator(".change").first,
+        visitor.words,
+    ):
         expect(part).to_be_in_viewport(ratio=0.9)
 
 

@@ -135,12 +135,13 @@ function after(state, event) {
     case "tick":
       return afterTick(state, event);
     case "changed":
+      if (event.views && !event.changes?.length) return arranged(state, event.views);
       return {
         ...(event.views ? arranged(state, event.views) : state),
         steps: stepsAfter(state.steps, event.state.undo, event.sequence),
         world: worldOf(event.state),
         prior: null,
-        log: event.views && !event.changes?.length ? state.log : logChange(state.log, event),
+        log: logChange(state.log, event),
         highlight: null,
       };
     case "state":

@@ -60,5 +60,5 @@ export function viewsAfter(views, change) {
   const news = Object.entries(change ?? {}).filter(
     ([name, on]) => Object.hasOwn(AT_FIRST, name) && typeof on === "boolean" && on !== views[name],
   );
-  return news.length === 0 ? views : { ...views, ...Object.fromEntries(news) };
+  return news.length === 0 ? views : { ...views, .../** @type {Views} */ (Object.fromEntries(news)) };
 }

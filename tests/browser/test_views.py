@@ -1,0 +1,297 @@
+"""Parts of the page shown, hidden, enlarged; what each tells; the road drawn otherwise, and in words."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import httpx
+import pytest
+from playwright.sync_api import Locator, expect
+
+from tests.browser.conftest import Visit
+from tests.browser.visitor import Visitor
+
+COLOURS = """
+(canvas) => new Set(canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data).size
+"""
+PARTS = ("road", "schematic", "plan", "occupancy", "metrics", "log")
+
+
+def part(visitor: Visitor, name: str) -> Locator:
+    return visitor.page.locator(f"[data-view={name}]")
+
+
+def way(visitor: Visitor, name: str) -> Locator:
+    """The line of one move in the plan."""
+    return visitor.page.locator(".way").filter(has=visitor.page.get_by_text(name, exact=True))
+
+
+def asked(visitor: Visitor, what: str) -> dict[str, Any]:
+    answer = httpx.get(f"{visitor.url}/api/v1/sessions/{visitor.session}/{what}", timeout=10)
+    values: dict[str, Any] = answer.raise_for_status().json()
+    return values
+
+
+def cleared(visitor: Visitor) -> list[int]:
+    """Stop at the start of an empty road; the vehicle's cell."""
+    visitor.script.act({"do": "pause"}, {"do": "reset"})
+    visitor.script.act({"do": "remove", "kind": "everything", "count": "all"})
+    expect(visitor.page.locator("#road .road-canvas")).to_have_attribute(
+        "aria-label", re.compile("nothing on it")
+    )
+    cell: list[int] = visitor.script.state()["vehicles"][0]["cell"]
+    return cell
+
+
+def settled(visitor: Visitor) -> int:
+    """The road's picture once it stands still."""
+    for _ in range(20):
+        pictures = visitor.watch(0.4)["pictures"]
+        if len(set(pictures)) == 1:
+            break
+    picture: int = pictures[-1]
+    return picture
+
+
+def test_everything_is_seen_at_once_on_a_desk(visit: Visit) -> None:
+    visitor = visit()
+    visitor.pause()
+    for name in (*PARTS, "talk"):
+        expect(part(visitor, name)).to_be_in_viewport(ratio=1)
+    boxes = {name: part(visitor, name).bounding_box() for name in (*PARTS, "talk")}
+    for first in boxes:
+        for second in boxes:
+            one, other = boxes[first], boxes[second]
+            assert one is not None
+            assert other is not None
+            apart = one["x"] + one["width"] <= other["x"] + 1 or one["y"] + one["height"] <= other["y"] + 1
+            if first < second:
+                assert (
+                    apart
+                    or other["x"] + other["width"] <= one["x"] + 1
+                    or other["y"] + other["height"] <= one["y"] + 1
+                )
+
+
+def test_parts_are_shown_and_hidden_by_keys_heads_and_menu_and_stay_so(visit: Visit) -> None:
+    visitor = visit()
+    visitor.page.locator("body").click(position={"x": 720, "y": 20})
+    for key, name in enumerate(PARTS, 1):
+        visitor.page.keyboard.press(str(key))
+        expect(part(visitor, name)).to_be_hidden()
+        visitor.page.keyboard.press(str(key))
+        expect(part(visitor, name)).to_be_visible()
+    visitor.page.get_by_role("button", name="Hide the metrics").click()
+    expect(part(visitor, "metrics")).to_be_hidden()
+    menu = visitor.page.get_by_role("button", name="Views")
+    expect(menu).to_be_focused()
+    menu.press("ArrowDown")
+    visitor.page.keyboard.press("p")  # the first that begins so
+    entry = visitor.page.get_by_role("menuitemcheckbox", name="Plan")
+    expect(entry).to_be_focused()
+    visitor.page.keyboard.press("Enter")
+    expect(entry).to_have_attribute("aria-checked", "false")
+    expect(entry).to_be_focused()
+    expect(visitor.page.get_by_role("menuitemcheckbox", name="Metrics")).to_have_attribute(
+        "aria-checked", "false"
+    )
+    visitor.page.keyboard.press("Escape")
+    expect(menu).to_be_focused()
+    visitor.page.reload()
+    visitor.wait_live()
+    for name in PARTS:
+        expect(part(visitor, name)).to_be_visible(visible=name not in ("plan", "metrics"))
+
+
+def test_what_is_enlarged_fills_the_place_of_the_rest_and_comes_back(visit: Visit) -> None:
+    visitor = visit()
+    visitor.pause()
+    before = part(visitor, "plan").bounding_box()
+    visitor.page.get_by_role("button", name="Enlarge the plan").click()
+    large = part(visitor, "plan").bounding_box()
+    assert before is not None
+    assert large is not None
+    assert large["width"] > 2.5 * before["width"]
+    expect(part(visitor, "talk")).to_be_in_viewport(ratio=1)
+    canvas = visitor.page.locator(".plan-canvas")
+    visitor.page.wait_for_function("document.querySelector('.plan-canvas').clientWidth > 400")
+    visitor.page.keyboard.press("Escape")
+    visitor.page.wait_for_function("document.querySelector('.plan-canvas').clientWidth < 300")
+    assert part(visitor, "plan").bounding_box() == before
+    road = part(visitor, "road").bounding_box()
+    visitor.page.get_by_role("button", name="Enlarge the road").click()
+    expect(canvas).to_be_hidden()
+    wide = part(visitor, "road").bounding_box()
+    assert road is not None
+    assert wide is not None
+    assert wide["width"] > road["width"] + 200
+
+
+def test_parts_are_shown_and_hidden_by_sentence_on_every_page_that_watches(visit: Visit) -> None:
+    first = visit()
+    second = visit(f"/#/s/{first.session}")
+    expect(first.say("hide the log").locator(".reply")).to_have_text("The log is hidden.")
+    for visitor in (first, second):
+        expect(part(visitor, "log")).to_be_hidden()
+    second.script.act({"do": "show", "view": "log"}, {"do": "hide", "view": "occupancy"})
+    for visitor in (first, second):
+        expect(part(visitor, "log")).to_be_visible()
+        expect(part(visitor, "occupancy")).to_be_hidden()
+    assert first.page.locator(".log-line[data-tone=change]").count() == 0
+    expect(first.say("show the occupancy matrix").locator(".reply")).to_contain_text("is shown")
+    expect(part(second, "occupancy")).to_be_visible()
+    refused = first.say("show the sensors")
+    assert refused.get_attribute("data-standing") == "refused"
+    expect(refused.locator(".reply")).to_contain_text("there are none")
+
+
+def test_the_plan_tells_the_next_move_and_why_not_the_others(visit: Visit) -> None:
+    visitor = visit()
+    column, row = cleared(visitor)
+    expect(way(visitor, "Forward")).to_have_attribute("data-standing", "taken")
+    visitor.script.act(
+        {"do": "add", "kind": "barrier", "count": 1, "where": {"cell": [column, row - 1]}},
+        {"do": "add", "kind": "pothole", "count": 1, "where": {"cell": [column - 1, row]}},
+    )
+    expect(way(visitor, "Forward")).to_contain_text("a barrier")
+    expect(way(visitor, "Left")).to_contain_text("a pothole")
+    expect(visitor.page.locator(".panel-note").first).to_have_text(f"next, at tick {visitor.tick()}")
+    chosen = visitor.page.locator(".way[data-standing=taken] .way-name")
+    expect(chosen).to_have_text("Right")
+    expect(visitor.page.locator(".plan-canvas")).to_have_attribute(
+        "aria-label", re.compile("Intended: right. 2 of six")
+    )
+    plain, tick = settled(visitor), visitor.tick()
+    way(visitor, "Forward").focus()
+    assert settled(visitor) != plain, "the barrier is ringed on the road"
+    visitor.page.locator("#words").focus()
+    visitor.page.get_by_role("button", name="Step").click()
+    expect(visitor.page.locator(".caption")).to_contain_text("barrier")
+    assert visitor.script.state()["vehicles"][0]["cell"] == [column + 1, row]
+    expect(visitor.page.locator(".panel-note").first).to_have_text(f"next, at tick {tick + 1}")
+    expect(chosen).to_have_text("Forward")
+
+
+def test_a_rejected_move_plays_beside_the_real_run(visit: Visit) -> None:
+    visitor = visit()
+    visitor.pause()
+    visitor.script.act({"do": "step", "ticks": 3})
+    expect(visitor.page.locator(".panel-note").first).to_have_text("next, at tick 3")
+    visitor.page.locator(".way[data-standing=free]").first.click()
+    expect(visitor.page.locator("#beside")).to_be_visible()
+
+
+def test_the_matrix_holds_what_the_road_holds(visit: Visit) -> None:
+    visitor = visit()
+    column, row = cleared(visitor)
+    canvas = visitor.page.locator(".occupancy-canvas")
+    expect(canvas).to_have_attribute("aria-label", re.compile(r"1 of 240 cells are taken"))
+    blank = canvas.evaluate("(canvas) => canvas.toDataURL()")
+    visitor.script.act({"do": "add", "kind": "pothole", "count": 3})
+    expect(canvas).to_have_attribute("aria-label", re.compile(r"4 of 240 cells are taken, 3 potholes"))
+    visitor.page.wait_for_function(
+        "(before) => document.querySelector('.occupancy-canvas').toDataURL() !== before", arg=blank
+    )
+    assert f"column {column + 1} of row {row}" in (canvas.get_attribute("aria-label") or "")
+
+
+def test_metrics_are_the_service_s_own(visit: Visit) -> None:
+    visitor = visit()
+    visitor.pause()
+    visitor.script.act({"do": "step", "ticks": 70})
+    state, judged = visitor.script.state(), None
+    metrics = state["metrics"]
+    rate = visitor.page.locator("[data-metric=rate]")
+    expect(rate).to_contain_text(f"{metrics['successes']} of {metrics['episodes']}")
+    expect(visitor.page.locator("[data-metric=distance]")).to_have_text(f"{round(metrics['distance_m'])} m")
+    judged = asked(visitor, f"regret?from={state['tick'] - 60}&limit=60")["items"]
+    lost = sum(item["ticks"] or 0 for item in judged)
+    if any(item["lost"] for item in judged):
+        expect(visitor.page.locator(".chart-told").nth(1)).to_have_text("the road was lost")
+    else:
+        ticks = "1 tick" if lost == 1 else f"{lost} ticks"
+        expect(visitor.page.locator(".chart-told").nth(1)).to_have_text(f"{ticks} lost in {len(judged)}")
+    for chart in visitor.page.locator(".chart-canvas").all():
+        assert chart.evaluate(COLOURS) > 1
+
+
+@pytest.mark.parametrize(
+    ("said", "unsaid"), [("pothole map on", "pothole map off"), ("hide the path", "show the path")]
+)
+def test_layers_over_the_road_come_and_go_by_sentence(visit: Visit, said: str, unsaid: str) -> None:
+    visitor = visit()
+    visitor.pause()
+    visitor.script.act({"do": "reset"}, {"do": "step", "ticks": 6})
+    expect(visitor.page.locator(".panel-note").first).to_have_text(re.compile("next"))
+    plain = settled(visitor)
+    visitor.say(said)
+    assert settled(visitor) != plain
+    visitor.say(unsaid)
+    assert settled(visitor) == plain
+
+
+def test_layers_over_the_road_come_and_go_by_the_menu(visit: Visit) -> None:
+    visitor = visit()
+    visitor.pause()
+    expect(visitor.page.locator(".panel-note").first).to_have_text(re.compile("next"))
+    visitor.page.get_by_role("button", name="Views").click()
+    pictures = [settled(visitor)]
+    for name in ("Forecast", "Bounding boxes"):
+        visitor.page.get_by_role("menuitemcheckbox", name=name).click()
+        pictures.append(settled(visitor))
+    assert len(set(pictures)) == 3
+
+
+def test_the_service_draws_the_same_tick_and_the_page_again(visit: Visit) -> None:
+    visitor = visit()
+    visitor.pause()
+    visitor.page.get_by_role("button", name="Views").click()
+    visitor.page.get_by_role("menuitemradio", name="Drawn by the service").click()
+    theirs = visitor.page.locator(".service-canvas")
+    expect(theirs).to_be_visible()
+    expect(theirs).to_have_attribute("data-tick", str(visitor.tick()))
+    visitor.script.act({"do": "step", "ticks": 1})
+    expect(visitor.page.locator("[data-figure=tick] .figure-value")).to_have_text(
+        str(visitor.script.state()["tick"])
+    )
+    expect(theirs).to_have_attribute("data-tick", str(visitor.tick()))
+    assert theirs.evaluate(COLOURS) > 60
+    visitor.page.get_by_role("menuitemradio", name="Drawn here").click()
+    expect(theirs).to_be_hidden()
+
+
+def test_the_road_can_be_read_in_words(visit: Visit) -> None:
+    visitor = visit()
+    column, row = cleared(visitor)
+    visitor.script.act({"do": "add", "kind": "pothole", "count": 1, "where": {"cell": [column, row - 2]}})
+    words = visitor.page.get_by_role("region", name="The road in words")
+    lane = words.locator("li").nth(column + 1)
+    expect(lane).to_have_text(f"Lane {column + 1}, its own: a pothole 2 rows ahead.")
+    expect(words.locator("li").first).to_contain_text(
+        f"lane {column + 1} of 8, {row} rows from the destination"
+    )
+    assert words.get_attribute("aria-live") is None
+    words.focus()
+    box = words.bounding_box()
+    assert box is not None
+    assert box["width"] > 200
+
+
+def test_a_phone_has_all_views_one_below_the_other(visit: Visit) -> None:
+    visitor = visit(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
+    visitor.pause()
+    tops = [
+        (part(visitor, name).bounding_box() or {"y": -1})["y"]
+        for name in ("road", "talk", "log", "plan", "metrics")
+    ]
+    assert tops == sorted(tops)
+    hide = visitor.page.get_by_role("button", name="Hide the plan")
+    hide.scroll_into_view_if_needed()
+    box = hide.bounding_box()
+    assert box is not None
+    assert min(box["width"], box["height"]) >= 44
+    visitor.page.get_by_role("button", name="Enlarge the occupancy").tap()
+    box = part(visitor, "occupancy").bounding_box()
+    assert box is not None
+    assert (box["x"], box["y"], box["width"]) == (0, 0, 390)

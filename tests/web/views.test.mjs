@@ -1,0 +1,171 @@
+// What is shown, what it will do, how it was judged, what is read in words, what the service draws.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { foreseen, foresee, underWay } from "../../web/src/foresight.js";
+import { Book, WINDOW } from "../../web/src/judged.js";
+import { roadWords } from "../../web/src/lanes.js";
+import { drawPlan } from "../../web/src/paint/plan.js";
+import { pictureOf } from "../../web/src/panels/pixels.js";
+import { sightOf } from "../../web/src/panels/plan.js";
+import { INITIAL, reduce } from "../../web/src/state.js";
+import { AT_FIRST, viewsAfter } from "../../web/src/views.js";
+import { waysOf } from "../../web/src/ways.js";
+import { worldOf } from "../../web/src/world.js";
+import { hello, tick, wireState } from "./fakes.mjs";
+
+const begun = () => reduce(INITIAL, hello());
+const changed = (more) => ({ type: "changed", sequence: 100, text: null, reply: "", changes: [], events: [], state: wireState(), ...more });
+
+/** A pen that notes what is drawn with it. */
+function recorder() {
+  const calls = [];
+  const handler = { get: (target, name) => (name in target ? target[name] : (...args) => calls.push([name, ...args])) };
+  return { pen: new Proxy({ globalAlpha: 1 }, handler), calls };
+}
+
+test("views are changed by name, and what the page does not know is left out", () => {
+  assert.equal(viewsAfter(AT_FIRST, { plan: true, sensors: true, path: "no" }), AT_FIRST);
+  assert.deepEqual(viewsAfter(AT_FIRST, { plan: false, potholes: true }), { ...AT_FIRST, plan: false, potholes: true });
+});
+
+test("what is said of views leaves road, log and decision as they are", () => {
+  const before = reduce(begun(), tick());
+  const after = reduce(before, changed({ views: { log: false, sensors: true } }));
+  assert.deepEqual([after.views.log, after.views.sensors], [false, undefined]);
+  assert.deepEqual([after.world, after.log, after.prior], [before.world, before.log, before.prior]);
+  const both = reduce(before, changed({ views: { log: false }, changes: [{ path: "potholes", before: 1, after: 2 }] }));
+  assert.equal(both.views.log, false);
+  assert.equal(both.log.length, before.log.length + 1);
+});
+
+test("what is enlarged goes back when something else is to be seen, or when it is hidden", () => {
+  const large = reduce(begun(), { type: "views", large: "plan" });
+  assert.equal(large.large, "plan");
+  assert.equal(reduce(large, { type: "views", views: { log: true } }).large, null);
+  assert.equal(reduce(large, { type: "views", views: { plan: false } }).large, null);
+  assert.equal(reduce(large, { type: "session", id: "other" }).large, "plan");
+});
+
+test("the move under way is known while nothing but its tick has changed the road", () => {
+  const after = reduce(begun(), tick());
+  const moving = underWay(after);
+  assert.equal(moving.world.tick, 10);
+  assert.deepEqual(moving.next["vehicle-1"], [3, 19]);
+  assert.equal(underWay(reduce(after, changed({ state: wireState({ tick: 11 }) }))), null);
+  assert.equal(underWay(begun()), null);
+});
+
+test("what is about to happen is asked for, and holds for that road only", async () => {
+  const state = begun();
+  const asked = [];
+  const decision = { tick: 10, move: "forward", options: [] };
+  const http = async (path) => {
+    asked.push(path);
+    return Response.json({ tick: 10, decision, exact: true, ahead: [{ tick: 11, movers: { "vehicle-1": [3, 19] } }] });
+  };
+  const known = reduce(state, { type: "foresight", foresight: await foresee("s1", state.world, false, http) });
+  assert.deepEqual(foreseen(known).decision, decision);
+  assert.equal(foreseen({ ...known, world: worldOf(wireState()) }), null);
+  await foresee("s1", state.world, true, http);
+  assert.deepEqual(asked, ["/api/v1/sessions/s1/forecast?ticks=3", "/api/v1/sessions/s1/forecast?ticks=3&tick=10"]);
+  assert.deepEqual(sightOf(known).centre, [4, 20]);
+  assert.deepEqual(sightOf(known).decision, decision);
+  assert.equal(sightOf(state), null);
+});
+
+test("each of the six moves has its reason, from a whole trace and from what a tick tells", () => {
+  const world = worldOf(wireState());
+  const blocked = [
+    { move: "right", reason: "mover_enters", causes: ["vehicle-1"] },
+    { move: "left", reason: "off_road", causes: [] },
+  ];
+  const brief = waysOf({ tick: 10, move: "forward", blocked }, [4, 20], world);
+  const options = ["forward", "left", "right", "forward_left", "forward_right", "stay"].map((move) => {
+    const held = blocked.find((each) => each.move === move);
+    return { move, verdict: held ? (held.reason === "off_road" ? "off_road" : "blocked") : "free", cost: held ? null : 1, reason: held?.reason ?? "free", causes: held?.causes ?? [] };
+  });
+  const whole = waysOf({ tick: 10, move: "forward", options }, [4, 20], world);
+  assert.deepEqual(whole, brief);
+  const told = Object.fromEntries(brief.map(({ move, standing, reason }) => [move, `${standing}: ${reason}`]));
+  assert.equal(told.forward, "taken: free");
+  assert.equal(told.right, "blocked: a car moves in");
+  assert.equal(told.left, "off_road: off the road");
+  assert.equal(told.stay, "free: free, less preferred");
+  assert.deepEqual(brief.find(({ move }) => move === "forward_right").cell, [5, 19]);
+  options[5].cost = null;
+  assert.equal(waysOf({ tick: 10, move: "forward", options }, [4, 20], world).at(-1).reason, "free, but leads nowhere");
+});
+
+test("the plan draws an arrow to the intended cell and marks what is rejected", () => {
+  const world = worldOf(wireState({ hazards: [{ id: "barrier-1", kind: "barrier", cell: [4, 19] }] }));
+  const palette = { kinds: {}, good: "green", danger: "red", focus: "blue", cell: "grey", goal: "green", faint: "grey" };
+  const decision = { tick: 10, move: "left", blocked: [{ move: "forward", reason: "barrier", causes: ["barrier-1"] }] };
+  const { pen, calls } = recorder();
+  drawPlan(pen, 90, { world, centre: [4, 20], next: {}, ways: waysOf(decision, [4, 20], world), pointed: [4, 19] }, palette);
+  const turns = calls.filter(([name]) => name === "rotate").map(([, angle]) => angle);
+  assert.ok(turns.includes(Math.PI), "the arrow points to the left");
+  assert.ok(calls.some(([name, x, y]) => name === "fillRect" && x === 40.5 && y === 30.5), "the cell ahead is marked");
+  assert.ok(calls.some(([name, x, y]) => name === "roundRect" && x === 41 && y === 31), "the cell spoken of is framed");
+});
+
+/** A book whose service answers what it is given. */
+function bookOf(answers, clock = { now: 0 }) {
+  const asked = [];
+  const http = async (path) => {
+    asked.push(path);
+    return Response.json(answers.shift());
+  };
+  const book = new Book({ http, now: () => clock.now });
+  book.session = "s1";
+  return { book, asked, clock };
+}
+
+test("losses are asked for in stretches while the clock runs, and at once when it stands", async () => {
+  const item = (at) => ({ tick: at, blocked: 1, ticks: 1, lost: false });
+  const first = { from: 0, now: 4, items: [0, 1, 2].map(item), more: false };
+  const { book, asked, clock } = bookOf([first, { from: 4, now: 12, items: [4, 5].map(item), more: false }]);
+  book.note(0, 1);
+  assert.equal(await book.fill(4, true), false);
+  assert.equal(await book.fill(4, false), true);
+  assert.equal(asked[0], "/api/v1/sessions/s1/regret?from=0&limit=60");
+  assert.deepEqual(book.sum(4), { ticks: 3, known: 3, lost: false });
+  assert.equal(book.items.get(3), null);
+  assert.equal(book.missing(4), null);
+  assert.equal(await book.fill(12, true), false, "too soon after the last");
+  clock.now = 5_000;
+  assert.equal(await book.fill(12, true), true);
+  assert.match(asked[1], /from=4/);
+});
+
+test("what a run was is forgotten when it becomes another", async () => {
+  const { book } = bookOf([{ from: 0, now: 2, items: [{ tick: 0, blocked: 0, ticks: 5, lost: false }], more: false }]);
+  const filling = book.fill(2, false);
+  book.forget();
+  await filling;
+  assert.equal(book.items.size, 0);
+  assert.equal(book.missing(2), 0);
+  for (let at = 0; at < 3_000; at++) book.note(at, 2);
+  assert.ok(book.items.size <= 1_000);
+  assert.ok(book.items.has(2_999 - WINDOW));
+});
+
+test("the road is told a lane a sentence, the nearest first", () => {
+  const world = worldOf(wireState({ hazards: [{ id: "pothole-1", kind: "pothole", cell: [4, 17] }, { id: "barrier-1", kind: "barrier", cell: [4, 19] }, { id: "pothole-2", kind: "pothole", cell: [4, 2] }] }));
+  const lines = roadWords(world, { tick: 9, move: "left" });
+  assert.equal(lines.length, 9);
+  assert.equal(lines[0], "Tick 10. The vehicle is in lane 5 of 8, 20 rows from the destination. It last moved left.");
+  assert.equal(lines[5], "Lane 5, its own: a barrier 1 row ahead; a pothole 3 rows ahead.");
+  assert.equal(lines[3], "Lane 3: a car 1 row ahead, heading right.");
+  assert.equal(lines[1], "Lane 1: free as far as is seen.");
+});
+
+test("a picture of the service's has its tick; what is none is told from it", async () => {
+  const data = new Uint8Array([0x52, 0x54, 1, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 44, 9, 8, 7]);
+  new DataView(data.buffer).setFloat32(4, 0.5);
+  const { tick: at, phase, picture } = pictureOf(data.buffer);
+  assert.deepEqual([at, phase, picture.type, picture.size], [300, 0.5, "image/webp", 3]);
+  assert.equal(pictureOf(data.buffer.slice(0, 16)), null);
+  data[2] = 9;
+  assert.equal(pictureOf(data.buffer), null);
+});
