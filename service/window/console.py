@@ -16,6 +16,8 @@ from sim.view.text import cut, width_of, wrapped, written
 
 FIELD_PX: Final = 38
 BAR_PX: Final = 24
+SIZES: Final = (look.TEXT_PX, 19, 18)
+"""of the letters of a reply, which are as far apart as they are high"""
 PROMPT: Final = "Press / and say something"
 FIRST: Final = ("add five potholes", "why did you do that?", "let me drive")
 """What a newcomer is offered."""
@@ -142,10 +144,10 @@ def _draw_field(picture: pygame.Surface, console: Console, *, busy: bool, now_s:
 
 def _draw_reply(area: pygame.Surface, console: Console, corner: tuple[int, int]) -> None:
     """What came of the latest; as much as there is room for, from `scroll` lines on."""
-    exchange, px, line_px = console.latest, look.TEXT_PX, look.LINE_PX
+    exchange = console.latest
     width, height = area.get_size()
     if exchange is None:
-        x = _words(area, "Try:", 4, 4, theme.TEXT_QUIET) + 10
+        x = _words(area, "Try:", 4, 7, theme.TEXT_QUIET) + 10
         _draw_offers(area, console, FIRST, x, 2, corner, wrap_x=4)
         return
     said = "" if exchange.said is None else f"“{exchange.said}”"
@@ -153,13 +155,16 @@ def _draw_reply(area: pygame.Surface, console: Console, corner: tuple[int, int])
     if said:
         _words(area, cut(said, look.SMALL_PX, width - 8), 4, y, theme.TEXT_QUIET, look.SMALL_PX)
         y += 19
-    lines = wrapped(exchange.reply, px, width - 12)
     below = 28 if exchange.changes or exchange.offers else 0
-    fits = max(1, (height - y - below) // line_px)
+    room = height - y - below
+    # A long reply is written smaller before it has to be scrolled.
+    px = next((px for px in SIZES if len(wrapped(exchange.reply, px, width - 12)) * px <= room), SIZES[-1])
+    lines, line_px = wrapped(exchange.reply, px, width - 12), px
+    fits = max(1, room // line_px)
     console.scroll = max(0, min(console.scroll, len(lines) - fits))
     ink = theme.TEXT if exchange.done else theme.LINES["held_back"] if exchange.asks else theme.REFUSED
     for line in lines[console.scroll : console.scroll + fits]:
-        _words(area, line, 4, y, ink)
+        _words(area, line, 4, y, ink, px)
         y += line_px
     if len(lines) > fits:
         _draw_more(area, console.scroll, fits, len(lines))

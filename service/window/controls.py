@@ -29,6 +29,7 @@ SLANTED: Final = {
     Move.LEFT: Move.FORWARD_LEFT,
     Move.RIGHT: Move.FORWARD_RIGHT,
 }
+PAGE_LINES: Final = 3
 COMMAND: Final = pygame.KMOD_CTRL | pygame.KMOD_META
 
 
@@ -91,10 +92,8 @@ class Controls:
             self.fullscreen = not self.fullscreen
         elif mod & COMMAND and key in (pygame.K_z, pygame.K_y):
             self._do(Redo() if key == pygame.K_y or mod & pygame.KMOD_SHIFT else Undo())
-        elif key == pygame.K_PAGEUP:
-            self.log_back += 5
-        elif key == pygame.K_PAGEDOWN:
-            self.log_back = max(0, self.log_back - 5)
+        elif key in (pygame.K_PAGEUP, pygame.K_PAGEDOWN):
+            self._page(-1 if key == pygame.K_PAGEUP else 1)
         elif self.console.focused:
             self._line_key(key, mod)
         elif key in (pygame.K_RETURN, pygame.K_KP_ENTER):
@@ -161,6 +160,12 @@ class Controls:
             line.backspace()
         elif key == pygame.K_DELETE:
             line.delete()
+
+    def _page(self, way: int) -> None:
+        if self.console.focused:
+            self.console.scroll = max(0, self.console.scroll + way * PAGE_LINES)
+        else:
+            self.log_back = max(0, self.log_back - way * PAGE_LINES)
 
     def _escape(self) -> None:
         if self.overlay is not None:

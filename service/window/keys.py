@@ -29,6 +29,7 @@ KEYS: Final[tuple[tuple[str, tuple[tuple[str, str], ...]], ...]] = (
             ("Ctrl-A  Ctrl-E", "to the beginning, to the end"),
             ("Ctrl-U  Ctrl-W", "without all before, without a word"),
             ("Ctrl-V", "paste"),
+            ("PgUp  PgDn", "more of a long reply; of the log, when not writing"),
         ),
     ),
     (

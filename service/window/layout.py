@@ -17,6 +17,7 @@ HEAD_PX: Final = 26
 """height of a panel's title"""
 LEAST_STRIP_PX: Final = 178
 LARGE_STRIP_PX: Final = 150
+MOST_PLAN_PX: Final = 560
 MOST_TALL_SHARE: Final = 0.2
 """of the width, for a view of the whole road"""
 
@@ -101,6 +102,13 @@ def _road_cell(width: int, top: int, above: Collection[str], gap: int, shape: Sh
 
 def _columns(room: pygame.Rect, above: Collection[str], gap: int, shape: Shape) -> dict[str, pygame.Rect]:
     widths = _widths(room.width, room.height, above, gap, shape)
+    if "road" in widths and "plan" in widths:
+        # What the road cannot use because of its height, the plan can.
+        cell = _road_cell(room.width, room.height, above, gap, shape)
+        spare = widths["road"] - int(cell * (shape.columns + 0.5)) - 2
+        more = max(0, min(spare, MOST_PLAN_PX - widths["plan"], room.height - 300 - widths["plan"]))
+        widths["road"] -= more
+        widths["plan"] += more
     places, x = {}, room.x
     for name in above:
         places[name] = pygame.Rect(x, room.y, widths[name], room.height)

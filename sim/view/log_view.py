@@ -13,6 +13,7 @@ from sim.view.text import width_of, wrapped, written
 TEXT_PX = 19
 LINE_PX = 18
 GAP_PX = 4
+EMPTY = "Nothing has happened yet."
 
 
 class Line(Protocol):
@@ -35,6 +36,9 @@ def draw_log(lines: Sequence[Line], size: tuple[int, int], back: int = 0) -> pyg
     """The lines that fit, the newest at the bottom; `back` lines of the newest are left out."""
     picture = pygame.Surface(size)
     picture.fill(theme.BODY)
+    if not lines:
+        picture.blit(written(EMPTY, TEXT_PX, theme.TEXT_QUIET), (10, 8))
+        return picture
     width, y = size[0], size[1] - GAP_PX
     shown = lines[: len(lines) - back] if back else lines
     gutter = max(width_of("00000", TEXT_PX - 3), width_of(str(shown[-1].tick), TEXT_PX - 3) if shown else 0)

@@ -110,7 +110,8 @@ def _grid(run: Run, decision: Decision | None, px: int) -> pygame.Surface:
     if decision is not None:
         end = decision.chosen.cell or own
         if decision.move is Move.STAY:
-            pygame.draw.circle(picture, theme.MOVE, box(own).center, px * 11 // 20, max(2, px // 12))
+            ring = _taken(decision.chosen)
+            pygame.draw.circle(picture, ring, box(own).center, px * 11 // 20, max(2, px // 12))
         else:
             _arrow(picture, theme.MOVE, box(own).center, box(end).center, px)
     return picture
@@ -198,9 +199,9 @@ def _list(picture: pygame.Surface, decision: Decision, room: pygame.Rect, row_px
         taken = option.move is decision.move
         row = pygame.Rect(room.left, y, room.width, row_px)
         if taken:
-            pygame.draw.rect(picture, _faint(theme.MOVE), row, border_radius=4)
+            pygame.draw.rect(picture, _faint(_taken(option)), row, border_radius=4)
         _mark(picture, option, taken, pygame.Rect(row.left + 2, row.top, row_px, row_px))
-        ink = theme.MOVE if taken else theme.TEXT
+        ink = _taken(option) if taken else theme.TEXT
         name = written(theme.MOVES[option.move], text_px, ink)
         middle = row.centery + 1
         picture.blit(name, name.get_rect(midleft=(row.left + row_px + 4, middle)))
@@ -210,6 +211,11 @@ def _list(picture: pygame.Surface, decision: Decision, room: pygame.Rect, row_px
         picture.blit(reason, reason.get_rect(midleft=(row.left + names, middle)))
         y += row_px
     return y
+
+
+def _taken(option: Option) -> Colour:
+    """Green for the move that is made; amber where it is made though something is met."""
+    return theme.OUTCOMES["stuck"] if option.reason.blocks else theme.MOVE
 
 
 def reason_of(option: Option, decision: Decision) -> str:
@@ -237,7 +243,7 @@ def _mark(picture: pygame.Surface, option: Option, taken: bool, box: pygame.Rect
     thick = max(2, box.width // 9)
     if taken:
         points = [(x - unit, y), (x - unit * 0.2, y + unit * 0.8), (x + unit * 1.2, y - unit)]
-        pygame.draw.lines(picture, theme.MOVE, False, points, thick)
+        pygame.draw.lines(picture, _taken(option), False, points, thick)
     elif option.cost is None:
         for dy in (-1, 1):
             start, end = (x - unit * 0.8, y - dy * unit * 0.8), (x + unit * 0.8, y + dy * unit * 0.8)

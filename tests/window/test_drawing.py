@@ -206,3 +206,21 @@ def test_after_a_stall_nothing_is_made_up_for(window: Open) -> None:
     driver.now_s += 60
     driver.frames(1)
     assert driver.game.session.run.world.tick <= tick + 1
+
+
+def test_the_log_can_be_read_back(window: Open) -> None:
+    driver = window()
+    driver.letter("p")
+    for _ in range(6):
+        driver.say("add a pothole")
+        driver.say("undo")
+    driver.press(pygame.K_ESCAPE)
+    place = body(driver, "log")
+    newest = pygame.image.tobytes(driver.screen.subsurface(place), "RGB")
+    driver.press(pygame.K_PAGEUP)
+    assert pygame.image.tobytes(driver.screen.subsurface(place), "RGB") != newest
+    driver.press(pygame.K_PAGEDOWN)
+    assert pygame.image.tobytes(driver.screen.subsurface(place), "RGB") == newest
+    pygame.event.post(pygame.event.Event(pygame.MOUSEWHEEL, x=0, y=2))
+    driver.frames(1)
+    assert driver.controls.log_back == 2

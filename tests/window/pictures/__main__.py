@@ -82,7 +82,6 @@ def every(loaded: Loaded, folder: Path) -> None:
     driver.press(pygame.K_ESCAPE)
     keep(driver, "quit")
     driver.press(pygame.K_ESCAPE)
-    driver.say("hide the log and the occupancy matrix")
     driver.say("hide the occupancy matrix")
     driver.say("hide the log")
     keep(driver, "hidden")
@@ -91,7 +90,7 @@ def every(loaded: Loaded, folder: Path) -> None:
     while driver.game.session.run.world.outcome is not Outcome.CRASH:
         driver.seconds(0.25)
     driver.seconds(0.3)
-    driver.say("why did you crash?")
+    driver.say("why did you do that?")
     keep(driver, "crash")
     driver.close()
     for size in ((800, 600), (1024, 768), (1920, 1080), (640, 480)):
