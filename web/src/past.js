@@ -1,9 +1,11 @@
 // @ts-check
 /**
- * Looking at the past: worlds asked for in pages, kept, and shown; the latest wish wins.
+ * Looking at the past: worlds asked for, kept, and shown; the latest wish wins.
  *
- * The tick that is wished for is known at once (`tick`), the world a moment later. A page is a stretch of
- * ticks, so that dragging along asks seldom; what comes next in either direction is asked for ahead.
+ * The tick that is wished for is known at once (`tick`), the world a moment later. Who walks along is given
+ * pages of ticks, and what comes next ahead of time. Who leaps is given that one tick, which the service has
+ * sooner, and its page once they rest there. No more than one wish is asked for at a time: a drag over a
+ * hundred ticks must not leave a hundred questions behind.
  */
 
 import { askJson } from "./http.js";
@@ -17,6 +19,8 @@ import { worldOf } from "./world.js";
 export const PAGE = 16;
 /** Pages kept: some 60 KB each as the service tells them. */
 const PAGES = 24;
+/** Who stays so long at a tick is likely to walk on from there. */
+const REST_MS = 120;
 
 /**
  * A moment as the panels know a present: a decision with the reason and causes that a tick message tells.
@@ -36,6 +40,7 @@ export function pastOf({ state, decision }) {
 export class Book {
   /** @type {Map<number, Promise<Past[]>>} pages by number, the latest used last */ #pages = new Map();
   /** @type {Map<number, Past[]>} those that have come */ #here = new Map();
+  /** @type {Map<number, Past>} single ticks that were leapt to */ #ones = new Map();
 
   /** @param {string} session @param {typeof fetch} [http] */
   constructor(session, http) {
@@ -45,7 +50,7 @@ export class Book {
 
   /** What is here already. @param {number} tick @returns {Past | null} */
   known(tick) {
-    return this.#here.get(Math.floor(tick / PAGE))?.[tick % PAGE] ?? null;
+    return this.#here.get(Math.floor(tick / PAGE))?.[tick % PAGE] ?? this.#ones.get(tick) ?? null;
   }
 
   /** @param {number} tick @returns {Promise<Past>} throws `Refused` */
@@ -60,6 +65,16 @@ export class Book {
     return past;
   }
 
+  /** A tick alone. @param {number} tick @returns {Promise<Past>} throws `Refused` */
+  async alone(tick) {
+    const ones = this.#ones;
+    const { items } = await askJson(`${sessionPath(this.session)}/moments?from=${tick}&limit=1`, { http: this.http });
+    const past = pastOf(items[0]);
+    ones.set(tick, past);
+    if (ones.size > PAGES * PAGE) ones.delete(ones.keys().next().value ?? tick);
+    return past;
+  }
+
   /** Have a tick at hand before it is wished for; what goes wrong then is told when it is. @param {number} tick */
   ahead(tick) {
     if (tick >= 0 && !this.#pages.has(Math.floor(tick / PAGE))) this.at(tick).catch(() => {});
@@ -69,6 +84,7 @@ export class Book {
   clear() {
     this.#pages.clear();
     this.#here.clear();
+    this.#ones = new Map();
   }
 
   /** @param {number} page */
@@ -107,6 +123,8 @@ export class Looking {
   /** Whether it goes on by itself. */ playing = false;
   /** @type {Book | null} */ #book = null;
   /** @type {any} */ #timer = null;
+  /** @type {any} */ #rest = null;
+  /** @type {{book: Book} | null} the question under way */ #asking = null;
   #direction = 1;
   /** @type {(() => void)[]} */ #listeners = [];
 
@@ -129,20 +147,43 @@ export class Looking {
     const tick = Math.max(0, Math.round(wanted));
     if (session === null || tick >= now) return this.live();
     const book = this.#bookOf(session);
+    const walked = this.tick !== null && tick !== this.tick && Math.abs(tick - this.tick) <= PAGE / 2;
     if (this.tick !== null && this.tick !== tick) this.#direction = Math.sign(tick - this.tick);
     this.tick = tick;
     this.#told();
+    const known = book.known(tick);
+    if (known) return this.#show(known, book, walked);
+    if (this.#asking?.book === book) return; // it is asked for as soon as the answer under way is there
+    const question = { book };
+    this.#asking = question;
+    let failure = null;
+    let past = null;
     try {
-      const past = book.known(tick) ?? (await book.at(tick));
-      if (this.tick !== tick || this.#book !== book) return;
-      this.page.look(past);
-      book.ahead(tick + this.#direction * (PAGE / 2));
-      book.ahead(tick - this.#direction * (PAGE / 2));
+      past = walked || this.playing ? await book.at(tick) : await book.alone(tick);
     } catch (error) {
-      if (this.tick !== tick || this.#book !== book) return;
-      this.live();
-      this.page.failed(error);
+      failure = error;
     }
+    if (this.#asking !== question) return; // of a session left, or a run rewritten, meanwhile
+    this.#asking = null;
+    if (this.tick === null) return;
+    if (this.tick !== tick) return this.at(this.tick);
+    if (past) return this.#show(past, book, walked);
+    this.live();
+    this.page.failed(failure);
+  }
+
+  /** @param {Past} past @param {Book} book @param {boolean} walked */
+  #show(past, book, walked) {
+    const { tick } = this;
+    if (tick === null) return;
+    this.page.look(past);
+    this.page.cancel(this.#rest);
+    const ahead = () => {
+      if (this.tick !== tick) return;
+      for (const way of [0, this.#direction, -this.#direction]) book.ahead(tick + (way * PAGE) / 2);
+    };
+    if (walked || this.playing) ahead();
+    else this.#rest = this.page.later(ahead, REST_MS);
   }
 
   /** @param {number} ticks  forwards or back */
@@ -156,6 +197,7 @@ export class Looking {
     this.stop();
     if (this.tick === null) return;
     this.tick = null;
+    this.page.cancel(this.#rest);
     this.page.look(null);
     this.#told();
   }
@@ -185,6 +227,7 @@ export class Looking {
   /** The past may have become another one: ask anew, and show what is there now. */
   rewritten() {
     this.#book?.clear();
+    this.#asking = null;
     const { tick: now } = this.page.present();
     if (this.tick === null) return;
     if (this.tick >= now) this.live();
@@ -213,7 +256,10 @@ export class Looking {
 
   /** @param {string} session */
   #bookOf(session) {
-    if (this.#book?.session !== session) this.#book = new Book(session, this.page.http);
+    if (this.#book?.session !== session) {
+      this.#book = new Book(session, this.page.http);
+      this.#asking = null;
+    }
     return this.#book;
   }
 }
