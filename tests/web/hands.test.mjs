@@ -3,10 +3,11 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { endWords, fetchBeside, fetchDecision, labelOf, nameOfOther, partOf, sumOf, titleOf } from "../../web/src/counterfactual.js";
+import { endWords, fetchBeside, nameOfOther, partOf, sumOf, titleOf } from "../../web/src/counterfactual.js";
 import { isDriving, moveOf } from "../../web/src/drive.js";
 import { hindrance, isLoose, moving, placing, removing } from "../../web/src/edit.js";
 import { cellWords, decidedAbout, decidedOn, headingWords, onRoad, placeWords, thingAt, thingIn } from "../../web/src/hits.js";
+import { fetchDecision, labelOf } from "../../web/src/otherwise.js";
 import { servedView } from "../../web/src/served.js";
 import { INITIAL } from "../../web/src/state.js";
 import { tellOf } from "../../web/src/why.js";

@@ -1,17 +1,14 @@
 // @ts-check
 /** What would have been, from the service: two runs from one tick on, as worlds to be shown in step. */
 
-import { sessionPath } from "./protocol.js";
 import { moveName } from "./hits.js";
+import { askJson } from "./http.js";
+import { sessionPath } from "./protocol.js";
 import { worldAfter, worldOf } from "./world.js";
 
-/** @import { Action, Decision, Move, WireState, TickMessage } from "./protocol.js" */
+/** @import { Otherwise } from "./otherwise.js" */
+/** @import { Decision, Move, WireState, TickMessage } from "./protocol.js" */
 /** @import { World } from "./world.js" */
-
-/**
- * @typedef {{kind: "move", tick: number, move: Move}
- *   | {kind: "change", tick: number | null, actions: Action[], label: string}} Otherwise  what is otherwise, and when
- */
 
 /** @typedef {{world: World, decision: Decision | null}} Frame  a world, and the decision that led to it */
 /** @typedef {{outcome: string, tick: number, driven: number, by_hand: boolean, cause: {kind: string, ids: string[]} | null}} End */
@@ -26,26 +23,6 @@ import { worldAfter, worldOf } from "./world.js";
  * @property {Side} changed
  */
 
-/** @param {Response} response */
-async function orProblem(response) {
-  if (response.ok) return response.json();
-  const problem = await response.json().catch(() => null);
-  const [error] = problem?.errors ?? [];
-  throw new Error(error?.message ?? problem?.detail ?? `The service answered ${response.status}.`);
-}
-
-/** @param {typeof fetch} http @param {string} path @param {RequestInit} [more] */
-async function call(http, path, more) {
-  let response;
-  try {
-    response = await http(path, more);
-  } catch (error) {
-    if (error instanceof Error && error.name === "AbortError") throw error;
-    throw new Error("The service cannot be reached.");
-  }
-  return orProblem(response);
-}
-
 /**
  * Both runs. Throws an `Error` whose message a person can read.
  * @param {string} session
@@ -53,11 +30,10 @@ async function call(http, path, more) {
  * @param {typeof fetch} [http]
  * @returns {Promise<Beside>}
  */
-export async function fetchBeside(session, other, http = fetch) {
+export async function fetchBeside(session, other, http) {
   const what = other.kind === "move" ? { move: other.move } : { actions: other.actions };
-  const body = JSON.stringify(other.tick === null ? what : { ...what, at_tick: other.tick });
-  const headers = { "content-type": "application/json" };
-  const told = await call(http, `${sessionPath(session)}/counterfactual`, { method: "POST", headers, body });
+  const body = other.tick === null ? what : { ...what, at_tick: other.tick };
+  const told = await askJson(`${sessionPath(session)}/counterfactual`, { method: "POST", body, http });
   return {
     tick: told.at_tick,
     insteadOf: told.instead_of,
@@ -65,18 +41,6 @@ export async function fetchBeside(session, other, http = fetch) {
     real: { frames: framesOf(told.real), end: told.real.end },
     changed: { frames: framesOf(told.changed), end: told.changed.end },
   };
-}
-
-/**
- * A decision with its whole trace.
- * @param {string} session
- * @param {number} tick
- * @param {AbortSignal} [signal]
- * @param {typeof fetch} [http]
- * @returns {Promise<Decision>}
- */
-export function fetchDecision(session, tick, signal, http = fetch) {
-  return call(http, `${sessionPath(session)}/decisions/${tick}`, { signal });
 }
 
 /** @param {{state: WireState, ticks: any[]}} side @returns {Frame[]} */
@@ -142,19 +106,6 @@ const does = (move) => (move === "stay" ? "waits" : `goes ${moveName(move)}`);
 
 /** @param {Move} move */
 const doing = (move) => (move === "stay" ? "waiting" : `going ${moveName(move)}`);
-
-/**
- * A change as the beginning of a sentence.
- * @param {Action[]} actions
- */
-export function labelOf(actions) {
-  const ids = actions.map((action) => (action.do === "remove" ? /** @type {{id?: string}} */ (action.where)?.id : undefined));
-  if (ids.every((id) => id !== undefined)) return `If ${ids.join(" and ")} ${ids.length === 1 ? "wasn’t" : "weren’t"} there`;
-  if (actions.length === 1 && actions[0].do === "remove" && actions[0].count === "all") {
-    return actions[0].kind === "everything" ? "If the road were empty" : `If there were no ${actions[0].kind}s`;
-  }
-  return "With that change";
-}
 
 /** The short name of the other run. @param {Otherwise} other */
 export function nameOfOther(other) {

@@ -20,8 +20,8 @@ import { INITIAL, reduce, sceneOf } from "./state.js";
 import { watchPreferences } from "./theme.js";
 
 /** @import { Act } from "./acts.js" */
-/** @import { Otherwise } from "./counterfactual.js" */
 /** @import { Foresight } from "./foresight.js" */
+/** @import { Otherwise } from "./otherwise.js" */
 /** @import { Looking } from "./past.js" */
 /** @import { Action, ClientMessage } from "./protocol.js" */
 /** @import { State, Highlight, Event, Notice, Past } from "./state.js" */

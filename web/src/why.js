@@ -1,12 +1,12 @@
 // @ts-check
 /** What is told of a cell, a thing or a past decision, and what can be done about it. Pure. */
 
-import { labelOf } from "./counterfactual.js";
 import { hindrance, placing, removing, TOOLS } from "./edit.js";
 import { decidedAbout, decidedOn, headingWords, moveName, nameOf, placeWords, thingIn } from "./hits.js";
+import { labelOf } from "./otherwise.js";
 import { egoOf } from "./world.js";
 
-/** @import { Otherwise } from "./counterfactual.js" */
+/** @import { Otherwise } from "./otherwise.js" */
 /** @import { Action, Cell, Decision, Option } from "./protocol.js" */
 /** @import { State } from "./state.js" */
 /** @import { World, Thing } from "./world.js" */

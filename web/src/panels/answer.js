@@ -1,7 +1,7 @@
 // @ts-check
 /** An answer with its evidence: causes to point at, the proof, and what else could have been done. */
 
-import { labelOf } from "../counterfactual.js";
+import { labelOf } from "../otherwise.js";
 import { icon } from "../icons.js";
 import { make } from "../dom.js";
 import { MOVES, plain, reasonWords } from "../words.js";

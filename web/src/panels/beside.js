@@ -15,8 +15,9 @@ import { wantsStillness } from "../theme.js";
 import { MOVES } from "../words.js";
 import { createRoad } from "./road.js";
 
-/** @import { Beside, Frame, Otherwise } from "../counterfactual.js" */
+/** @import { Beside, Frame } from "../counterfactual.js" */
 /** @import { Page } from "../main.js" */
+/** @import { Otherwise } from "../otherwise.js" */
 /** @import { State } from "../state.js" */
 /** @import { Panel } from "./index.js" */
 
@@ -24,7 +25,7 @@ const SIDES = /** @type {const} */ (["real", "changed"]);
 const VERDICTS = /** @type {Record<string, string>} */ ({ crash: "Crash", success: "Arrived", stuck: "Stuck" });
 const TONES = /** @type {Record<string, string>} */ ({ crash: "bad", stuck: "bad", success: "good" });
 
-/** @param {HTMLElement} host @param {Page} page @returns {Panel} */
+/** @param {HTMLElement} host @param {Page} page @returns {Panel & {open: (other: Otherwise) => void}} */
 export function createBeside(host, page) {
   const title = make("h2", { class: "beside-title", id: "beside-title" });
   const summary = make("p", { class: "beside-summary", role: "status" });
@@ -218,7 +219,6 @@ export function createBeside(host, page) {
     go(at + by);
   }
 
-  page.pick = (other) => void open(other);
   new ResizeObserver(() => {
     if (host.hidden) return;
     for (const { canvas } of sides) canvas.repaint?.();
@@ -226,6 +226,7 @@ export function createBeside(host, page) {
   }).observe(host);
 
   return {
+    open: (other) => void open(other),
     update({ session }, before) {
       if (session !== before.session && !host.hidden) leave();
     },

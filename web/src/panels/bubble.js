@@ -6,9 +6,9 @@
  * while the pointer or the focus is on it, and Escape sends it away.
  */
 
-import { fetchDecision } from "../counterfactual.js";
 import { make, setText } from "../dom.js";
 import { capital, moveName, same } from "../hits.js";
+import { fetchDecision } from "../otherwise.js";
 import { sceneOf } from "../state.js";
 import { tellOf, thingOf } from "../why.js";
 import { MOVES, reasonWords } from "../words.js";

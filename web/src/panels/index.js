@@ -3,10 +3,10 @@
 
 import { byId } from "../dom.js";
 import { createAnnouncer } from "./announcer.js";
-import { createBeside } from "./beside.js";
 import { createBubble } from "./bubble.js";
 import { createCaption } from "./caption.js";
 import { createCommand } from "./command.js";
+import { createComparison } from "./comparison.js";
 import { createConnectionBadge } from "./connection.js";
 import { createControls } from "./controls.js";
 import { createExport } from "./export.js";
@@ -67,7 +67,7 @@ export function createPanels(page) {
     createCommand(byId("command"), page),
     createConnectionBadge(byId("connection"), page),
     createAnnouncer(byId("announcer")),
-    createBeside(byId("beside"), page),
+    createComparison(byId("beside"), page),
     bubble,
     ...createHands(byId("road"), road.places, byId("log"), page, bubble),
     createViews(byId("views-menu"), page),
