@@ -261,6 +261,30 @@ def test_the_service_draws_the_same_tick_and_the_page_again(visit: Visit) -> Non
     expect(theirs).to_be_hidden()
 
 
+def test_pictures_that_cannot_be_read_are_told_and_the_page_draws_again(visit: Visit) -> None:
+    visitor = visit()
+    visitor.page.evaluate("window.createImageBitmap = () => Promise.reject(new Error('no picture'))")
+    visitor.page.get_by_role("button", name="Views").click()
+    visitor.page.get_by_role("menuitemradio", name="Drawn by the service").click()
+    expect(visitor.page.locator("#notice")).to_contain_text("The road is drawn here again.")
+    visitor.page.get_by_role("button", name="Views").click()
+    expect(visitor.page.get_by_role("menuitemradio", name="Drawn here")).to_have_attribute(
+        "aria-checked", "true"
+    )
+    expect(visitor.page.locator(".service-canvas")).to_be_hidden()
+
+
+def test_between_desk_and_phone_the_views_stand_in_a_row_below(visit: Visit) -> None:
+    visitor = visit(viewport={"width": 1100, "height": 768})
+    boxes = [part(visitor, name).bounding_box() for name in ("plan", "occupancy", "metrics")]
+    road = part(visitor, "road").bounding_box()
+    assert road is not None
+    assert len({box["y"] for box in boxes if box}) == 1
+    assert all(box and box["y"] > road["y"] + road["height"] and box["height"] > 400 for box in boxes)
+    part(visitor, "metrics").scroll_into_view_if_needed()
+    expect(visitor.page.locator(".way").last).to_be_in_viewport(ratio=1)
+
+
 def test_the_road_can_be_read_in_words(visit: Visit) -> None:
     visitor = visit()
     column, row = cleared(visitor)

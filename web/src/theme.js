@@ -18,6 +18,7 @@
  * @property {string} crack
  * @property {string} hole
  * @property {string} cause
+ * @property {string} next  what is about to be done
  * @property {string} surface
  * @property {string} cell  of a plain grid
  * @property {string} grid  its lines
@@ -46,6 +47,7 @@ const COLOURS = {
   crack: "--road-crack",
   hole: "--road-hole",
   cause: "--road-cause",
+  next: "--road-next",
   surface: "--surface",
   cell: "--cell",
   grid: "--line",

@@ -6,6 +6,8 @@ import { box } from "./shapes.js";
 /** @import { Palette } from "../theme.js" */
 /** @import { World } from "../world.js" */
 
+const MONO = 'ui-monospace, "Liberation Mono", monospace';
+
 /**
  * @param {CanvasRenderingContext2D} pen  in CSS pixels
  * @param {World} world
@@ -22,22 +24,26 @@ export function drawOccupancy(pen, { columns, rows, things }, { x, y, across, al
   const size = Math.min(along * 0.98, across * 1.3, 18);
   pen.textAlign = "center";
   pen.textBaseline = "middle";
-  for (let row = 0; row < rows; row++) {
-    for (let column = 0; column < columns; column++) {
-      const kind = kinds.get(row * columns + column);
-      const [left, top] = [x + column * across, y + row * along];
-      if (kind) {
-        pen.fillStyle = palette.kinds[kind] ?? palette.danger;
-        pen.globalAlpha = kind === "av" ? 1 : 0.16;
-        box(pen, left + across / 2, top + along / 2, across - 1, along - 1, 2);
-        pen.fill();
-        pen.globalAlpha = 1;
-      }
-      pen.font = `${kind ? 700 : 400} ${size}px ui-monospace, "Liberation Mono", monospace`;
-      pen.fillStyle = kind === "av" ? palette.surface : kind ? (palette.kinds[kind] ?? palette.danger) : palette.faint;
-      pen.globalAlpha = kind ? 1 : 0.55;
-      pen.fillText(kind ? "1" : "0", left + across / 2, top + along / 2 + size * 0.06);
-      pen.globalAlpha = 1;
-    }
+  /** @param {number} at */
+  const centre = (at) => /** @type {const} */ ([x + ((at % columns) + 0.5) * across, y + (Math.floor(at / columns) + 0.5) * along]);
+  pen.font = `400 ${size}px ${MONO}`;
+  pen.fillStyle = palette.faint;
+  pen.globalAlpha = 0.55;
+  for (let at = 0; at < rows * columns; at++) {
+    if (kinds.has(at)) continue;
+    const [left, top] = centre(at);
+    pen.fillText("0", left, top + size * 0.06);
+  }
+  pen.font = `700 ${size}px ${MONO}`;
+  for (const [at, kind] of kinds) {
+    const [left, top] = centre(at);
+    const colour = palette.kinds[kind] ?? palette.danger;
+    pen.fillStyle = colour;
+    pen.globalAlpha = kind === "av" ? 1 : 0.16;
+    box(pen, left, top, across - 1, along - 1, 2);
+    pen.fill();
+    pen.globalAlpha = 1;
+    if (kind === "av") pen.fillStyle = palette.surface;
+    pen.fillText("1", left, top + size * 0.06);
   }
 }

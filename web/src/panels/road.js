@@ -144,7 +144,7 @@ export function createRoad(host) {
     if (next) {
       const [across, down] = STEPS[next.move];
       if (next.move === "stay") drawWait(pen, [column, row], 0, palette);
-      else drawMove(pen, [column, row], [thing.cell[0] + across, thing.cell[1] + down], 0, palette);
+      else drawMove(pen, [column, row], [thing.cell[0] + across, thing.cell[1] + down], 0, { ...palette, accent: palette.next });
     } else if (!state?.decision) return;
     else if (state.decision.move === "stay") drawWait(pen, [column, row], progress, palette);
     else drawMove(pen, [column, row], thing.cell, progress, palette);
