@@ -15,7 +15,7 @@ from sim.forecast import foretell
 from sim.kinds import Kind
 from sim.perceive import perceive
 from sim.randomness import Stream
-from sim.road import Board, Road, bits, board_of
+from sim.road import Board, Road, bits, board_of, cells_of
 from sim.search.reach import reach, steps_left
 from sim.world import World
 
@@ -108,9 +108,8 @@ def named(kind: Kind, cells: Iterable[int], last: dict[Kind, int]) -> dict[int, 
 
 def lowest_ranked(free: Board, count: int, stream: Stream) -> list[int]:
     """`count` cells of a board, at random: those of lowest rank in the stream."""
-    cells = list(bits(free))
-    ranked = sorted(zip(stream.words(cells), cells, strict=True))
-    return [cell for _, cell in ranked[:count]]
+    ranks = stream.words(free.bit_length())
+    return sorted(cells_of(free), key=ranks.__getitem__)[:count]
 
 
 def _exactly(free: Board, count: int, stream: Stream) -> Board:

@@ -11,11 +11,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import lru_cache
+from itertools import compress
 
 from sim.kinds import Cell, Move
 
 _WORD_BITS = 240
 _WORD = (1 << _WORD_BITS) - 1
+_FROM_DIGITS = bytes(digit == ord("1") for digit in range(256))
 
 Board = int
 """A set of cells of one road."""
@@ -33,6 +35,11 @@ def bits(board: Board) -> Iterator[int]:
             word ^= lowest
         board >>= _WORD_BITS
         offset += _WORD_BITS
+
+
+def cells_of(board: Board) -> list[int]:
+    """The same as a list; quicker where many of the cells are in it."""
+    return list(compress(range(board.bit_length()), bin(board)[:1:-1].encode().translate(_FROM_DIGITS)))
 
 
 def board_of(indices: Iterator[int] | list[int] | tuple[int, ...]) -> Board:

@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sim.randomness import MAX_SEED, Stream, mix
+from sim.road import bits, cells_of
 
 PURPOSES = ("spawn vehicle", "spawn pothole", "heading", "courtesy", "edit")
 
@@ -108,3 +109,14 @@ def test_draws_keep_to_their_range(seed: int, index: int, bound: int) -> None:
 @given(st.integers(0, MAX_SEED), st.integers(0, 500), st.integers(0, 500))
 def test_narrowing_twice_is_narrowing_by_both(seed: int, first: int, second: int) -> None:
     assert Stream.of(seed, "edit", first, second) == Stream.of(seed, "edit").narrow(first).narrow(second)
+
+
+@given(st.integers(0, MAX_SEED), st.integers(0, 700))
+def test_many_words_at_once_are_the_same_words(seed: int, count: int) -> None:
+    stream = Stream.of(seed, "edit")
+    assert list(stream.words(count)) == [stream.word(index) for index in range(count)]
+
+
+@given(st.integers(0, 2**700))
+def test_cells_as_a_list_are_the_cells_of_the_board(board: int) -> None:
+    assert cells_of(board) == list(bits(board))
