@@ -25,7 +25,7 @@ class MemoryStore:
 
     def __init__(self) -> None:
         self._sessions: dict[str, SessionRecord] = {}
-        self._entries: dict[str, list[EntryRecord]] = {}
+        self._entries: dict[str, dict[int, EntryRecord]] = {}
         self._phrases: dict[tuple[str, str, str], PhraseRecord] = {}
         self._answers: dict[str, KeptAnswer] = {}
         self._last_number = 0
@@ -51,7 +51,7 @@ class MemoryStore:
         self._last_number += 1
         numbered = record.numbered(self._last_number)
         self._sessions[record.id] = numbered
-        self._entries[record.id] = list(entries)
+        self._entries[record.id] = {entry.sequence: entry for entry in entries}
         for entry in entries:
             self._name(record.id, entry)
         return numbered
@@ -61,11 +61,10 @@ class MemoryStore:
         entries = self._entries.get(session_id)
         if entries is None or session_id in self._unseen:
             raise StoreError(f"no session {session_id}")
-        # Sequences only grow, so all but a session's own are above its latest.
-        if entries and entry.sequence <= entries[-1].sequence:
+        if entry.sequence in entries:
             raise StoreError(f"session {session_id} has an entry {entry.sequence} already")
         await self._keep(answer)
-        entries.append(entry)
+        entries[entry.sequence] = entry
         self._name(session_id, entry)
 
     async def get(self, session_id: str) -> SessionRecord | None:
@@ -80,7 +79,7 @@ class MemoryStore:
         line: list[tuple[Branch | None, list[EntryRecord]]] = []
         record = self._sessions.get(session_id)
         while record is not None:
-            own = sorted(self._entries[record.id], key=lambda entry: entry.sequence)
+            own = [entry for _, entry in sorted(self._entries[record.id].items())]
             line.append((record.branch, own))
             record = self._sessions[record.branch.parent] if record.branch else None
         return joined(reversed(line))
