@@ -28,7 +28,6 @@ class NoDisplayError(Exception):
 
 def open_display(size: tuple[int, int]) -> pygame.Surface:
     """A window that can be resized. Raises `NoDisplayError`."""
-    environ.setdefault("SDL_VIDEO_X11_WMCLASS", "Roadtalk")  # how desktops group and name it
     try:
         pygame.display.init()
         driver = pygame.display.get_driver()
@@ -52,6 +51,7 @@ def play(
     window = Window(screen, config_of, ask=ask, loading=loading, now_s=time.perf_counter())
     clock = pygame.time.Clock()
     frozen = fullscreen = False
+    window_size = screen.get_size()
     try:
         while not window.closed:
             for event in pygame.event.get():
@@ -59,8 +59,8 @@ def play(
             surface = pygame.display.get_surface()
             if window.fullscreen != fullscreen:
                 fullscreen = window.fullscreen
-                pygame.display.toggle_fullscreen()
-                surface = pygame.display.get_surface()
+                window_size = window.size if fullscreen else window_size
+                surface = _other_mode(fullscreen, window_size)
             if surface is not None and (
                 surface is not window.canvas.screen or surface.get_size() != window.size
             ):
@@ -79,3 +79,13 @@ def play(
     finally:
         window.close()
         pygame.display.quit()
+
+
+def _other_mode(fullscreen: bool, size: tuple[int, int]) -> pygame.Surface | None:
+    """The whole screen, or a window of that size again; what there was, where the display cannot."""
+    try:
+        if fullscreen:
+            return pygame.display.set_mode((0, 0), pygame.FULLSCREEN)
+        return pygame.display.set_mode(size, pygame.RESIZABLE)
+    except pygame.error:
+        return pygame.display.get_surface()

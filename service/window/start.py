@@ -67,12 +67,12 @@ class Start:
 
     def _look_again(self) -> None:
         try:
-            config = self._config_of(int(self.text or 0))
+            run = Run.start(self._config_of(int(self.text or 0)))
         except ConfigError as error:
             self.message = "; ".join(problem.message for problem in error.problems).capitalize() + "."
             return
         self.message = "" if self.text else "A number, please: 0 is one too."
-        self._before, self._tick = None, Tick(Run.start(config), None, ())
+        self._before, self._tick = None, Tick(run, None, ())
 
     def draw(self, screen: pygame.Surface, now_s: float) -> None:
         """All of the window."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pygame
 import pytest
 
+from service.window.exchange import Exchange
 from service.window.keys import EXAMPLES
 from service.window.look import ACCENT
 from sim.config import Config
@@ -253,15 +254,17 @@ def test_a_crash_is_told_in_the_log_and_asked_about(window: Open) -> None:
 def test_a_long_reply_can_be_scrolled(window: Open) -> None:
     driver = window(size=(640, 480))
     driver.letter("p")
-    driver.say("help")
+    driver.letter("/")
+    driver.console.take(Exchange(None, "The road is long. " * 40))
+    driver.frames(1)
     first = driver.picture()
     driver.press(pygame.K_PAGEDOWN)
     assert driver.console.scroll > 0
     assert driver.picture() != first
     driver.console.scroll = 99
     driver.frames(1)
-    assert driver.console.scroll < 20
-    for _ in range(9):
+    assert driver.console.scroll < 40
+    for _ in range(14):
         driver.press(pygame.K_PAGEUP)
     assert driver.console.scroll == 0
 

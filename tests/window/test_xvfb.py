@@ -26,6 +26,7 @@ pytestmark = [
 ]
 PATIENCE_S = 90.0
 SIZE = (1440, 900)
+WHOLE = (1600, 1000)
 
 
 @dataclass
@@ -66,7 +67,7 @@ class Screen:
 def screen() -> Iterator[Screen]:
     """A fresh X server."""
     server = subprocess.Popen(
-        ["Xvfb", "-displayfd", "1", "-screen", "0", "1440x900x24", "-nolisten", "tcp"],
+        ["Xvfb", "-displayfd", "1", "-screen", "0", "1600x1000x24", "-nolisten", "tcp"],
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
         text=True,
@@ -136,6 +137,10 @@ def test_a_person_plays(screen: Screen, tmp_path: Path) -> None:
         until(lambda: yellow(picture()) < 1.5 * yellow(still), "they are gone again")
         screen.key("F2")
         until(lambda: yellow(picture()) == 0, "the schematic is hidden")
+        screen.key("F11")
+        until(lambda: picture().get_size() == WHOLE, "it has the whole screen")
+        screen.key("F11")
+        until(lambda: picture().get_size() == SIZE, "it has its window again")
         screen.key("Escape")
         screen.key("Return")
         assert program.wait(PATIENCE_S) == 0
