@@ -44,6 +44,15 @@ def cleared(visitor: Visitor) -> list[int]:
     return cell
 
 
+def until(visitor: Visitor, expression: str, *values: Any) -> None:
+    """Wait for something that no expectation of Playwright's tells."""
+    for _ in range(100):
+        if visitor.page.evaluate(expression, *values):
+            return
+        visitor.watch(0.05)
+    pytest.fail(f"never came true: {expression}")
+
+
 def settled(visitor: Visitor) -> int:
     """The road's picture once it stands still."""
     for _ in range(20):
@@ -115,9 +124,9 @@ def test_what_is_enlarged_fills_the_place_of_the_rest_and_comes_back(visit: Visi
     assert large["width"] > 2.5 * before["width"]
     expect(part(visitor, "talk")).to_be_in_viewport(ratio=1)
     canvas = visitor.page.locator(".plan-canvas")
-    visitor.page.wait_for_function("document.querySelector('.plan-canvas').clientWidth > 400")
+    until(visitor, "document.querySelector('.plan-canvas').clientWidth > 400")
     visitor.page.keyboard.press("Escape")
-    visitor.page.wait_for_function("document.querySelector('.plan-canvas').clientWidth < 300")
+    until(visitor, "document.querySelector('.plan-canvas').clientWidth < 300")
     assert part(visitor, "plan").bounding_box() == before
     road = part(visitor, "road").bounding_box()
     visitor.page.get_by_role("button", name="Enlarge the road").click()
@@ -177,7 +186,8 @@ def test_a_rejected_move_plays_beside_the_real_run(visit: Visit) -> None:
     visitor = visit()
     visitor.pause()
     visitor.script.act({"do": "step", "ticks": 3})
-    expect(visitor.page.locator(".panel-note").first).to_have_text("next, at tick 3")
+    tick = visitor.script.state()["tick"]
+    expect(visitor.page.locator(".panel-note").first).to_have_text(f"next, at tick {tick}")
     visitor.page.locator(".way[data-standing=free]").first.click()
     expect(visitor.page.locator("#beside")).to_be_visible()
 
@@ -190,9 +200,7 @@ def test_the_matrix_holds_what_the_road_holds(visit: Visit) -> None:
     blank = canvas.evaluate("(canvas) => canvas.toDataURL()")
     visitor.script.act({"do": "add", "kind": "pothole", "count": 3})
     expect(canvas).to_have_attribute("aria-label", re.compile(r"4 of 240 cells are taken, 3 potholes"))
-    visitor.page.wait_for_function(
-        "(before) => document.querySelector('.occupancy-canvas').toDataURL() !== before", arg=blank
-    )
+    until(visitor, "(before) => document.querySelector('.occupancy-canvas').toDataURL() !== before", blank)
     assert f"column {column + 1} of row {row}" in (canvas.get_attribute("aria-label") or "")
 
 
@@ -263,10 +271,13 @@ def test_the_service_draws_the_same_tick_and_the_page_again(visit: Visit) -> Non
 
 def test_pictures_that_cannot_be_read_are_told_and_the_page_draws_again(visit: Visit) -> None:
     visitor = visit()
-    visitor.page.evaluate("window.createImageBitmap = () => Promise.reject(new Error('no picture'))")
+    visitor.page.evaluate(
+        "() => { window.createImageBitmap = () => Promise.reject(new Error('no picture')); }"
+    )
     visitor.page.get_by_role("button", name="Views").click()
     visitor.page.get_by_role("menuitemradio", name="Drawn by the service").click()
     expect(visitor.page.locator("#notice")).to_contain_text("The road is drawn here again.")
+    visitor.page.keyboard.press("Escape")
     visitor.page.get_by_role("button", name="Views").click()
     expect(visitor.page.get_by_role("menuitemradio", name="Drawn here")).to_have_attribute(
         "aria-checked", "true"
