@@ -7,41 +7,29 @@
  */
 
 import { make, setText } from "../dom.js";
-import { capital, moveName, same } from "../hits.js";
+import { capital, moveName } from "../hits.js";
 import { fetchDecision } from "../otherwise.js";
 import { sceneOf } from "../state.js";
 import { tellOf, thingOf } from "../why.js";
 import { MOVES, reasonWords } from "../words.js";
 import { egoOf } from "../world.js";
+import { alike, lay } from "./card.js";
 
 /** @import { Place, Places } from "../hits.js" */
 /** @import { Page } from "../main.js" */
-/** @import { Cell, Decision, Option } from "../protocol.js" */
+/** @import { Decision, Option } from "../protocol.js" */
 /** @import { Offer } from "../why.js" */
+/** @import { Card, Target } from "./card.js" */
 /** @import { Panel } from "./index.js" */
 
-/**
- * @typedef {{kind: "cell", cell: Cell, id: string | null, places: Places, frame: HTMLElement}
- *   | {kind: "decision", tick: number, frame: HTMLElement}} Target  `frame`: the view or the line it is in
- */
-
-/**
- * @typedef {object} Card
- * @property {(target: Target, pin?: boolean) => void} show  pinned, it stays until it is sent away
- * @property {() => void} hide
- * @property {() => void} leave  hide it soon, unless the pointer comes back
- * @property {() => void} stay
- * @property {() => boolean} focus  go into it; false where there is nothing to press
- * @property {() => Target | null} target
- * @property {() => boolean} pinned
- */
+/** @typedef {Panel & Card} Bubble */
 
 const LEAVE_MS = 280;
 const GAP_PX = 10;
 /** A trace is asked for so often at most, however fast the ticks come. */
 const APART_MS = 400;
 
-/** @param {HTMLElement} host @param {Page} page @returns {Panel & Card} */
+/** @param {HTMLElement} host @param {Page} page @returns {Bubble} */
 export function createBubble(host, page) {
   host.setAttribute("role", "dialog");
   const mark = make("div", { class: "cell-mark", hidden: true });
@@ -259,13 +247,6 @@ export function createBubble(host, page) {
   };
 }
 
-/** @param {Target} a @param {Target} b */
-export function alike(a, b) {
-  if (a.frame !== b.frame) return false;
-  if (a.kind === "decision" || b.kind === "decision") return a.kind === b.kind;
-  return a.id !== null || b.id !== null ? a.id === b.id : same(a.cell, b.cell);
-}
-
 /**
  * Where a card goes: beside what it speaks of, or above or below; wholly in the window, and rather not on the vehicle.
  * @param {Place} anchor
@@ -301,11 +282,4 @@ function inside(at, size, room) {
 /** @param {Place} place @param {DOMRect} frame */
 function meets({ left, top, width, height }, frame) {
   return left < frame.right - 2 && left + width > frame.left + 2 && top < frame.bottom - 2 && top + height > frame.top + 2;
-}
-
-/** Lay an element over a place of the window. @param {HTMLElement} element @param {Place} place */
-export function lay(element, { left, top, width, height }) {
-  element.style.transform = `translate(${left}px, ${top}px)`;
-  element.style.inlineSize = `${width}px`;
-  element.style.blockSize = `${height}px`;
 }

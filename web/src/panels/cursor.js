@@ -11,14 +11,14 @@ import { hindrance, isLoose, moving, placing, removing, TOOLS } from "../edit.js
 import { capital, cellWords, nameOf, onRoad, placeWords, thingIn } from "../hits.js";
 import { sceneOf } from "../state.js";
 import { egoOf } from "../world.js";
-import { lay } from "./bubble.js";
+import { lay } from "./card.js";
 import { portrait } from "./tray.js";
 
 /** @import { Places } from "../hits.js" */
 /** @import { Page } from "../main.js" */
 /** @import { Cell } from "../protocol.js" */
 /** @import { Thing, World } from "../world.js" */
-/** @import { Card } from "./bubble.js" */
+/** @import { Card } from "./card.js" */
 /** @import { Panel } from "./index.js" */
 /** @import { Hands } from "./touch.js" */
 
@@ -84,7 +84,7 @@ export function createCursor(host, places, page, card, hands) {
   function tellMore(pin = false) {
     const { world } = sceneOf(page.state());
     if (world === null || cell === null || (!pin && document.activeElement !== host)) return;
-    card.show({ kind: "cell", cell, id: thingIn(world, cell)?.id ?? null, places, frame: host }, pin);
+    card.show({ kind: "cell", cell, id: thingIn(world, cell)?.id ?? null, places, frame: host }, pin, pin);
   }
 
   function place() {
@@ -170,7 +170,6 @@ export function createCursor(host, places, page, card, hands) {
       clearTimeout(rest);
       go(at, false);
       tellMore(true);
-      card.focus();
     } else if (key === "Delete" || key === "Backspace") {
       const thing = thingIn(world, at);
       if (isLoose(thing)) hands.doing(removing(thing), `Take ${thing.id} off the road`);

@@ -13,7 +13,7 @@ import { createTouch } from "./touch.js";
 
 /** @import { Places } from "../hits.js" */
 /** @import { Page } from "../main.js" */
-/** @import { Card } from "./bubble.js" */
+/** @import { Card } from "./card.js" */
 /** @import { Panel } from "./index.js" */
 
 /**

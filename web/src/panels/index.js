@@ -3,8 +3,8 @@
 
 import { byId } from "../dom.js";
 import { createAnnouncer } from "./announcer.js";
-import { createBubble } from "./bubble.js";
 import { createCaption } from "./caption.js";
+import { createCard } from "./card.js";
 import { createCommand } from "./command.js";
 import { createComparison } from "./comparison.js";
 import { createConnectionBadge } from "./connection.js";
@@ -49,7 +49,7 @@ export function createPanels(page) {
   byId("new-session").addEventListener("click", () => page.startSession());
   const looking = createLooking(page);
   const road = createRoad(byId("road"));
-  const bubble = createBubble(byId("bubble"), page);
+  const card = createCard(byId("bubble"), page);
   return [
     road,
     createVerdict(byId("road"), page),
@@ -68,8 +68,8 @@ export function createPanels(page) {
     createConnectionBadge(byId("connection"), page),
     createAnnouncer(byId("announcer")),
     createComparison(byId("beside"), page),
-    bubble,
-    ...createHands(byId("road"), road.places, byId("log"), page, bubble),
+    card,
+    ...createHands(byId("road"), road.places, byId("log"), page, card),
     createViews(byId("views-menu"), page),
     createPixels(byId("road"), page),
     createLanes(byId("road")),

@@ -3,10 +3,10 @@
 
 import { onRoad, thingAt, viewUnder } from "../hits.js";
 import { sceneOf } from "../state.js";
-import { alike } from "./bubble.js";
+import { alike } from "./card.js";
 
 /** @import { Page } from "../main.js" */
-/** @import { Card, Target } from "./bubble.js" */
+/** @import { Card, Target } from "./card.js" */
 
 const REST_MS = 350;
 /** On a free cell there is less to say, and the pointer is more often only parked there. */

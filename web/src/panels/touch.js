@@ -11,7 +11,7 @@ import { make, setText } from "../dom.js";
 import { hindrance, isLoose, moving, placing, removing } from "../edit.js";
 import { capital, nameOf, onRoad, placeWords, thingAt } from "../hits.js";
 import { sceneOf } from "../state.js";
-import { lay } from "./bubble.js";
+import { lay } from "./card.js";
 import { pointedAt } from "./pointing.js";
 import { createTray, portrait } from "./tray.js";
 
@@ -19,7 +19,7 @@ import { createTray, portrait } from "./tray.js";
 /** @import { Page } from "../main.js" */
 /** @import { Cell, Action } from "../protocol.js" */
 /** @import { Thing } from "../world.js" */
-/** @import { Card } from "./bubble.js" */
+/** @import { Card } from "./card.js" */
 /** @import { Panel } from "./index.js" */
 
 /** @typedef {{kind: string, thing: Thing | null, x: number, y: number, pointer: number | null}} Held */
