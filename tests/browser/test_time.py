@@ -201,7 +201,9 @@ def test_a_fork_goes_its_own_way_and_the_browser_leads_back(run: Visitor) -> Non
     expect(bar(run)).to_contain_text("Tick 25 of")
     look(run, 25)
     expect(slider(run)).to_have_attribute("aria-valuetext", re.compile("Forked here"))
-    run.page.go_forward()
+    choose(run, "Open the fork made here")
+    run.wait_live()
+    expect(origin).to_be_visible()
     origin.click()
     expect(bar(run)).to_contain_text("Tick 25 of")
 
@@ -289,7 +291,7 @@ def test_pictures_films_and_recordings_are_taken_away(run: Visitor) -> None:
         dialog.get_by_role("button", name="Make film").click()
     expect(dialog.get_by_role("status")).to_have_text(re.compile(r"Saved: \d+ kB\."))
     with Image.open(BytesIO(Path(film.value.path()).read_bytes())) as moving:
-        assert (moving.format, moving.n_frames > 5) == ("GIF", True)
+        assert (moving.format, getattr(moving, "n_frames", 1) > 5) == ("GIF", True)
     dialog.get_by_label("To tick").fill("20")
     dialog.get_by_role("button", name="Make film").click()
     expect(dialog.get_by_role("status")).to_contain_text("is after the last tick")

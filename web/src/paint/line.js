@@ -38,7 +38,8 @@ const MARKS_Y = 9;
 const BAND = { top: 18, height: 12 };
 const FIGURES_Y = 43;
 const SYMBOL = 11;
-const SHOWN = new Set(["crash", "stuck", "success", "command", "fork"]);
+/** What has a symbol, the loudest first. @type {Kind[]} */
+const SHOWN = ["crash", "stuck", "fork", "command", "success"];
 
 /** Where a tick is. @param {{width: number, span: number}} line @param {number} tick */
 export function xOf({ width, span }, tick) {
@@ -95,7 +96,7 @@ function drawSpans(pen, line, inks) {
     const height = tall ? BAND.height : BAND.height / 2;
     pen.fillRect(xOf(line, tick), BAND.top + BAND.height - height, Math.max(1, ticks * scale - (scale > 3 ? 1 : 0)), height);
   }
-  pen.globalAlpha = 1;
+  pen.globalAlpha = Math.max(0.35, Math.min(1, scale * 2));
   pen.fillStyle = inks.danger;
   let last = -Infinity;
   for (const { kind, tick } of line.marks) {
@@ -106,6 +107,7 @@ function drawSpans(pen, line, inks) {
     pen.fill();
     last = x;
   }
+  pen.globalAlpha = 1;
 }
 
 /** @param {CanvasRenderingContext2D} pen @param {Line} line @param {Inks} inks */
@@ -124,21 +126,25 @@ function drawFigures(pen, line, inks) {
 
 /** @param {CanvasRenderingContext2D} pen @param {Line} line @param {Inks} inks */
 function drawMarks(pen, line, inks) {
-  /** @type {Map<number, Mark>} */
-  const places = new Map();
-  const loudness = ["success", "command", "fork", "stuck", "crash"];
-  for (const mark of line.marks) {
-    if (!SHOWN.has(mark.kind)) continue;
-    const place = Math.round(xOf(line, mark.tick) / SYMBOL);
-    const there = places.get(place);
-    if (!there || loudness.indexOf(mark.kind) >= loudness.indexOf(there.kind)) places.set(place, mark);
+  const placed = /** @type {number[]} */ ([]);
+  for (const sort of SHOWN) {
+    // Where all went well again and again, a few ticks say so; what stands alone is always seen.
+    const room = sort === "success" ? SYMBOL * 2.5 : SYMBOL;
+    for (const { kind, tick } of line.marks) {
+      const x = xOf(line, tick);
+      if (kind !== sort || placed.some((there) => Math.abs(there - x) < room)) continue;
+      placed.push(x);
+      drawAt(pen, x, line, () => symbol(pen, kind, inks));
+    }
   }
-  for (const { kind, tick } of places.values()) {
-    pen.save();
-    pen.translate(Math.max(EDGE, Math.min(line.width - EDGE, xOf(line, tick))), MARKS_Y);
-    symbol(pen, kind, inks);
-    pen.restore();
-  }
+}
+
+/** @param {CanvasRenderingContext2D} pen @param {number} x @param {Line} line @param {() => void} draw */
+function drawAt(pen, x, line, draw) {
+  pen.save();
+  pen.translate(Math.max(EDGE, Math.min(line.width - EDGE, x)), MARKS_Y);
+  draw();
+  pen.restore();
 }
 
 /**

@@ -69,7 +69,9 @@ export function createPast(host, page, looking) {
 
   function show() {
     const looked = looking.tick;
+    const left = looked === null && bar.contains(document.activeElement);
     bar.hidden = looked === null;
+    if (left) /** @type {HTMLElement | null} */ (document.querySelector(".line"))?.focus({ preventScroll: true });
     document.body.classList.toggle("past-seen", looked !== null);
     const { session } = page.state();
     tell();

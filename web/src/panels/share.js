@@ -17,7 +17,7 @@ import { sessionPath } from "../protocol.js";
 
 /** What stands in the session's menu, in this order; null is a line. */
 const MENU = [
-  "share", "fork", "rewind", "origin", null, "save-moment", "moments", null,
+  "share", "fork", "open-fork", "rewind", "origin", null, "save-moment", "moments", null,
   "picture", "film", "recording", "open-recording", null, "sessions", "new-session",
 ];
 
@@ -131,6 +131,13 @@ function shareActs({ share, fork, rewind, parentOf }) {
   return [
     { name: "share", group, key: "l", keyName: "L", now: ({ past }) => ({ label: past ? `Share a link to tick ${past.world.tick}` : "Share a link to this moment", run: () => void share() }) },
     { name: "fork", group, key: "f", keyName: "F", now: ({ past }) => ({ label: past ? `Fork at tick ${past.world.tick}` : "Fork from here", run: () => void fork() }) },
+    {
+      name: "open-fork", group,
+      now({ past, session }) {
+        const made = past && forks(localHistory()).findLast(({ parent, tick }) => parent === session && tick === past.world.tick);
+        return made ? { label: "Open the fork made here", run: () => (location.hash = hashOf(made.child)) } : null;
+      },
+    },
     { name: "rewind", group, now: ({ past }) => past && { label: `Rewind to tick ${past.world.tick}`, run: () => void rewind() } },
     {
       name: "origin", group,
