@@ -59,6 +59,7 @@
  * @typedef {object} Decision  taken in the world of `tick`; it leads to the world of `tick + 1`
  * @property {number} tick
  * @property {Move} move
+ * @property {string} [planner]  "manual" when a person chose
  * @property {number} [weight]  how much there is to tell, from 0 to 2
  * @property {string} [reason]  only in tick messages
  * @property {string[]} [causes]  only in tick messages

@@ -26,9 +26,12 @@ export const LAYERS = [
   ["boxes", "Bounding boxes"],
 ];
 
+/** A narrow screen has room for one of them. */
+const NARROW_PX = 600;
+
 /** @type {Views} */
 export const AT_FIRST = {
-  road: true, schematic: true, plan: true, occupancy: true, metrics: true, log: true,
+  road: true, schematic: !(globalThis.innerWidth < NARROW_PX), plan: true, occupancy: true, metrics: true, log: true,
   path: true, potholes: false, forecast: false, boxes: false,
   service: false, // whether the service's own pictures are seen in place of the page's
 };

@@ -32,10 +32,29 @@ export function waysOf(decision, from, world) {
       return { move, cell, standing: decision.move === move ? "taken" : standing, reason: why(blocked.reason, ids, world), ids };
     }
     if (decision.move === move) return { move, cell, standing: "taken", reason: "free", ids };
-    const stuck = option && option.cost === null;
-    return { move, cell, standing: "free", reason: stuck ? "free, but leads nowhere" : "free, less preferred", ids };
+    return { move, cell, standing: "free", reason: `free, ${behind(option?.cost, decision)}`, ids };
   });
 }
+
+/**
+ * What a free move has against it: what its planner says that it costs more than the one chosen.
+ * @param {number | null | undefined} cost
+ * @param {Decision} decision
+ */
+function behind(cost, { planner, move, options }) {
+  if (cost === null) return "but leads nowhere";
+  const best = options?.find((each) => each.move === move)?.cost;
+  if (cost === undefined || best === undefined || best === null || !planner || !MEASURES[planner]) return "less preferred";
+  const more = Math.round((cost - best) * 10) / 10;
+  return more > 0 ? MEASURES[planner](more) : "as good";
+}
+
+/** Planners that measure what a move leads to. @type {Record<string, (more: number) => string>} */
+const MEASURES = {
+  astar: (more) => `costs ${more} more`,
+  dijkstra: (more) => `costs ${more} more`,
+  exact: (more) => `${more} ${more === 1 ? "tick" : "ticks"} later`,
+};
 
 /** @param {string} reason @param {string[]} ids @param {World} world */
 function why(reason, ids, world) {

@@ -10,7 +10,7 @@ import { readPalette } from "../theme.js";
 /** @import { World } from "../world.js" */
 /** @import { Panel } from "./index.js" */
 
-const MARGIN_PX = 10;
+const MARGIN_PX = 9;
 const LEGEND = "The whole road. Blue: the vehicle · red: cars · green: walkers · yellow: potholes · orange: barriers";
 
 /** @param {HTMLElement} host @param {Places} road  whose view is framed @returns {Panel} */
@@ -60,8 +60,7 @@ export function createSchematic(host, road) {
       const ratio = Math.min(2, devicePixelRatio || 1);
       const seen = road.window?.() ?? null;
       const { x, y, across, along } = layout(world);
-      // Half a pixel is the least that can be told apart.
-      const key = `${width} ${height} ${seen?.map((row) => Math.round(row * along * 2))}`;
+      const key = `${width} ${height} ${seen?.map((row) => Math.round(row * along))}`;
       if (world === of && key === drawn) return false;
       of = world;
       drawn = key;
