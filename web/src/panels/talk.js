@@ -39,7 +39,7 @@ export function createTalk(host, page) {
       }
       for (const exchange of exchanges) {
         const known = elements.get(exchange.id);
-        const { undos, taken } = standingOf(steps, exchange.result?.sequence);
+        const { undos, taken } = standingOf(steps, exchange.result?.changes.length ? exchange.result.sequence : undefined);
         const standing = `${undos} ${taken}`;
         if (known?.exchange === exchange && known.standing === standing) continue;
         const element = exchangeElement(exchange, page, undos, taken);
