@@ -55,7 +55,7 @@ def play(
 
     environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     from service.window import loop
-    from service.window.loading import Loading
+    from service.window.loading import LoadError, Loading
 
     loading = Loading()
     if scenario is not None:
@@ -72,18 +72,24 @@ def play(
         return base if not ask or asked is None else base.with_parts(potholes=asked)
 
     ask = potholes is None and scenario is None
-    loop.play(screen, config_of, ask=ask, loading=loading)
+    try:
+        loop.play(screen, config_of, ask=ask, loading=loading)
+    except LoadError as error:
+        _refuse(str(error))
+    except KeyboardInterrupt:
+        pass  # Ctrl-C in the terminal closes the window like anything else
 
 
 def _described(loading: Loading, sentence: str, base: Config, given: dict[str, object]) -> Config:
     """The road that a sentence describes; what was given as an option stands."""
+    from service.window.loading import LoadError
     from service.window.scenario import NoScenarioError, scenario_in
     from sim.scenario import configured
 
     try:
         scenario: Scenario = scenario_in(sentence, loading.wait().languages)
         return configured(base, scenario).with_parts(**given)
-    except NoScenarioError as error:
+    except (LoadError, NoScenarioError) as error:
         _refuse(str(error))
     except ConfigError as error:
         _refuse(f"There can be no such road: {error}.")

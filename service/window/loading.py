@@ -11,6 +11,10 @@ if TYPE_CHECKING:
     from service.talk.languages import Languages
 
 
+class LoadError(Exception):
+    """The language is not there, or unfit; the message says what."""
+
+
 @dataclass(frozen=True, slots=True)
 class Loaded:
     """What a game needs to understand and to answer."""
@@ -47,7 +51,7 @@ class Loading:
     """Reading it in a thread of its own."""
 
     _found: list[Loaded] = field(default_factory=list)
-    _failed: list[BaseException] = field(default_factory=list)
+    _failed: list[LoadError] = field(default_factory=list)
     _thread: threading.Thread | None = None
 
     def begin(self) -> None:
@@ -60,16 +64,16 @@ class Loading:
         try:
             self._found.append(load())
         except (ImportError, OSError, ValueError, KeyError) as error:
-            self._failed.append(error)
+            self._failed.append(LoadError(f"The language cannot be read: {error}"))
 
     def ready(self) -> Loaded | None:
-        """What was read, or None while it is being read. Raises what went wrong with it."""
+        """What was read, or None while it is being read. Raises `LoadError`."""
         if self._failed:
             raise self._failed[0]
         return self._found[0] if self._found else None
 
     def wait(self) -> Loaded:
-        """What was read, waiting for it."""
+        """What was read, waiting for it. Raises `LoadError`."""
         self.begin()
         assert self._thread is not None
         self._thread.join()

@@ -47,7 +47,7 @@ def open_display(size: tuple[int, int]) -> pygame.Surface:
 def play(
     screen: pygame.Surface, config_of: Callable[[int | None], Config], *, ask: bool, loading: Loading
 ) -> None:
-    """Until it is closed. Raises what reading the language raised."""
+    """Until it is closed. Raises `LoadError` where the language cannot be read."""
     window = Window(screen, config_of, ask=ask, loading=loading, now_s=time.perf_counter())
     clock = pygame.time.Clock()
     frozen = fullscreen = False
@@ -74,8 +74,6 @@ def play(
                 gc.freeze()
                 frozen = True
             clock.tick(FPS)
-    except KeyboardInterrupt:
-        pass
     finally:
         window.close()
         pygame.display.quit()

@@ -63,3 +63,14 @@ def test_an_option_stands_beside_a_scenario() -> None:
 
     scenario = scenario_in("a highway with 10 potholes and 4 cars", load().languages)
     assert (scenario.road, scenario.potholes, scenario.vehicles) == ("highway", 10, 4)
+
+
+def test_a_language_that_cannot_be_read_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    from service.window import loading
+
+    def missing() -> loading.Loaded:
+        raise FileNotFoundError("no words here")
+
+    monkeypatch.setattr(loading, "load", missing)
+    with pytest.raises(loading.LoadError, match="The language cannot be read: no words here"):
+        loading.Loading().wait()

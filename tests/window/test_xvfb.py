@@ -51,8 +51,9 @@ class Screen:
         )
         return done.stdout.strip()
 
-    def window(self) -> str | None:
+    def window(self, program: subprocess.Popen[str]) -> str | None:
         """The program's window, once it is there."""
+        assert program.poll() is None, program.communicate()
         every = self.do("search", "--class", ".*").split()
         return next((each for each in every if self.do("getwindowname", each) == "Roadtalk"), None)
 
@@ -119,8 +120,8 @@ def test_a_person_plays(screen: Screen, tmp_path: Path) -> None:
         return pygame.image.load(newest)
 
     try:
-        until(lambda: screen.window() is not None, "there is a window")
-        screen.do("windowfocus", screen.window() or "")
+        until(lambda: screen.window(program) is not None, "there is a window")
+        screen.do("windowfocus", screen.window(program) or "")
         screen.type("12")
         screen.key("Return")
         first = picture()
@@ -135,8 +136,8 @@ def test_a_person_plays(screen: Screen, tmp_path: Path) -> None:
         assert yellow(full) > 2 * yellow(still), "there are more potholes on the schematic"
         screen.key("ctrl+z")
         until(lambda: yellow(picture()) < 1.5 * yellow(still), "they are gone again")
-        screen.key("F2")
-        until(lambda: yellow(picture()) == 0, "the schematic is hidden")
+        screen.key("F2", "F3", "F4")
+        until(lambda: yellow(picture()) == 0, "all but the road is hidden")
         screen.key("F11")
         until(lambda: picture().get_size() == WHOLE, "it has the whole screen")
         screen.key("F11")
@@ -160,7 +161,7 @@ def test_closing_the_window_ends_it_without_a_traceback(screen: Screen, tmp_path
         text=True,
     )
     try:
-        until(lambda: screen.window() is not None, "there is a window")
+        until(lambda: screen.window(program) is not None, "there is a window")
         program.send_signal(2)
         assert program.wait(PATIENCE_S) == 0
     finally:
