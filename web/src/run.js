@@ -75,11 +75,13 @@ export class Run {
     const { session } = this;
     if (!session) return;
     try {
-      /** @type {{items: {tick: number, sequence: number, text: string}[]}} */
-      const { items } = await askJson(`${sessionPath(session)}/changes?limit=1000`, { http: this.around.http });
+      /** @type {{items: {tick: number, sequence: number, text: string}[], more: boolean}} */
+      const { items, more } = await askJson(`${sessionPath(session)}/changes?limit=1000`, { http: this.around.http });
       if (session !== this.session) return;
       const said = items.map(({ tick, sequence }) => `${tick} ${sequence}`);
-      const from = firstDifference(this.#said, said);
+      // Of very many only the newest are told: those before them are taken to stand.
+      const known = more ? this.#said.slice(Math.max(0, this.#said.indexOf(said[0]))) : this.#said;
+      const from = firstDifference(known, said);
       if (from < this.chart.now) {
         this.chart.forget(from);
         this.around.rewritten();

@@ -61,7 +61,7 @@ export function createShare(host, page, looking) {
   const share = () =>
     doing(async (session, wanted) => {
       const { url, tick, carries } = await shareLink(location, session, wanted);
-      const what = carries ? "It carries the whole run: it works wherever Roadtalk runs." : "It works for as long as this service keeps the session.";
+      const what = carries ? "It carries the whole run." : "It works while this service keeps the session.";
       try {
         await navigator.clipboard.writeText(url);
         page.tell({ text: `Link to tick ${tick} copied. ${what}` });
@@ -76,7 +76,7 @@ export function createShare(host, page, looking) {
       noteFork(localHistory(), { child: made.id, parent: session, tick: made.tick });
       history.replaceState(null, "", hashOf(session, wanted)); // the browser's way back leads to this moment
       location.hash = hashOf(made.id);
-      page.tell({ text: `Forked at tick ${made.tick}: from here on this session goes its own way.` });
+      page.tell({ text: `Forked at tick ${made.tick}. It goes its own way from here.` });
     });
 
   const rewind = () =>
