@@ -254,6 +254,7 @@ test("ends, titles and names are in words", () => {
   assert.equal(titleOf({ ...move, move: "left" }, { tick: 4 }), "If it had gone left at tick 4");
   assert.equal(nameOfOther(move), "If it waits");
   assert.equal(labelOf([{ do: "remove", kind: "pothole", count: "all" }]), "If there were no potholes");
+  assert.equal(labelOf([{ do: "remove", kind: "vehicle", count: "all" }]), "If there were no cars");
   assert.equal(labelOf([{ do: "remove", kind: "everything", count: "all" }]), "If the road were empty");
   assert.equal(labelOf([{ do: "add", kind: "pothole", count: 1 }]), "With that change");
 });

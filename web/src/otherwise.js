@@ -31,7 +31,8 @@ export function labelOf(actions) {
   const ids = actions.map((action) => (action.do === "remove" ? /** @type {{id?: string}} */ (action.where)?.id : undefined));
   if (ids.every((id) => id !== undefined)) return `If ${ids.join(" and ")} ${ids.length === 1 ? "wasn’t" : "weren’t"} there`;
   if (actions.length === 1 && actions[0].do === "remove" && actions[0].count === "all") {
-    return actions[0].kind === "everything" ? "If the road were empty" : `If there were no ${actions[0].kind}s`;
+    const { kind } = actions[0];
+    return kind === "everything" ? "If the road were empty" : `If there were no ${kind === "vehicle" ? "car" : kind}s`;
   }
   return "With that change";
 }
