@@ -18,14 +18,14 @@ from sim.kinds import Outcome
 from tests.window.driver import Driver
 
 PLAY = Path(__file__).with_name("play.png")
-ROAD = Config(seed=11, potholes=16, vehicles=22, barriers=3, pedestrians=3)
+ROAD = Config(seed=4, potholes=14, vehicles=22, barriers=3, pedestrians=3)
 CRASHING = Config(seed=1, potholes=40, vehicles=30)
 
 
 def play(loaded: Loaded) -> Driver:
     """On the way, with something just said and explained."""
     driver = Driver(loaded, config=ROAD)
-    driver.seconds(4.3)
+    driver.seconds(5.3)
     driver.say("add three potholes")
     driver.say("why did you do that?")
     driver.seconds(0.25)
