@@ -56,6 +56,7 @@ from service.sessions.manager import SessionManager
 from service.sessions.session import Surroundings
 from service.sessions.words import Words
 from service.settings import Settings
+from service.stopping import STOP_S, within
 from service.store import Store, open_store
 from service.talk.languages import DEFAULT, Language, Languages
 from service.talk.listener import Listener
@@ -107,6 +108,13 @@ def create_app(
     )
     context = Context(settings, store, clock, listener, words, manager, CapacityLimiter(1), Answers(store))
 
+    async def closed(sleeper: asyncio.Task[None]) -> None:
+        await asyncio.wait([sleeper])
+        await manager.close()
+        if model is not None:
+            await model.aclose()
+        await store.close()
+
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
         await store.open()
@@ -118,12 +126,8 @@ def create_app(
             yield
         finally:
             sleeper.cancel()
-            await asyncio.wait([sleeper])
             clock.stop()
-            await manager.close()
-            if model is not None:
-                await model.aclose()
-            await store.close()
+            await within(STOP_S, closed(sleeper))
 
     app = FastAPI(
         title="Roadtalk",

@@ -28,6 +28,7 @@ from service.llm import MissingExtraError
 from service.llm.prompts import PromptError
 from service.security.guard import exposed
 from service.settings import Settings
+from service.stopping import Deadline
 from service.store import Store, StoreError, open_store
 from service.version import VERSION
 from service.window.command import play
@@ -90,16 +91,18 @@ def serve(
     if reason is not None:
         _fail(reason)
     listener = _listener(settings.host, settings.port)
+    deadline = Deadline()
     try:
         store = open_store(settings.database)
         config = server_config(create_app(settings, store=store), settings)
         with asyncio.Runner(loop_factory=config.get_loop_factory()) as runner:
-            runner.run(_serve(config, store, listener))
+            runner.run(_serve(config, store, listener, deadline))
     except (StoreError, LanguageDataError, MissingExtraError, PromptError) as error:
         _fail(str(error))
     except KeyboardInterrupt:
         pass
     finally:
+        deadline.lift()
         listener.close()
 
 
@@ -204,7 +207,7 @@ async def warmed(app: FastAPI) -> int:
     return status
 
 
-async def _serve(config: uvicorn.Config, store: Store, listener: socket.socket) -> None:
+async def _serve(config: uvicorn.Config, store: Store, listener: socket.socket, deadline: Deadline) -> None:
     await warmed(cast(FastAPI, config.app))
     # Grammar, schemas and routes are 300,000 objects that stay. Looking through them for garbage took
     # 200 ms and more each time, in the midst of ticks; frozen, they are never looked at again.
@@ -214,19 +217,21 @@ async def _serve(config: uvicorn.Config, store: Store, listener: socket.socket) 
     await store.open()
     host, port = listener.getsockname()[:2]
     shown = f"[{host}]" if ":" in host else host
-    server = _Server(config, lambda: typer.echo(f"Roadtalk is at http://{shown}:{port}"))
+    server = _Server(config, lambda: typer.echo(f"Roadtalk is at http://{shown}:{port}"), deadline)
     await server.serve(sockets=[listener])
 
 
 class _Server(uvicorn.Server):
     """Says when it is ready, not before."""
 
-    def __init__(self, config: uvicorn.Config, on_ready: Callable[[], None]) -> None:
+    def __init__(self, config: uvicorn.Config, on_ready: Callable[[], None], deadline: Deadline) -> None:
         super().__init__(config)
         self._on_ready = on_ready
+        self._deadline = deadline
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         """End the streams of events, which would be waited for, then stop."""
+        self._deadline.begin()
         self.config.app.state.readers.stop()  # type: ignore[union-attr]
         await super().shutdown(sockets)
 

@@ -41,6 +41,9 @@ from sim.timeline import Timeline
 
 _LOG = structlog.get_logger(__name__)
 
+END_S = 0.2
+"""How long changes under way are waited for at a stop."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Recorded:
@@ -257,13 +260,23 @@ class SessionManager:
                     self._around.clock.add(session)
         return let_go
 
-    async def close(self) -> None:
-        """Remember where every clock stood."""
-        for session in self._live.values():
-            await session.end()
-        ticks = {session.id: session.timeline.tick for session in self._live.values()}
+    async def close(self, within_s: float = END_S) -> None:
+        """Remember where every clock stood; of sessions still being changed after `within_s`, nothing."""
+        ending = {asyncio.ensure_future(session.end()): session for session in self._live.values()}
         self._live.clear()
-        await self._around.store.save_ticks(ticks)
+        if not ending:
+            return
+        ended, late = await asyncio.wait(ending, timeout=within_s)
+        for task in late:
+            task.cancel()
+        if late:
+            # A change under way may yet be stored, and say otherwise where time stands.
+            _LOG.warning("sessions were still being changed at the stop", count=len(late))
+        ticks = {ending[each].id: ending[each].timeline.tick for each in ended}
+        try:
+            await self._around.store.save_ticks(ticks)
+        except StoreError as error:
+            _LOG.error("where clocks stood was not saved", error=str(error))
 
     async def _wake(self, session_id: str) -> Session:
         try:

@@ -2,47 +2,104 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 import signal
 import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import httpx
 import pytest
 from websockets.exceptions import ConnectionClosed
-from websockets.sync.client import connect
+from websockets.sync.client import ClientConnection, connect
+
+from service.stopping import within
+from tests.service.postgres import Server
 
 ROOT = Path(__file__).parents[2]
 SERVE = [sys.executable, "-m", "service", "serve", "--port", "0", "--database", "memory:"]
 MOST_S = 2.0
+SOCKETS = 40
 
 
-@pytest.fixture
-def process() -> Iterator[subprocess.Popen[str]]:
-    with subprocess.Popen(SERVE, cwd=ROOT, stdout=subprocess.PIPE, text=True) as process:
-        yield process
-        process.kill()
+@contextmanager
+def serving(*arguments: str) -> Iterator[tuple[subprocess.Popen[str], str]]:
+    """A service as a process, and where it is."""
+    with subprocess.Popen([*SERVE, *arguments], cwd=ROOT, stdout=subprocess.PIPE, text=True) as process:
+        try:
+            assert process.stdout is not None
+            yield process, process.stdout.readline().rsplit(" ", 1)[-1].strip()
+        finally:
+            process.kill()
+
+
+def closed_with(socket: ClientConnection) -> int | None:
+    """Read a socket to its end."""
+    with pytest.raises(ConnectionClosed) as closed:
+        list(iter(lambda: socket.recv(5), None))
+    return None if closed.value.rcvd is None else closed.value.rcvd.code
 
 
 @pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGINT])
-def test_a_stop_is_told_to_sockets_and_is_quick(process: subprocess.Popen[str], how: signal.Signals) -> None:
-    assert process.stdout is not None
-    url = process.stdout.readline().rsplit(" ", 1)[-1].strip()
-    with httpx.Client(base_url=url) as client:
+def test_a_stop_is_told_to_sockets_and_is_quick(how: signal.Signals) -> None:
+    with serving() as (process, url), httpx.Client(base_url=url) as client:
         path = client.post("/api/v1/sessions", json={"seed": 1}).headers["location"]
         with connect(f"{url.replace('http', 'ws', 1)}{path}/stream") as reading:
             reading.recv(5)
             began = time.monotonic()
             process.send_signal(how)
-            with pytest.raises(ConnectionClosed) as closed:
-                list(iter(lambda: reading.recv(5), None))
+            code = closed_with(reading)
         process.wait(10)
         assert time.monotonic() - began <= MOST_S
-    assert closed.value.rcvd is not None
-    assert closed.value.rcvd.code == 1012
+    assert code == 1012
+
+
+@pytest.mark.parametrize("hangs", ["silent server", "locked table"])
+@pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGINT])
+def test_a_store_that_hangs_holds_up_no_stop(postgres: Server, hangs: str, how: signal.Signals) -> None:
+    """Changes under way and many sockets, and whatever keeps them gives no answer."""
+    database = postgres.new_database()
+    with ExitStack() as open_things:
+        process, url = open_things.enter_context(serving("--database", database))
+        client = open_things.enter_context(httpx.Client(base_url=url, timeout=30))
+        paths = [client.post("/api/v1/sessions", json={"seed": n}).headers["location"] for n in range(8)]
+        sockets = [
+            open_things.enter_context(
+                connect(f"{url.replace('http', 'ws', 1)}{paths[n % len(paths)]}/stream", close_timeout=1)
+            )
+            for n in range(SOCKETS)
+        ]
+        for socket in sockets:
+            socket.recv(5)
+        if hangs == "locked table":
+            open_things.enter_context(postgres.locked(database, "entries"))
+        else:
+            postgres.signal(signal.SIGSTOP)
+            open_things.callback(postgres.signal, signal.SIGCONT)
+        for socket in sockets[:4]:
+            socket.send('{"type": "command", "id": "1", "text": "add a pothole"}')
+            socket.send('{"type": "ping"}')
+        began = time.monotonic()
+        process.send_signal(how)
+        process.wait(10)
+        took = time.monotonic() - began
+        codes = {closed_with(socket) for socket in sockets}
+    assert took <= MOST_S
+    assert codes == {1012}
+
+
+async def test_what_hangs_is_left_and_what_fails_is_told() -> None:
+    async def fail() -> None:
+        raise OSError("no room")
+
+    assert await within(5, asyncio.sleep(0)) is True
+    assert await within(0.01, asyncio.sleep(60)) is False
+    with pytest.raises(OSError, match="no room"):
+        await within(5, fail())
 
 
 @pytest.mark.parametrize(
