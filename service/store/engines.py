@@ -34,6 +34,9 @@ _ANSWER_S = 10.0
 _LOCK = 0x0A0D7A1C
 """The advisory lock of a service, in the database it uses."""
 
+_TRIES = 10
+"""How often it is asked for while a table would be waited for."""
+
 _PRAGMAS = (
     f"PRAGMA busy_timeout={_BUSY_S * 1000:.0f}",
     "PRAGMA locking_mode=EXCLUSIVE",
@@ -158,8 +161,14 @@ def _prepare_sqlite(connection: Any, _record: Any) -> None:
 def _prepare_postgres(connection: Any, _record: Any) -> None:
     cursor = connection.cursor()
     cursor.execute("SET synchronous_commit TO on")
-    cursor.execute(f"SELECT pg_try_advisory_lock({_LOCK})")
-    (held,) = cursor.fetchone()
+    # The server may take a moment to see that our own connection from before is gone.
+    for _ in range(_TRIES):
+        cursor.execute(f"SELECT pg_try_advisory_lock({_LOCK})")
+        (held,) = cursor.fetchone()
+        if held:
+            break
+        cursor.execute(f"SELECT pg_sleep({_BUSY_S / _TRIES})")
+        cursor.fetchone()
     cursor.close()
     connection.commit()
     if not held:
