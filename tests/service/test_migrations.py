@@ -31,8 +31,8 @@ def version(path: Path) -> str:
         connection.close()
 
 
-async def state_of(database: Path, session: str) -> httpx.Response:
-    app = create_app(Settings(database=f"sqlite:///{database}"))
+async def state_of(url: str, session: str) -> httpx.Response:
+    app = create_app(Settings(database=url))
     transport = httpx.ASGITransport(app)
     async with (
         app.router.lifespan_context(app),
@@ -59,16 +59,29 @@ async def test_the_migrations_end_in_the_tables_of_the_code(tmp_path: Path) -> N
     assert differences == []
 
 
-async def test_a_database_of_version_1_is_brought_up(tmp_path: Path) -> None:
-    """Written by the code before versions were; every session ends where it then stood."""
+@pytest.mark.parametrize(("old", "sessions"), [(1, 2), (3, 3)])
+async def test_a_database_of_an_old_version_is_brought_up(tmp_path: Path, old: int, sessions: int) -> None:
+    """Written by the code of that time; every session ends where it then stood."""
     path = tmp_path / "roads.db"
-    shutil.copy(DATA / "version1.sqlite", path)
-    known = json.loads((DATA / "version1.json").read_text())
-    assert len(known) == 2
+    shutil.copy(DATA / f"version{old}.sqlite", path)
+    known = json.loads((DATA / f"version{old}.json").read_text())
+    assert len(known) == sessions
     for session, stood in known.items():
-        state = (await state_of(path, session)).json()
+        state = (await state_of(f"sqlite:///{path}", session)).json()
         assert {key: state[key] for key in stood} == stood
     assert version(path) == str(VERSION)
+
+
+async def test_a_name_given_in_version_3_is_listed(tmp_path: Path) -> None:
+    path = tmp_path / "roads.db"
+    shutil.copy(DATA / "version3.sqlite", path)
+    store = SqlStore(f"sqlite:///{path}")
+    await store.open()
+    found = [(each.name, each.session_name, each.sequence, each.tick) for each in await store.moments(9)]
+    branches = [each.branch for each in await store.newest(9)]
+    await store.close()
+    assert found == [("hill", "road 7", 3, 9)]
+    assert branches == [None, None, None]
 
 
 @pytest.mark.parametrize("name", ["recording-7", "recording-11"])
@@ -149,7 +162,7 @@ async def test_another_end_than_once_names_the_entry(tmp_path: Path) -> None:
     connection.commit()
     connection.close()
 
-    answer = await state_of(path, made.json()["id"])
+    answer = await state_of(f"sqlite:///{path}", made.json()["id"])
     assert (answer.status_code, answer.json()["type"]) == (503, "/problems/not-restorable")
     assert "entry 2" in answer.json()["detail"]
 
