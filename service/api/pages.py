@@ -1,29 +1,25 @@
 """The page at `/` with its files, and the interactive documentation at `/docs`: all local, no CDN.
 
-Only the files that are there when the service starts are routes, so that everything else is a
-plain 404 problem and no path can lead out of the folder.
+Only files of the page's own kinds are answered, by their address inside its folder: everything else is
+a plain 404 problem, and no path leads out.
 """
 
 from __future__ import annotations
 
 import mimetypes
-from collections.abc import Mapping
 from importlib.resources import files
 from pathlib import Path
 
 from fastapi import FastAPI
-from starlette.middleware.gzip import GZipMiddleware
+from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import Response
-from starlette.staticfiles import StaticFiles
-from starlette.types import Scope
 
+from service.api.served import ServedFile, ServedPage
 from service.resources import web_folder
 
 _DOCS = Path(__file__).parent / "docs"
-_REVALIDATE = {"Cache-Control": "no-cache"}
-"""Browsers ask whether a file has changed (ETag) before using their copy: no build, no stale module."""
-
+_WEB_KINDS = (".css", ".js", ".svg")
 _DOCS_POLICY = {
     # Swagger UI draws its icons from data: URLs; it needs no other exception.
     "Content-Security-Policy": (
@@ -32,46 +28,49 @@ _DOCS_POLICY = {
 }
 
 
-class _Files(StaticFiles):
-    """A folder's files, always revalidated."""
-
-    def __init__(self, directory: Path, headers: Mapping[str, str] | None = None) -> None:
-        super().__init__(directory=directory)
-        self._headers = _REVALIDATE | dict(headers or {})
-
-    async def get_response(self, path: str, scope: Scope) -> Response:
-        """A file, or that the browser's copy is the newest."""
-        response = await super().get_response(path, scope)
-        response.headers.update(self._headers)
-        return response
-
-
 def install(app: FastAPI) -> None:
     """Serve the page and the documentation."""
     # Some systems' tables call modules text/plain, which browsers then refuse to run.
     mimetypes.add_type("text/javascript", ".js")
     _install_docs(app)
     web = web_folder()
-    _serve_file(app, "/", web / "index.html")
+    _serve(app, "/", ServedPage(web / "index.html"))
     for path in sorted(web.iterdir()):
         if path.is_dir():
-            app.mount(f"/{path.name}", GZipMiddleware(_Files(path)))
-        elif path.name != "index.html":
-            _serve_file(app, f"/{path.name}", path)
+            _serve_folder(app, path)
+        elif path.suffix in _WEB_KINDS:
+            _serve(app, f"/{path.name}", ServedFile(path))
 
 
 def _install_docs(app: FastAPI) -> None:
-    _serve_file(app, "/docs", _DOCS / "index.html", _DOCS_POLICY)
-    _serve_file(app, "/docs/start.js", _DOCS / "start.js")
+    _serve(app, "/docs", ServedFile(_DOCS / "index.html", _DOCS_POLICY))
+    _serve(app, "/docs/start.js", ServedFile(_DOCS / "start.js"))
     assets = Path(str(files("fastapi_offline"))) / "static"
     for name in ("swagger-ui.css", "swagger-ui-bundle.js"):
-        _serve_file(app, f"/docs/{name}", assets / name)
+        _serve(app, f"/docs/{name}", ServedFile(assets / name))
 
 
-def _serve_file(app: FastAPI, path: str, file: Path, headers: Mapping[str, str] | None = None) -> None:
-    folder = _Files(file.parent, headers)
-
+def _serve(app: FastAPI, path: str, file: ServedFile) -> None:
     async def serve(request: Request) -> Response:
-        return await folder.get_response(file.name, request.scope)
+        return file.answer(request.headers)
 
     app.add_route(path, serve, methods=["GET"], include_in_schema=False)
+
+
+def _serve_folder(app: FastAPI, folder: Path) -> None:
+    served: dict[str, ServedFile] = {}
+
+    async def serve(request: Request) -> Response:
+        path: str = request.path_params["path"]
+        if path not in served:
+            served[path] = ServedFile(_inside(folder, path))
+        return served[path].answer(request.headers)
+
+    app.add_route(f"/{folder.name}/{{path:path}}", serve, methods=["GET"], include_in_schema=False)
+
+
+def _inside(folder: Path, path: str) -> Path:
+    file = (folder / path).resolve()
+    if file.is_relative_to(folder.resolve()) and file.suffix in _WEB_KINDS and file.is_file():
+        return file
+    raise HTTPException(404)
