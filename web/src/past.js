@@ -180,7 +180,8 @@ export class Looking {
     this.page.cancel(this.#rest);
     const ahead = () => {
       if (this.tick !== tick) return;
-      for (const way of [0, this.#direction, -this.#direction]) book.ahead(tick + (way * PAGE) / 2);
+      const now = this.page.present().tick; // beyond it there is nothing to be had
+      for (const way of [0, this.#direction, -this.#direction]) book.ahead(Math.min(now, tick + (way * PAGE) / 2));
     };
     if (walked || this.playing) ahead();
     else this.#rest = this.page.later(ahead, REST_MS);
