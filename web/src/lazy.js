@@ -22,3 +22,22 @@ export function onDemand(page, make) {
     });
   };
 }
+
+/**
+ * A part's own style, fetched with it.
+ * @param {string} name  of the file in `style/`
+ * @returns {Promise<void>}
+ */
+export function styled(name) {
+  return new Promise((resolve, reject) => {
+    const link = document.createElement("link");
+    link.rel = "stylesheet";
+    link.href = `style/${name}.css`;
+    link.onload = () => resolve();
+    link.onerror = () => {
+      link.remove();
+      reject(new Error("Its style is missing."));
+    };
+    document.head.append(link);
+  });
+}

@@ -2,7 +2,7 @@
 /** The bubble as those know it who point at something (`bubble.js`), fetched when something is first pointed at. */
 
 import { same } from "../hits.js";
-import { onDemand } from "../lazy.js";
+import { onDemand, styled } from "../lazy.js";
 
 /** @import { Place, Places } from "../hits.js" */
 /** @import { Page } from "../main.js" */
@@ -29,10 +29,13 @@ import { onDemand } from "../lazy.js";
 
 /** @param {HTMLElement} host @param {Page} page @returns {Panel & Card} */
 export function createCard(host, page) {
-  /** @type {(Bubble) | null} */ let bubble = null;
+  /** @type {Bubble | null} */ let bubble = null;
   /** What is to be shown as soon as it has come. */
   let wish = 0;
-  const wanted = onDemand(page, async () => (bubble = (await import("./bubble.js")).createBubble(host, page)));
+  const wanted = onDemand(page, async () => {
+    const [{ createBubble }] = await Promise.all([import("./bubble.js"), styled("bubble")]);
+    return (bubble = createBubble(host, page));
+  });
 
   /** Nothing is wished for any more. @param {(bubble: Bubble) => void} then */
   function instead(then) {

@@ -1,7 +1,7 @@
 // @ts-check
 /** What would have been beside what was (`beside.js`), fetched when somebody first wants to see it. */
 
-import { onDemand } from "../lazy.js";
+import { onDemand, styled } from "../lazy.js";
 
 /** @import { Page } from "../main.js" */
 /** @import { Panel } from "./index.js" */
@@ -10,7 +10,8 @@ import { onDemand } from "../lazy.js";
 export function createComparison(host, page) {
   /** @type {Panel | null} */ let panel = null;
   const wanted = onDemand(page, async () => {
-    const beside = (await import("./beside.js")).createBeside(host, page);
+    const [{ createBeside }] = await Promise.all([import("./beside.js"), styled("beside")]);
+    const beside = createBeside(host, page);
     panel = beside;
     return beside;
   });

@@ -1,7 +1,7 @@
 // @ts-check
 /** Who drives, and by which key that is changed; the wheel itself (`wheel.js`) is fetched when a person first takes it. */
 
-import { onDemand } from "../lazy.js";
+import { onDemand, styled } from "../lazy.js";
 
 /** @import { Page } from "../main.js" */
 /** @import { Panel } from "./index.js" */
@@ -9,7 +9,10 @@ import { onDemand } from "../lazy.js";
 /** @param {HTMLElement} host  the road @param {Page} page @returns {Panel} */
 export function createDriving(host, page) {
   /** @type {Panel | null} */ let wheel = null;
-  const wanted = onDemand(page, async () => (wheel = (await import("./wheel.js")).createWheel(host, page)));
+  const wanted = onDemand(page, async () => {
+    const [{ createWheel }] = await Promise.all([import("./wheel.js"), styled("wheel")]);
+    return (wheel = createWheel(host, page));
+  });
 
   return {
     acts: [
