@@ -1,6 +1,11 @@
 // @ts-check
 /** What the reader prefers, and the canvas's colours, which live in `style/tokens.css` like all others. */
 
+import { prefer } from "./prefs.js";
+
+/** @type {Set<() => void>} */
+const calls = new Set();
+
 /**
  * @typedef {object} Palette  CSS colours
  * @property {string} verge
@@ -82,6 +87,23 @@ export function wantsStillness() {
   return matchMedia("(prefers-reduced-motion: reduce)").matches;
 }
 
+/** @typedef {"" | "light" | "dark"} Theme  chosen; empty for the system's */
+
+/** @returns {Theme} */
+export function theme() {
+  const chosen = document.documentElement.dataset.theme;
+  return chosen === "light" || chosen === "dark" ? chosen : "";
+}
+
+/** Choose one, now and for later visits (`early.js`). @param {string} chosen */
+export function chooseTheme(chosen) {
+  prefer("theme", chosen);
+  document.documentElement.dataset.theme = chosen;
+  const dark = darkStyle();
+  if (dark) dark.media = { light: "not all", dark: "all" }[chosen] ?? "(prefers-color-scheme: dark)";
+  for (const call of calls) call();
+}
+
 /**
  * Calls back when colours or motion are preferred otherwise.
  * @param {() => void} changed
@@ -90,4 +112,11 @@ export function watchPreferences(changed) {
   for (const query of ["(prefers-color-scheme: dark)", "(prefers-reduced-motion: reduce)", "(prefers-contrast: more)"]) {
     matchMedia(query).addEventListener("change", changed);
   }
+  // What the system does not want is fetched last, and may come after it was chosen.
+  darkStyle()?.addEventListener("load", changed);
+  calls.add(changed);
+}
+
+function darkStyle() {
+  return /** @type {HTMLLinkElement | null} */ (document.getElementById("dark"));
 }

@@ -4,6 +4,7 @@
 import { byId, make } from "../dom.js";
 import { guide, spoken } from "../language.js";
 import { prefer } from "../prefs.js";
+import { chooseTheme, theme } from "../theme.js";
 import { plain } from "../words.js";
 import { canSpeak, speak, speaks } from "./speech.js";
 
@@ -13,6 +14,11 @@ import { canSpeak, speak, speaks } from "./speech.js";
 /** @import { Panel } from "./index.js" */
 
 const NAMES = /** @type {Record<string, string>} */ ({ en: "English", de: "Deutsch" });
+const THEMES = [
+  ["", "As the system"],
+  ["light", "Light"],
+  ["dark", "Dark"],
+];
 const MOST_EXAMPLES = 3;
 /** Kinds of sentences under people's headings, in the order of a first hour; others follow under their own name. */
 const HEADINGS = /** @type {[string, string[]][]} */ ([
@@ -137,6 +143,9 @@ function choices(again) {
     /** @type {HTMLDialogElement | null} */ (language.closest("dialog"))?.close();
     again();
   });
+  const themes = make("select", { id: "choose-theme" });
+  for (const [value, name] of THEMES) themes.append(make("option", { value, selected: value === theme() }, name));
+  themes.addEventListener("change", () => chooseTheme(themes.value));
   const aloud = make("input", { type: "checkbox", id: "choose-aloud", checked: speaks() });
   aloud.addEventListener("change", () => speak(aloud.checked));
   return make(
@@ -144,6 +153,7 @@ function choices(again) {
     { class: "help-choices", "aria-label": "Choices" },
     make("h3", {}, "Choices"),
     make("label", { htmlFor: "choose-language" }, "I speak", language),
+    make("label", { htmlFor: "choose-theme" }, "Colours", themes),
     canSpeak() && make("label", { htmlFor: "choose-aloud" }, aloud, "Read aloud what matters"),
   );
 }
