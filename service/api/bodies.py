@@ -42,6 +42,9 @@ class RecordedEntry(Sent):
     tick: Tick
     text: str | None
     actions: Strictly[list[Action]] = Field(max_length=MAX_ACTIONS)
+    digest: str | None = Field(
+        None, max_length=64, description="What the world after it must be; not said by older recordings."
+    )
 
 
 class Recording(Sent):

@@ -252,6 +252,7 @@ def _recorded(
             tick=entry.tick,
             text=entry.text,
             actions=contract.dump(tuple(entry.actions)),
+            digest=entry.digest,
         )
         for entry in recording.entries
     ]

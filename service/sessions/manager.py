@@ -311,6 +311,11 @@ class SessionManager:
             await to_thread.run_sync(session.replay, recorded.entries, recorded.tick, most)
         except ReplayError as error:
             field = f"recording.entries.{error.position}"
+            if error.differs:
+                raise RecordingMismatch(
+                    f"{error} It was changed, or made by other rules.",
+                    errors=[FieldProblem(f"{field}.digest", str(error))],
+                ) from error
             raise Invalid(
                 "The recording cannot be replayed.", errors=[FieldProblem(field, str(error))]
             ) from error

@@ -1,7 +1,7 @@
 """A session as one small file: configuration with seed, and the changes with their ticks.
 
 Whoever replays it comes to the same digest. Recordings are read strictly: what is not understood
-is refused, never skipped.
+is refused, never skipped. Entries of older recordings name no digests, and those of forks not always.
 """
 
 from __future__ import annotations
@@ -35,7 +35,9 @@ def recording_json(session: Session, entries: Sequence[EntryRecord]) -> dict[str
 
 
 def _entry(entry: EntryRecord) -> dict[str, Any]:
-    """As it was said; what a world it led to is the store's to know."""
+    """As it was said, and the digest it led to where that is known: a replay goes wrong at an entry."""
     said = asdict(entry)
-    del said["digest"], said["names"]
+    del said["names"]
+    if said["digest"] is None:
+        del said["digest"]
     return said

@@ -17,7 +17,7 @@ from pydantic import ValidationError
 
 from service import actions as contract
 from service.actions import Action
-from service.problems import Invalid, ProblemError
+from service.problems import Invalid, ProblemError, RecordingMismatch
 from service.sessions.draft import Draft, ticks_to_run
 from service.sessions.facts import Answerable, happened_in
 from service.sessions.forking import Way
@@ -35,11 +35,15 @@ if TYPE_CHECKING:
 
 
 class ReplayError(Exception):
-    """What was kept cannot be done again; `position` is that of the entry."""
+    """What was kept cannot be done again; `position` is that of the entry.
 
-    def __init__(self, position: int, message: str) -> None:
-        super().__init__(message)
+    `differs`: it can, but leads elsewhere than it once did.
+    """
+
+    def __init__(self, position: int, reason: Exception) -> None:
+        super().__init__(str(reason))
         self.position = position
+        self.differs = isinstance(reason, RecordingMismatch)
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +78,7 @@ class Replay:
                     raise Invalid(f"More than {most} ticks would have to be run.")
                 self.one(entry, said, held=len(entries) - position <= self._log.kept)
             except (ProblemError, ValidationError) as error:
-                raise ReplayError(position, str(error)) from error
+                raise ReplayError(position, error) from error
         self.run_to(tick)
         self.tell()
 
@@ -94,7 +98,7 @@ class Replay:
                 timeline.apply(entry.sequence, said)  # type: ignore[arg-type]  # nothing else comes along
                 self._check(entry)
             except (ProblemError, EditError, ValidationError) as error:
-                raise ReplayError(common, str(error)) from error
+                raise ReplayError(common, error) from error
             common += 1
         while timeline.tick < branch.tick:
             timeline.advance()
@@ -161,7 +165,8 @@ class Replay:
             return
         found = self._session.run.world.digest()
         if found != entry.digest:
-            raise Invalid(f"Entry {entry.sequence} ends in {found}, not in {entry.digest} as it once did.")
+            told = f"Entry {entry.sequence} ends in {found}, not in {entry.digest} as it once did."
+            raise RecordingMismatch(told)
 
 
 def _loaded(entries: Sequence[EntryRecord]) -> Iterator[tuple[Action, ...]]:

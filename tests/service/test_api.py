@@ -249,11 +249,17 @@ async def test_a_recording_made_here_replays_here(service: Service) -> None:
     assert (other["paused"], answer.json()["name"]) == (True, "kept")
     again = (await service.client.get(f"{copy}/recording")).json()
     assert again == recording, "a recording of a replay is the recording"
+    assert len({entry["digest"] for entry in recording["entries"]}) > 2
 
     wrong = await service.client.post(
         "/api/v1/sessions", json={"recording": {**recording, "digest": "0" * 32}}
     )
     assert (wrong.status_code, wrong.json()["type"]) == (422, "/problems/recording-mismatch")
+    recording["entries"][2]["digest"] = "0" * 32
+    wrong = await service.client.post("/api/v1/sessions", json={"recording": recording})
+    assert (wrong.status_code, wrong.json()["type"]) == (422, "/problems/recording-mismatch")
+    assert "Entry 3 ends in" in wrong.json()["detail"]
+    assert wrong.json()["errors"][0]["field"] == "recording.entries.2.digest"
     beside = await service.client.post("/api/v1/sessions", json={"recording": recording, "seed": 3})
     assert beside.json()["errors"][0]["field"] == "seed"
 

@@ -84,9 +84,14 @@ async def test_a_name_given_in_version_3_is_listed(tmp_path: Path) -> None:
     assert branches == [None, None, None]
 
 
-@pytest.mark.parametrize("name", ["recording-7", "recording-11"])
-async def test_old_recordings_are_replayed(name: str) -> None:
+@pytest.mark.parametrize(
+    ("name", "checked"),
+    [("recording-7", 0), ("recording-11", 0), ("recording-13", 11), ("recording-fork", 4)],
+)
+async def test_old_recordings_are_replayed(name: str, checked: int) -> None:
+    """Those of before entries named their digests, and since then."""
     recording = json.loads((DATA / f"{name}.json").read_text())
+    assert sum("digest" in entry for entry in recording["entries"]) == checked
     app = create_app(Settings(database="memory:"))
     transport = httpx.ASGITransport(app)
     async with (
