@@ -111,7 +111,7 @@ export function createPlan(host, page) {
       shown = next;
       stale = true;
       const { decision, world, ways } = next;
-      setText(when, decision ? `${world === state.world && !state.past ? "next, at " : ""}tick ${world.tick}` : "");
+      setText(when, decision ? (world === state.world && !state.past ? `next, at tick ${world.tick}` : `tick ${world.tick} → ${world.tick + 1}`) : "");
       ways.forEach((way, at) => rows[at].fill(way));
       list.hidden = ways.length === 0;
       canvas.setAttribute("aria-label", describePlan(next));
