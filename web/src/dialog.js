@@ -1,5 +1,5 @@
 // @ts-check
-/** A dialog over the page: a title, a way to close it, and the focus given back to where it was. */
+/** A dialog over the page: a title, a way to close it, and the focus given back to where it was. Its style is `dialog.css`. */
 
 import { make } from "./dom.js";
 import { icon } from "./icons.js";

@@ -5,7 +5,7 @@ import { make } from "../dom.js";
 import { localHistory } from "../history.js";
 import { askJson, words } from "../http.js";
 import { icon } from "../icons.js";
-import { onDemand } from "../lazy.js";
+import { onDemand, styled } from "../lazy.js";
 import { forkAt, forks, hashOf, noteFork, shareLink } from "../links.js";
 import { createMenu } from "../menu.js";
 import { sessionPath } from "../protocol.js";
@@ -42,7 +42,7 @@ export function createShare(host, page, looking) {
   });
 
   const names = onDemand(page, async () => {
-    const { linkDialog, momentsDialog, sessionsDialog } = await import("./names.js");
+    const [{ linkDialog, momentsDialog, sessionsDialog }] = await Promise.all([import("./names.js"), styled("dialog")]);
     return { link: linkDialog(), moments: momentsDialog(page, looking), sessions: sessionsDialog(page) };
   });
   /** @type {(() => void) | null} */ let refresh = null;
