@@ -230,7 +230,9 @@ def test_metrics_are_the_service_s_own(visit: Visit) -> None:
 def test_layers_over_the_road_come_and_go_by_sentence(visit: Visit, said: str, unsaid: str) -> None:
     visitor = visit()
     visitor.pause()
-    visitor.script.act({"do": "reset"}, {"do": "step", "ticks": 6})
+    column, row = cleared(visitor)
+    visitor.script.act({"do": "add", "kind": "pothole", "count": 1, "where": {"cell": [column, row - 4]}})
+    visitor.script.act({"do": "step", "ticks": 2})
     expect(visitor.page.locator(".panel-note").first).to_have_text(re.compile("next"))
     plain = settled(visitor)
     visitor.say(said)
