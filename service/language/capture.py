@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from service.language.lattice import GLUE, Name
 from service.language.lexicon import Lexicon, Sense
 from service.language.tokens import Token
-from service.language.topic import Phrases
+from service.language.topic import Topic
 
 CAPTURE = "captures"
 ENDS = "name_end"
@@ -22,6 +22,8 @@ FORGETS = "forgets"
 TEACH = "teach"
 MEANS = "means"
 SHORT = "short"
+RETURNS = "returns"
+"""The form of what brings a name only where that name is known: "go back to autopilot" names no moment."""
 MAX_SHORT = 3
 """Words a name may have after a bare verb, unless it is in quotation marks."""
 STARTS_AFTER = "separator"
@@ -34,13 +36,14 @@ _LOOSE = "\"' "
 """Marks around a name that are no part of it."""
 
 
-def names(tokens: Sequence[Token], lexicon: Lexicon, said: str, phrases: Phrases) -> dict[int, Name]:
+def names(tokens: Sequence[Token], lexicon: Lexicon, said: str, topic: Topic) -> dict[int, Name]:
     """Start (token) → name, for every name in the sentence.
 
-    `said` is the text they are taken from, `phrases` those that were taught and so can be forgotten.
+    `said` is the text they are taken from; `topic` has the phrases that were taught and so can be forgotten,
+    and the names that were given and so can be gone back to.
     """
     found: dict[int, Name] = {}
-    if (begun := _forgets(tokens, lexicon, phrases)) is not None:
+    if (begun := _forgets(tokens, lexicon, topic.phrases)) is not None:
         start, end = begun
         quoted = _quoted(tokens, start, said)
         return {start: quoted or Name(end, said[tokens[start].start : tokens[end - 1].end])}
@@ -58,8 +61,10 @@ def names(tokens: Sequence[Token], lexicon: Lexicon, said: str, phrases: Phrases
         name = _quoted(tokens, after, said)
         if name is None:
             name = _open(tokens, after, lexicon, said)
-            if name is not None and name.end - after > MAX_SHORT and _only_short(lexicon, tokens, at, after):
+            if name is not None and name.end - after > MAX_SHORT and _only(SHORT, lexicon, tokens, at, after):
                 name = None
+        if name is not None and _only(RETURNS, lexicon, tokens, at, after):
+            name = name if name.text.casefold() in topic.names else None
         if name is not None:
             found[after] = name
         at = name.end if name else after
@@ -135,10 +140,13 @@ def _longest(lexicon: Lexicon, tokens: Sequence[Token], at: int, concept: str) -
     return max((end for end, senses, _ in matches if _any_is(senses, concept)), default=0)
 
 
-def _only_short(lexicon: Lexicon, tokens: Sequence[Token], at: int, end: int) -> bool:
-    """Whether what brings the name is a bare verb: "load the dishwasher before you go" names no session."""
+def _only(form: str, lexicon: Lexicon, tokens: Sequence[Token], at: int, end: int) -> bool:
+    """Whether what brings the name is only of a form.
+
+    After a bare verb ("load the dishwasher before you go") not every word is a name.
+    """
     senses = [s for stop, found, _ in lexicon.matches(tokens, at, {}, {}) if stop == end for s in found]
-    return all(sense.form == SHORT for sense in senses if sense.concept == CAPTURE)
+    return all(sense.form == form for sense in senses if sense.concept == CAPTURE)
 
 
 def _any_is(senses: Sequence[Sense], concept: str) -> bool:

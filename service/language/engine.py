@@ -87,7 +87,7 @@ class Language:
             return Refused(text, "empty", messages["empty"])
         if len(tokens) > MAX_TOKENS:
             return Refused(text, "not_understood", messages["too_long"].format(words=MAX_TOKENS))
-        kept = names(tokens, self._lexicon, as_said(text, plain), topic.phrases)
+        kept = names(tokens, self._lexicon, as_said(text, plain), topic)
         tokens, corrections = self._repaired(plain, tokens, kept, topic)
         lattice = self._scanner.scan(tokens, kept)
         lattice.keep_whole(self.data.nouns)

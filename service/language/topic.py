@@ -51,6 +51,8 @@ class Topic:
     where: Where | None = None
     """where things were last put: "there", "the other lane" """
     phrases: Phrases = field(default_factory=Phrases)
+    names: frozenset[str] = frozenset()
+    """of moments that were saved, in small letters: "go back to monday" is one of them, or something else"""
 
 
 ALONE = Topic()

@@ -8,7 +8,7 @@ road are not spoken of any more, nor are those of an earlier episode: after an u
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, TypeAlias
 
 from service.actions import Action, Redo, Undo
@@ -91,8 +91,8 @@ class Conversation:
         self._things = ()
         self._added.clear()
 
-    def topic(self, world: World, phrases: Phrases) -> Topic:
-        """What a sentence said now may refer to."""
+    def topic(self, world: World, phrases: Phrases, names: Iterable[str] = ()) -> Topic:
+        """What a sentence said now may refer to; `names` are those of saved moments."""
         there = {*world.movers.values(), *world.hazards.values()} if self._episode == _episode(world) else ()
         return Topic(
             things=tuple(name for name in self._things if name in there),
@@ -103,6 +103,7 @@ class Conversation:
             removed=self._removed,
             where=self._where,
             phrases=phrases,
+            names=frozenset(name.casefold() for name in names),
         )
 
 

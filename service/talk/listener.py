@@ -27,6 +27,7 @@ from service.sessions.words import Words
 from service.talk.languages import DEFAULT, Languages
 from service.talk.phrasebook import Phrasebook
 from service.talk.preview import Preview, preview
+from service.timing import part
 from sim.actions import Add, Adjust, Drive, Prefer, Remove, Scenario, Set, SetCount, SetMode
 from sim.config import Config
 from sim.described import UndescribableError, actions_for
@@ -90,7 +91,7 @@ class Listener:
         phrases = self.phrasebook.phrases(code)
         if session is None:
             return Topic(phrases=phrases)
-        return session.conversation.topic(session.run.world, phrases)
+        return session.conversation.topic(session.run.world, phrases, session.history.saved)
 
     def sentence(self, config: Config) -> str | None:
         """The sentence that makes such a road; None where nothing that can be said does."""
@@ -112,7 +113,8 @@ class Listener:
         if len(text) > self._most_chars:
             message = f"has {len(text)} characters; at most {self._most_chars} are read"
             raise Invalid("The text is too long.", errors=[FieldProblem(field, message)])
-        parse = heard(self.languages[code].parse, text, self.topic(session, code))
+        with part("parse"):
+            parse = heard(self.languages[code].parse, text, self.topic(session, code))
         match parse:
             case Understood():
                 return Heard(text, parse.actions, parse.corrections, language=code)

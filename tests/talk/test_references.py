@@ -334,3 +334,13 @@ async def test_a_dialogue_over_the_stream() -> None:
             assert [each["actions"] for each in choices] == [remove(B1), remove(B2), remove(B3)]
             assert (await say(choices[1]["text"]))["result"]["actions"] == remove(B2)
             assert (await say("remove the last two cones"))["result"]["actions"] == remove(B1, B3)
+
+
+async def test_going_back_to_a_name_is_going_there_only_where_it_was_given(talk: Talk) -> None:
+    assert (await talk.say("go back to quiet"))["actions"][0]["do"] == "set"
+    await talk.say("save this as quiet")
+    for text in ("go back to quiet", "return to quiet", "take me back to quiet", "restore quiet"):
+        await talk.say("advance one tick")
+        assert (await talk.say(text))["actions"] == [{"do": "load", "name": "quiet"}], text
+    assert (await talk.say("let me drive, then go back to auto"))["actions"][-1] == {"do": "mode", "mode": "auto"}
+    await talk.refused("go back to monday")
