@@ -332,3 +332,33 @@ def test_a_phone_has_all_views_one_below_the_other(visit: Visit) -> None:
     box = part(visitor, "occupancy").bounding_box()
     assert box is not None
     assert (box["x"], box["y"], box["width"]) == (0, 0, 390)
+
+
+def test_what_was_lost_is_reckoned_anew_when_the_run_becomes_another(visit: Visit) -> None:
+    visitor = visit()
+    column, row = cleared(visitor)
+    first = visitor.tick()
+    visitor.script.act({"do": "add", "kind": "barrier", "count": 1, "where": {"cell": [column, row - 1]}})
+    visitor.script.act({"do": "step", "ticks": 4})
+    judged = asked(visitor, f"regret?from={first}&limit=60")["items"]
+    assert judged[0]["blocked"] == 1
+    chart = visitor.page.locator("[data-chart=blocked]")
+    expect(visitor.page.locator(".chart-told").nth(1)).to_contain_text("lost in")
+    blocked = settled_chart(visitor, chart)
+    visitor.script.act({"do": "undo"})
+    assert asked(visitor, f"regret?from={first}&limit=60")["items"][0]["blocked"] == 0
+    until(
+        visitor, "(before) => document.querySelector('[data-chart=blocked]').toDataURL() !== before", blocked
+    )
+
+
+def settled_chart(visitor: Visitor, chart: Locator) -> str:
+    """The chart's picture once nothing more comes in."""
+    before = ""
+    for _ in range(20):
+        visitor.watch(0.4)
+        picture: str = chart.evaluate("(canvas) => canvas.toDataURL()")
+        if picture == before:
+            break
+        before = picture
+    return before

@@ -130,10 +130,13 @@ export function createMetrics(host, page) {
   };
 }
 
-/** Whether what was known of the run is so no more: time has gone back, or things have changed without a tick. @param {State} state @param {State} before */
-function rewritten({ world, prior }, { world: old }) {
-  if (!world || !old || prior !== null) return false;
-  return world.tick < old.tick || world.things.size !== old.things.size;
+/**
+ * Whether the run may have become another: time has gone back, or a change was made, taken back or made again.
+ * @param {State} state
+ * @param {State} before
+ */
+function rewritten({ world, prior, steps }, { world: old, steps: earlier }) {
+  return !!world && !!old && prior === null && (world.tick < old.tick || steps !== earlier);
 }
 
 /** @param {number} ticks */
