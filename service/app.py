@@ -118,6 +118,7 @@ def create_app(
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
         await store.open()
+        await manager.open()
         await phrasebook.open()
         await context.answers.open()
         clock.start()

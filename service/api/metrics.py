@@ -11,8 +11,10 @@ import inspect
 import time
 from bisect import bisect_left
 from collections import Counter
-from collections.abc import Iterator, Sequence
-from typing import Any, cast
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager, nullcontext
+from itertools import accumulate
+from typing import Any, Literal, cast
 
 import orjson
 from fastapi import APIRouter, Request, Response
@@ -20,15 +22,20 @@ from fastapi.responses import PlainTextResponse
 from prometheus_client import CollectorRegistry
 from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, HistogramMetricFamily, Metric
 from prometheus_client.exposition import CONTENT_TYPE_LATEST, generate_latest
+from starlette.requests import HTTPConnection
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from service.api.context import context_of
 from service.problems import KINDS, MEDIA_TYPE
 from service.store import Store
+from service.timing import PARTS, told_to
 
 LATENESS_S = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.25, 0.5, 1.0)
 COMMAND_S = (0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1.0, 2.5)
 STORE_S = (0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.5, 1.0, 5.0)
+
+Channel = Literal["rest", "socket"]
+CHANNELS: tuple[Channel, ...] = ("rest", "socket")
 
 _COMMANDS = ("/commands", "/actions", "/step", "/ask")
 _SLUGS = frozenset(kind.slug for kind in KINDS)
@@ -52,12 +59,27 @@ class Histogram:
         self._sum += seconds
 
     def family(self, name: str, documentation: str) -> Metric:
-        """As Prometheus has it: each bound counts all up to it."""
-        buckets, total = [], 0
-        for bound, count in zip((*self._bounds, "+Inf"), self._counts, strict=True):
-            total += count
-            buckets.append((str(bound), total))
-        return HistogramMetricFamily(name, documentation, buckets=buckets, sum_value=self._sum)
+        """As Prometheus has it."""
+        return HistogramMetricFamily(name, documentation, buckets=self.buckets(), sum_value=self.sum_s)
+
+    def buckets(self) -> list[tuple[str, int]]:
+        """Each bound counts all up to it."""
+        counts = accumulate(self._counts)
+        return [(str(bound), total) for bound, total in zip((*self._bounds, "+Inf"), counts, strict=True)]
+
+    @property
+    def sum_s(self) -> float:
+        """All of it together."""
+        return self._sum
+
+
+def _labelled(
+    name: str, documentation: str, labels: tuple[str, ...], histograms: Mapping[Any, Histogram]
+) -> Metric:
+    family = HistogramMetricFamily(name, documentation, labels=labels)
+    for values, histogram in histograms.items():
+        family.add_metric(values, histogram.buckets(), histogram.sum_s)
+    return family
 
 
 class Metrics:
@@ -65,16 +87,42 @@ class Metrics:
 
     def __init__(self) -> None:
         self.lateness = Histogram(LATENESS_S)
-        self.commands = Histogram(COMMAND_S)
+        self.commands = {(channel,): Histogram(COMMAND_S) for channel in CHANNELS}
+        self.parts = {(channel, part): Histogram(COMMAND_S) for channel in CHANNELS for part in PARTS}
         self.store = Histogram(STORE_S)
         self.refusals: Counter[str] = Counter()
 
-    def families(self, sessions: int, watchers: int) -> Iterator[Metric]:
+    @contextmanager
+    def command(self, channel: Channel) -> Iterator[None]:
+        """Times a command that came by a channel, and its parts."""
+        began = time.perf_counter()
+        try:
+            with told_to(lambda part, seconds: self.parts[channel, part].observe(seconds)):
+                yield
+        finally:
+            self.commands[channel,].observe(time.perf_counter() - began)
+
+    def families(self, sessions: int, sleeping: int, watchers: int) -> Iterator[Metric]:
         """Everything, as it is now."""
         yield GaugeMetricFamily("roadtalk_sessions", "Live sessions", value=sessions)
-        yield GaugeMetricFamily("roadtalk_watchers", "Open streams", value=watchers)
+        yield GaugeMetricFamily(
+            "roadtalk_sleeping_sessions",
+            "Sessions kept and not live, which wake when asked for",
+            value=sleeping,
+        )
+        yield GaugeMetricFamily(
+            "roadtalk_watchers", "Subscribers: open streams, sockets and events alike", value=watchers
+        )
         yield self.lateness.family("roadtalk_tick_lateness_seconds", "From a tick's deadline to its start")
-        yield self.commands.family("roadtalk_command_seconds", "From a command, asked by HTTP, to its answer")
+        yield _labelled(
+            "roadtalk_command_seconds", "From a command to its answer", ("channel",), self.commands
+        )
+        yield _labelled(
+            "roadtalk_command_part_seconds",
+            "Of it: the sentence read, done on a copy, kept",
+            ("channel", "part"),
+            self.parts,
+        )
         yield self.store.family("roadtalk_store_seconds", "One call to the store, durable when it is done")
         refused = CounterMetricFamily("roadtalk_refusals", "Problems answered over HTTP", labels=["kind"])
         for kind in sorted(_SLUGS):
@@ -105,12 +153,9 @@ class Counted:
                 self._metrics.refusals[_kind(message.get("body", b""))] += 1
             await send(message)
 
-        began = time.perf_counter()
-        try:
+        is_command = scope["method"] == "POST" and scope["path"].endswith(_COMMANDS)
+        with self._metrics.command("rest") if is_command else nullcontext():
             await self._app(scope, receive, counting)
-        finally:
-            if scope["method"] == "POST" and scope["path"].endswith(_COMMANDS):
-                self._metrics.commands.observe(time.perf_counter() - began)
 
 
 def _is_problem(headers: Sequence[tuple[bytes, bytes]]) -> bool:
@@ -120,6 +165,11 @@ def _is_problem(headers: Sequence[tuple[bytes, bytes]]) -> bool:
 def _kind(body: bytes) -> str:
     slug = str(orjson.loads(body)["type"]).removeprefix("/problems/")
     return slug if slug in _SLUGS else "internal"
+
+
+def metrics_of(connection: HTTPConnection) -> Metrics:
+    """What the service of a connection counts."""
+    return cast(Metrics, connection.app.state.metrics)
 
 
 class _Timed:
@@ -164,9 +214,11 @@ class _Now:
 
 @router.get("/metrics", response_class=PlainTextResponse, summary="Figures for Prometheus")
 async def metrics(request: Request) -> Response:
-    """Live sessions and streams, lateness of ticks, time of commands and of the store, refusals by kind."""
+    """Sessions and streams, lateness of ticks, time of commands and of the store, refusals by kind."""
     manager = context_of(request).manager
-    counted = cast(Metrics, request.app.state.metrics)
+    counted = metrics_of(request)
     registry = CollectorRegistry(auto_describe=False)
-    registry.register(cast(Any, _Now(list(counted.families(manager.live, manager.watchers)))))
+    registry.register(
+        cast(Any, _Now(list(counted.families(manager.live, manager.sleeping, manager.watchers))))
+    )
     return Response(generate_latest(registry), media_type=CONTENT_TYPE_LATEST)

@@ -31,6 +31,7 @@ from service.api import pixels
 from service.api.bodies import MAX_ACTIONS, Sent, Strictly
 from service.api.context import Context, context_of
 from service.api.errors import field_problems, invalid
+from service.api.metrics import metrics_of
 from service.api.respond import problem_response
 from service.api.speech import result_json
 from service.api.tickets import admitted
@@ -227,7 +228,8 @@ async def _answer(
         case Command() | Actions():
             try:
                 guard_of(socket).count_change(client_of(socket.scope))
-                result = await _done(context, session, message)
+                with metrics_of(socket).command("socket"):
+                    result = await _done(context, session, message)
             except ProblemError as problem:
                 return encoded({"type": "problem", "id": message.id, "problem": problem.document()})
             except Exception:

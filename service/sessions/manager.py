@@ -62,12 +62,22 @@ class SessionManager:
         self._live: dict[str, Session] = {}
         self._waking: dict[str, asyncio.Task[Session]] = {}
         self._making = 0
+        self._kept = 0
         self.idleness = Idleness()
 
     @property
     def live(self) -> int:
         """How many sessions are live."""
         return len(self._live)
+
+    @property
+    def sleeping(self) -> int:
+        """How many are kept and not live."""
+        return max(0, self._kept - len(self._live))
+
+    async def open(self) -> None:
+        """Count what is kept; nobody else adds to it from now on. Raises `StoreError`."""
+        self._kept = await self._around.store.count()
 
     @property
     def watchers(self) -> int:
@@ -118,6 +128,7 @@ class SessionManager:
         finally:
             self._making -= 1
         self._live[session.id] = session
+        self._kept += 1
         session.set_paused(paused)
         return session
 
@@ -185,6 +196,7 @@ class SessionManager:
         finally:
             self._making -= 1
         self._live[session.id] = session
+        self._kept += 1
         session.set_paused(session.paused)
         return session
 
@@ -224,6 +236,7 @@ class SessionManager:
                 found = await self._around.store.delete(session_id)
         if not found:
             raise UnknownSession
+        self._kept -= 1
         self.idleness.forget(session_id)
         session = self._live.pop(session_id, None)
         if session is not None:

@@ -40,6 +40,7 @@ from service.sessions.watchers import Watchers
 from service.sessions.words import Words
 from service.settings import Settings
 from service.store import EntryRecord, SessionRecord, Store, StoreError
+from service.timing import part as timed
 from service.wire.state import Standing, state_json
 from sim.actions import SetMode
 from sim.edit import Applied, Change
@@ -177,8 +178,7 @@ class Session:
 
     async def _handed_over(self, text: str) -> None:
         await self._change(Utterance(actions=(SetMode(mode=Mode.MANUAL),)), dry_run=False)
-        line = self._line(self.timeline.tick, "event", text)
-        self._publish_changed(None, text, (), [line])
+        self._publish_changed(None, text, (), [self._line(self.timeline.tick, "event", text)])
 
     def tick_failed(self, error: Exception) -> None:
         """A defect of the world's rules: stand still and say so, rather than fail twice a second."""
@@ -258,7 +258,8 @@ class Session:
             self._changing = True
             try:
                 draft = self._draft()
-                facts = await self._perform(draft, utterance)
+                with timed("apply"):
+                    facts = await self._perform(draft, utterance)
                 if dry_run:
                     return await self._told(utterance, facts, self.sequence)
                 if all(isinstance(action, CHANGES_NOTHING) for action in utterance.actions):
@@ -268,7 +269,8 @@ class Session:
                         self._publish_changed(utterance.text, outcome.reply, (), (), views)
                     return outcome
                 outcome = await self._told(utterance, facts, self.sequence + 1)
-                await self._save(outcome, draft, terms)
+                with timed("store"):
+                    await self._save(outcome, draft, terms)
                 self._become(draft, outcome)
                 return outcome
             finally:

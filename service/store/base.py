@@ -144,6 +144,9 @@ class Store(Protocol):
     async def newest(self, limit: int, before: int | None = None) -> Sequence[SessionRecord]:
         """Up to `limit` sessions, newest first, of those with a number below `before`."""
 
+    async def count(self) -> int:
+        """How many sessions are kept."""
+
     async def save_ticks(self, ticks: Mapping[str, int]) -> None:
         """Remember how far clocks have run, by session id; unknown sessions are passed over."""
 

@@ -90,6 +90,10 @@ class MemoryStore:
         seen = [record for record in records if record.id not in self._unseen]
         return [record for record in seen if before is None or record.number < before][:limit]
 
+    async def count(self) -> int:
+        """See `Store.count`."""
+        return len(self._sessions.keys() - self._unseen)
+
     async def save_ticks(self, ticks: Mapping[str, int]) -> None:
         """See `Store.save_ticks`."""
         for session_id, tick in ticks.items():

@@ -155,6 +155,12 @@ class SqlStore:
             rows = (await connection.execute(query)).all()
         return [record_of(row) for row in rows]
 
+    async def count(self) -> int:
+        """See `Store.count`."""
+        query = select(func.count()).select_from(SESSIONS).where(~SESSIONS.c.unseen)
+        async with self._transaction() as connection:
+            return int((await connection.execute(query)).scalar_one())
+
     async def save_ticks(self, ticks: Mapping[str, int]) -> None:
         """See `Store.save_ticks`."""
         if not ticks:

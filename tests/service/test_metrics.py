@@ -2,23 +2,34 @@
 
 from __future__ import annotations
 
+import re
 import time
+from pathlib import Path
 
+import httpx
 import pytest
 from prometheus_client.parser import text_string_to_metric_families
+from websockets.asyncio.client import connect
 
 from service import problems
 from service.api.metrics import LATENESS_S, Histogram, Metrics, timed
+from service.app import create_app
 from service.sessions.clock import WheelClock
+from service.settings import Settings
 from service.store import MemoryStore
+from service.timing import PARTS
 from tests.service.conftest import Service
+from tests.service.fakes import FewSentences, HandClock
+from tests.service.live import running
+
+README = (Path(__file__).parents[2] / "service" / "README.md").read_text(encoding="utf-8")
 
 
 async def figures(service: Service) -> dict[tuple[str, str], float]:
     answer = await service.client.get("/metrics")
     assert answer.headers["content-type"].startswith("text/plain; version=")
     return {
-        (sample.name, next(iter(sample.labels.values()), "")): sample.value
+        (sample.name, " ".join(sample.labels.values())): sample.value
         for family in text_string_to_metric_families(answer.text)
         for sample in family.samples
     }
@@ -34,13 +45,67 @@ async def test_what_happened_is_counted(service: Service) -> None:
     now = await figures(service)
     assert now["roadtalk_sessions", ""] == 1
     assert now["roadtalk_watchers", ""] == 0
-    assert now["roadtalk_command_seconds_count", ""] == 2
-    assert now["roadtalk_command_seconds_bucket", "+Inf"] == 2
-    assert now["roadtalk_command_seconds_sum", ""] > 0
+    assert now["roadtalk_command_seconds_count", "rest"] == 2
+    assert now["roadtalk_command_seconds_bucket", "rest +Inf"] == 2
+    assert now["roadtalk_command_seconds_sum", "rest"] > 0
+    parts = {part: now["roadtalk_command_part_seconds_count", f"rest {part}"] for part in PARTS}
+    assert parts == {"parse": 2, "apply": 1, "store": 1}  # the other was not understood
+    assert now["roadtalk_command_seconds_count", "socket"] == 0
+    whole = sum(now["roadtalk_command_part_seconds_sum", f"rest {part}"] for part in PARTS)
+    assert 0 < whole <= now["roadtalk_command_seconds_sum", "rest"]
     assert now["roadtalk_refusals_total", "not-understood"] == 1
     assert now["roadtalk_refusals_total", "not-found"] == 1
     assert now["roadtalk_refusals_total", "internal"] == 0
     assert now["roadtalk_store_seconds_count", ""] >= empty["roadtalk_store_seconds_count", ""] + 2
+
+
+async def test_a_socket_is_a_channel_of_its_own(settings: Settings) -> None:
+    app = create_app(settings, store=MemoryStore(), language=FewSentences(), clock=HandClock())
+    async with running(app, settings) as at, httpx.AsyncClient(base_url=at.http) as client:
+        path = (await client.post("/api/v1/sessions", json={"seed": 7})).headers["location"]
+        async with connect(f"{at.ws}{path}/stream") as socket:
+            await socket.recv()
+            await socket.send('{"type": "command", "id": "1", "text": "add two cars"}')
+            while '"result"' not in str(await socket.recv()):
+                pass
+            told = (await client.get("/metrics")).text
+    assert 'roadtalk_command_seconds_count{channel="socket"} 1.0' in told
+    assert 'roadtalk_command_seconds_count{channel="rest"} 0.0' in told
+    assert "roadtalk_watchers 1.0" in told
+    for part in PARTS:
+        assert f'roadtalk_command_part_seconds_count{{channel="socket",part="{part}"}} 1.0' in told
+
+
+async def test_those_that_sleep_are_counted_also_after_a_restart(service: Service) -> None:
+    first, _ = await service.session(), await service.session()
+    manager = service.app.state.context.manager
+    assert (await figures(service))["roadtalk_sleeping_sessions", ""] == 0
+    await manager._let_go([await manager.get(first.rpartition("/")[2])], lambda _: True)
+    assert (await figures(service))["roadtalk_sleeping_sessions", ""] == 1
+    again = create_app(Settings(database="memory:"), store=service.store, clock=HandClock())
+    async with again.router.lifespan_context(again):
+        manager = again.state.context.manager
+        assert (manager.live, manager.sleeping) == (0, 2)
+        session = await manager.get(first.rpartition("/")[2])
+        assert (manager.live, manager.sleeping) == (1, 1)
+        await manager.fork(session, None)
+        assert (manager.live, manager.sleeping) == (2, 1)
+        await manager.delete(session.id)
+        assert (manager.live, manager.sleeping) == (1, 1)
+
+
+async def test_the_readme_names_every_figure(service: Service) -> None:
+    """With its kind, its labels and its help."""
+    table = README.partition("## Figures")[2].partition("\n## ")[0]
+    described = re.findall(r"^\| `(roadtalk_\w+)` \| (\w+) \| (.*?) \| (.*?) \|$", table, re.MULTILINE)
+    told = []
+    for family in text_string_to_metric_families((await service.client.get("/metrics")).text):
+        labels = dict.fromkeys(name for sample in family.samples for name in sample.labels if name != "le")
+        name = f"{family.name}_total" if family.type == "counter" else family.name
+        shown = ", ".join(f"`{label}`" for label in labels)
+        told.append((name, family.type, shown, family.documentation))
+    assert described == told
+    assert all(documentation for *_, documentation in told)
 
 
 async def test_every_kind_of_refusal_is_there_from_the_start_and_no_other(service: Service) -> None:

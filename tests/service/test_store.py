@@ -92,6 +92,16 @@ async def test_pages_go_from_the_newest_back(store: Store) -> None:
     assert list(await store.newest(9, before=numbers[0])) == []
 
 
+async def test_it_counts_what_can_be_seen(store: Store) -> None:
+    assert await store.count() == 0
+    for name in "abc":
+        await store.create(record(name))
+    await store.create(record("d", branch=branch("a", 0)))
+    await store.delete("a")
+    await store.delete("b")
+    assert await store.count() == 2
+
+
 async def test_a_sequence_is_taken_once(store: Store) -> None:
     await store.create(record("a"))
     await store.append("a", entry(1))
