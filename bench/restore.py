@@ -134,7 +134,7 @@ def told(times: list[float]) -> str:
     return f"median {statistics.median(times):.1f} ms, worst of {len(times)} {max(times):.1f} ms"
 
 
-async def main(entries: int) -> None:
+async def everything(entries: int) -> None:
     """All three."""
     with tempfile.TemporaryDirectory() as made:
         folder = Path(made)
@@ -143,5 +143,10 @@ async def main(entries: int) -> None:
         await measure("mixed and long", lambda most: mixed(most, 10), entries, folder)
 
 
+def main(entries: int = ENTRIES) -> None:
+    """Measure sessions of so many entries."""
+    asyncio.run(everything(entries))
+
+
 if __name__ == "__main__":
-    asyncio.run(main(int(sys.argv[1]) if len(sys.argv) > 1 else ENTRIES))
+    main(*map(int, sys.argv[1:2]))
