@@ -1,0 +1,68 @@
+"""The wheel carries what the service needs that is not imported by name."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+BUNDLED = "service/_bundled"
+
+
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Built as `pip install` would, without a network."""
+    folder = tmp_path_factory.mktemp("wheel")
+    building = [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(folder)]
+    subprocess.run(building, cwd=ROOT, check=True, capture_output=True, timeout=120)
+    (built,) = folder.glob("*.whl")
+    return built
+
+
+def kept(*folders: str) -> set[str]:
+    """All files under these folders but what Python makes."""
+    files = (path for folder in folders for path in (ROOT / folder).rglob("*") if path.is_file())
+    return {str(path.relative_to(ROOT)) for path in files if "__pycache__" not in path.parts}
+
+
+def test_it_carries_all_there_is(wheel: Path) -> None:
+    inside = set(zipfile.ZipFile(wheel).namelist())
+    needed = kept("sim", "service") | {f"{BUNDLED}/{name}" for name in kept("web", "prompts")}
+    assert needed - inside == set()
+    assert len([name for name in inside if name.startswith("service/store/migrations/versions/v")]) >= 4
+    assert {f"{BUNDLED}/web/index.html", f"{BUNDLED}/prompts/README.md"} <= inside
+
+
+def test_it_carries_nothing_else(wheel: Path) -> None:
+    tops = {name.partition("/")[0] for name in zipfile.ZipFile(wheel).namelist()}
+    assert {top for top in tops if not top.endswith(".dist-info")} == {"sim", "service"}
+
+
+def test_it_runs_from_the_wheel_alone(wheel: Path, tmp_path: Path) -> None:
+    """Unpacked elsewhere: its page, its words, and a database with tables."""
+    with zipfile.ZipFile(wheel) as packed:
+        packed.extractall(tmp_path / "site")
+    program = (
+        "import asyncio, sys\n"
+        "sys.path.insert(0, sys.argv[1])\n"
+        "import service\n"
+        "from service.resources import prompts_folder, web_folder\n"
+        "from service.store import SqlStore\n"
+        "from service.talk.languages import Languages\n"
+        "assert service.__file__.startswith(sys.argv[1])\n"
+        "assert (web_folder() / 'index.html').is_file()\n"
+        "print(len(Languages.load().codes) > 0, str(prompts_folder()).startswith(sys.argv[1]))\n"
+        "store = SqlStore('sqlite:///roads.db')\n"
+        "async def tables():\n"
+        "    await store.open()\n"
+        "    print(await store.count())\n"
+        "    await store.close()\n"
+        "asyncio.run(tables())\n"
+    )
+    run = [sys.executable, "-c", program, str(tmp_path / "site")]
+    done = subprocess.run(run, cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    assert (done.returncode, done.stdout) == (0, "True True\n0\n"), done.stderr
