@@ -12,7 +12,6 @@ import sys
 import tempfile
 from collections.abc import Callable
 from contextlib import closing
-from dataclasses import dataclass
 from pathlib import Path
 
 import typer
@@ -21,6 +20,8 @@ from rich.table import Table
 from rich.text import Text
 
 from service.client import Client, RoadtalkError
+from service.commands import fitness
+from service.commands.fitness import Finding
 from service.commands.terminal import console, plain
 from service.settings import Settings
 from service.store import wal
@@ -52,19 +53,11 @@ CHROMIUMS = ("chromium", "chromium-browser", "google-chrome")
 STYLES = {"ok": "green", "fault": "bold red", "note": "yellow"}
 
 
-@dataclass(frozen=True)
-class Finding:
-    """What one check found; a `note` is no fault, but something is missing that some may want."""
-
-    verdict: str
-    text: str
-    advice: str = ""
-
-
 def doctor() -> None:
     """Check that the service can run here. Exits with 1 when something is wrong.
 
-    Looks at Python, packages, settings, database, port, words and, for the tests, Chromium.
+    Looks at Python, packages, settings, database, port, words, language model, pictures, a display for the
+    window and, for the tests, Chromium.
 
     Example: roadtalk doctor
     """
@@ -104,10 +97,13 @@ def database(settings: Settings) -> Finding:
     if settings.database == "memory:":
         return Finding("note", "memory: sessions are lost when the service stops", "Set ROADTALK_DATABASE.")
     if not settings.database.startswith(prefix):
-        return Finding("ok", "a database server, which is tried when the service starts")
+        return fitness.server(settings.database)
     path = Path(settings.database.removeprefix(prefix))
     elsewhere = "Choose another file: ROADTALK_DATABASE=sqlite:///<file>"
     said = f"{path} can be written"
+    closed = fitness.folder_fault(path)
+    if closed is not None:
+        return Finding("fault", f"{path} cannot be used: {closed}", elsewhere)
     try:
         if path.exists():
             lost = wal.defect(path)
@@ -184,6 +180,9 @@ CHECKS: dict[str, Callable[[Settings], Finding]] = {
     "database": database,
     "port": port,
     "language": language,
+    "model": fitness.model,
+    "pictures": fitness.pictures,
+    "window": fitness.window,
     "Chromium": chromium,
 }
 
