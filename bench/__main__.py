@@ -5,7 +5,19 @@ from __future__ import annotations
 import sys
 from importlib import import_module
 
-PARTS = ("world", "sim", "worlds", "scaling", "language", "explain", "live", "readers", "rest", "restore", "window")
+PARTS = (
+    "world",
+    "sim",
+    "worlds",
+    "scaling",
+    "language",
+    "explain",
+    "live",
+    "readers",
+    "rest",
+    "restore",
+    "window",
+)
 
 
 def main() -> int:

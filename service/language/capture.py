@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from service.language.lattice import GLUE, Name
 from service.language.lexicon import Lexicon, Sense
 from service.language.tokens import Token
-from service.language.topic import Topic
+from service.language.topic import Phrases, Topic
 
 CAPTURE = "captures"
 ENDS = "name_end"

@@ -342,5 +342,6 @@ async def test_going_back_to_a_name_is_going_there_only_where_it_was_given(talk:
     for text in ("go back to quiet", "return to quiet", "take me back to quiet", "restore quiet"):
         await talk.say("advance one tick")
         assert (await talk.say(text))["actions"] == [{"do": "load", "name": "quiet"}], text
-    assert (await talk.say("let me drive, then go back to auto"))["actions"][-1] == {"do": "mode", "mode": "auto"}
+    said = await talk.say("let me drive, then go back to auto")
+    assert said["actions"][-1] == {"do": "mode", "mode": "auto"}
     await talk.refused("go back to monday")
