@@ -1,4 +1,4 @@
-"""What `doctor` says of what is missing around the service, each thing taken away for real where it can be."""
+"""What `doctor` says of what is missing around the service, each thing taken away for real where it can."""
 
 from __future__ import annotations
 
