@@ -187,7 +187,8 @@ def test_a_recording_that_was_changed_is_told(recording: Path) -> None:
     recording.write_text(json.dumps(values))
     told = CliRunner().invoke(cli, ["replay", str(recording)])
     assert told.exit_code == 1
-    assert values["digest"] in told.stderr
+    assert values["entries"][0]["digest"] in told.stderr
+    assert "Entry 1 ends in" in told.stderr
     assert "Traceback" not in told.stderr
 
 
