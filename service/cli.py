@@ -17,6 +17,7 @@ from pydantic import ValidationError
 from starlette.types import Message, Scope
 
 from service import logs
+from service.api.heads import StrictHead
 from service.app import create_app
 from service.commands.doctor import doctor
 from service.commands.listing import sessions
@@ -164,6 +165,7 @@ def server_config(app: FastAPI, settings: Settings) -> uvicorn.Config:
     return uvicorn.Config(
         app,
         loop="auto",
+        http=StrictHead,
         ws="websockets-sansio",
         ws_max_size=settings.max_body_bytes,
         ws_per_message_deflate=False,

@@ -36,6 +36,8 @@ def install(app: FastAPI) -> None:
     web = web_folder()
     _serve(app, "/", ServedPage(web / "index.html"))
     for path in sorted(web.iterdir()):
+        if not path.resolve().is_relative_to(web.resolve()):
+            continue  # a link that leads out
         if path.is_dir():
             _serve_folder(app, path)
         elif path.suffix in _WEB_KINDS:
@@ -70,7 +72,10 @@ def _serve_folder(app: FastAPI, folder: Path) -> None:
 
 
 def _inside(folder: Path, path: str) -> Path:
-    file = (folder / path).resolve()
-    if file.is_relative_to(folder.resolve()) and file.suffix in _WEB_KINDS and file.is_file():
-        return file
+    try:
+        file = (folder / path).resolve()
+        if file.is_relative_to(folder.resolve()) and file.suffix in _WEB_KINDS and file.is_file():
+            return file
+    except (OSError, ValueError):
+        pass  # longer than a name can be, or with a NUL in it
     raise HTTPException(404)

@@ -6,11 +6,21 @@
 from __future__ import annotations
 
 import asyncio
+import json
+from collections.abc import AsyncIterator
+from contextlib import suppress
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import httpx
 import pytest
 
+from service.api.heads import MOST_BYTES
+from service.app import create_app
+from service.settings import Settings
+from service.store import MemoryStore
+from tests.service.fakes import FewSentences, HandClock
+from tests.service.live import Running, running
 from tests.service.test_security import BEARER, KEY, SESSIONS, asked
 
 HEADERS = ("content-security-policy", "x-content-type-options", "referrer-policy", "x-request-id")
@@ -39,6 +49,7 @@ TRAVERSALS = (
     ("twice encoded", "/src/%252e%252e/%252e%252e/pyproject.toml"),
     ("backslashes", "/src/..%5c..%5cpyproject.toml"),
     ("NUL", "/src/main.js%00.html"),
+    ("a name too long", f"/src/{'a' * 300}.js"),
     ("an absolute path", "/src//etc/passwd"),
     ("overlong dots", "/src/%c0%ae%c0%ae/pyproject.toml"),
 )
@@ -91,6 +102,122 @@ ATTEMPTS = (
     Attempt("a method that is none", "TRACE", SESSIONS, (405, "method-not-allowed")),
     *(Attempt(f"traversal by {name}", "GET", path, (404, "not-found")) for name, path in TRAVERSALS),
 )
+
+
+GET = b"GET /api/v1/sessions HTTP/1.1\r\nHost: 127.0.0.1\r\n"
+POST = b"POST /api/v1/sessions HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\n"
+CHUNKS = b"2\r\n{}\r\n0\r\n\r\n"
+RAW: dict[str, tuple[bytes, int]] = {
+    "two lengths": (POST + b"Content-Length: 2\r\nContent-Length: 9\r\n\r\n{}", 400),
+    "the same length twice": (POST + b"Content-Length: 2\r\nContent-Length: 2\r\n\r\n{}", 400),
+    "a list of lengths": (POST + b"Content-Length: 2, 2\r\n\r\n{}", 400),
+    "a length below nothing": (POST + b"Content-Length: -1\r\n\r\n{}", 400),
+    "a length and chunks": (
+        POST + b"Content-Length: 2\r\nTransfer-Encoding: chunked\r\n\r\n" + CHUNKS,
+        400,
+    ),
+    "chunks and a length": (
+        POST + b"Transfer-Encoding: chunked\r\nContent-Length: 2\r\n\r\n" + CHUNKS,
+        400,
+    ),
+    "an encoding that is none": (POST + b"Transfer-Encoding: xchunked\r\n\r\n" + CHUNKS, 400),
+    "chunks of no size": (POST + b"Transfer-Encoding: chunked\r\n\r\nzz\r\n{}\r\n0\r\n\r\n", 400),
+    "a space before a colon": (POST + b"Content-Length : 2\r\n\r\n{}", 400),
+    "CR in a header": (POST + b"Idempotency-Key: a\rSet-Cookie: b\r\nContent-Length: 2\r\n\r\n{}", 400),
+    "LF in a header": (GET + b"X-Request-ID: a\nSet-Cookie: b\r\n\r\n", 400),
+    "NUL in a header": (GET + b"X-Request-ID: a\0b\r\n\r\n", 400),
+    "a header on two lines": (GET + b"X-Request-ID: a\r\n b\r\n\r\n", 400),
+    "two hosts": (GET + b"Host: evil.example\r\n\r\n", 400),
+    "no host": (b"GET /api/v1/sessions HTTP/1.1\r\n\r\n", 400),
+    "a long header": (GET + b"X: " + b"a" * MOST_BYTES + b"\r\n\r\n", 431),
+    "many headers": (GET + b"X-Header: 1\r\n" * 8_000 + b"\r\n", 431),
+    "a long address": (b"GET /" + b"a" * MOST_BYTES + b" HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n", 431),
+}
+"""What only bytes on a line can try, and the status it gets."""
+
+
+@dataclass(frozen=True)
+class Told:
+    """What came back on a line, to its end; a status of 0: it was cut without an answer."""
+
+    status: int = 0
+    headers: httpx.Headers = field(default_factory=httpx.Headers)
+    body: bytes = b""
+
+
+async def sent(port: int, content: bytes) -> Told:
+    """Send bytes, more than one request it may be, and read until the service ends the line."""
+    reader, writer = await asyncio.open_connection("127.0.0.1", port)
+    try:
+        writer.write(content)
+        await writer.drain()
+        answer = await asyncio.wait_for(reader.read(), 20)
+    except ConnectionError:
+        return Told()
+    finally:
+        writer.close()
+        with suppress(ConnectionError):
+            await writer.wait_closed()
+    head, _, body = answer.partition(b"\r\n\r\n")
+    lines = head.decode("latin-1").split("\r\n")
+    return Told(int(lines[0].split()[1]), httpx.Headers([line.split(": ", 1) for line in lines[1:]]), body)
+
+
+@pytest.fixture
+async def live() -> AsyncIterator[Running]:
+    settings = Settings(database="memory:")
+    app = create_app(settings, store=MemoryStore(), language=FewSentences(), clock=HandClock())
+    async with running(app, settings) as at:
+        yield at
+
+
+@pytest.mark.parametrize("name", RAW)
+async def test_what_is_no_request_is_refused_and_the_line_ended(name: str, live: Running) -> None:
+    """Also what follows it on the line, which another server before us may have taken for a request."""
+    content, status = RAW[name]
+    told = await sent(live.port, content + GET + b"\r\n")
+    assert told.status == status
+    assert told.headers["content-type"] == "application/problem+json"
+    assert told.headers["x-content-type-options"] == "nosniff"
+    assert "set-cookie" not in told.headers
+    assert json.loads(told.body)["status"] == status  # one document, and nothing after it
+    async with httpx.AsyncClient(base_url=live.http) as client:
+        assert (await client.get(SESSIONS)).json()["items"] == []
+
+
+async def test_a_head_that_never_ends_is_cut(live: Running) -> None:
+    told = await sent(live.port, GET + b"X: " + b"a" * 5_000_000)
+    assert told.status in (0, 431)
+    async with httpx.AsyncClient(base_url=live.http) as client:
+        assert (await client.get("/healthz")).status_code == 200
+
+
+async def test_no_link_leads_out_of_the_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    web, outside = tmp_path / "web", tmp_path / "outside"
+    (web / "src").mkdir(parents=True)
+    outside.mkdir()
+    (outside / "secret.js").write_text("secret")
+    (web / "index.html").write_text("<p>the page</p>")
+    (web / "src" / "own.js").write_text("own")
+    (web / "src" / "again.js").symlink_to(web / "src" / "own.js")
+    (web / "src" / "out.js").symlink_to(outside / "secret.js")
+    (web / "src" / "folder").symlink_to(outside)
+    (web / "out.js").symlink_to(outside / "secret.js")
+    (web / "all").symlink_to(outside)
+    monkeypatch.setattr("service.api.pages.web_folder", lambda: web)
+    async with asked() as client:
+        for path, status in (
+            ("/", 200),
+            ("/src/own.js", 200),
+            ("/src/again.js", 200),
+            ("/src/out.js", 404),
+            ("/src/folder/secret.js", 404),
+            ("/out.js", 404),
+            ("/all/secret.js", 404),
+        ):
+            answer = await client.get(path)
+            assert answer.status_code == status, path
+            assert "secret" not in answer.text.replace(path, "")
 
 
 async def tried(client: httpx.AsyncClient, attempt: Attempt, session: str) -> httpx.Response:
@@ -158,6 +285,10 @@ async def _print() -> None:
             answer = await tried(client, attempt, made["id"])
             kind = answer.json()["type"].removeprefix("/problems/")
             print(f"| {attempt.name} | {answer.status_code} {kind} |")
+    settings = Settings(database="memory:")
+    async with running(create_app(settings), settings) as at:
+        for name, (content, _) in RAW.items():
+            print(f"| {name} | {(await sent(at.port, content)).status}, and the line is ended |")
 
 
 if __name__ == "__main__":
