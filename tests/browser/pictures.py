@@ -1,39 +1,184 @@
-"""Makes the README's picture: `python -m tests.browser.pictures`. The first minute, as a visitor sees it."""
+"""Makes the README's pictures: `python -m tests.browser.pictures [name…]`. The page, as its visitors see it.
+
+Roads come from seeds and clocks stand still, so that the same page gives the same pictures. They are
+written beside this file; one that would be too heavy in all its colours is written in 256.
+"""
 
 from __future__ import annotations
 
+import io
+import re
+import sys
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
-from playwright.sync_api import sync_playwright
+import httpx
+from PIL import Image
+from playwright.sync_api import Browser, expect, sync_playwright
 
 from tests.browser.conftest import QUIET, chromium
 from tests.browser.service_process import ServiceProcess
+from tests.browser.test_hands import PLACE_OF
 from tests.browser.visitor import Visitor
 
 FOLDER = Path(__file__).parent / "pictures"
+MOST_BYTES = 250_000
+DESK: dict[str, Any] = {"viewport": {"width": 1440, "height": 900}, "color_scheme": "dark"}
+PHONE: dict[str, Any] = {
+    "viewport": {"width": 390, "height": 844},
+    "device_scale_factor": 2,
+    "has_touch": True,
+    "is_mobile": True,
+}
 
 
-def main() -> None:
-    """Take the pictures and write them beside this file."""
+class Studio:
+    """A browser, a service, and roads to look at."""
+
+    def __init__(self, browser: Browser, service: ServiceProcess) -> None:
+        self._browser = browser
+        self._service = service
+
+    def visit(self, seed: int, *, config: dict[str, Any] | None = None, **context: Any) -> Visitor:
+        """A road from a seed, with the clock stopped, and someone at the page."""
+        asked = {"seed": seed, "paused": True, "config": config or {}}
+        made = httpx.post(f"{self._service.url}/api/v1/sessions", json=asked, timeout=10).raise_for_status()
+        return Visitor(self._browser, self._service.url, **{**DESK, **context}).open(
+            f"/#/s/{made.json()['id']}"
+        )
+
+    def drive(self, visitor: Visitor, ticks: int) -> None:
+        """So many ticks on, one at a time, and seen."""
+        for _ in range(ticks):
+            visitor.script.act({"do": "step", "ticks": 1})
+        shown = visitor.page.locator("[data-figure=tick] .figure-value")
+        expect(shown).to_have_text(str(visitor.script.state()["tick"]))
+
+    def take(self, visitor: Visitor, name: str) -> None:
+        """Once all is still."""
+        page = visitor.page
+        tick = visitor.script.state()["tick"]
+        lost = page.locator("#metrics").get_by_text(re.compile(rf"lost in {tick}$|^–$|was lost"))
+        expect(lost.last).to_be_attached()
+        page.evaluate("() => Promise.all(document.getAnimations().map((one) => one.finished))")
+        before, now = b"", page.screenshot(animations="disabled")
+        while now != before:
+            visitor.watch(0.5)
+            before, now = now, page.screenshot(animations="disabled")
+        image = Image.open(io.BytesIO(now)).convert("RGB")
+        path = FOLDER / f"{name}.png"
+        image.save(path, optimize=True)
+        if path.stat().st_size > MOST_BYTES:
+            few = image.quantize(256, Image.Quantize.MAXCOVERAGE, kmeans=4)
+            image.quantize(palette=few, dither=Image.Dither.FLOYDSTEINBERG).save(path, optimize=True)
+        size = path.stat().st_size
+        print(f"{path.name}: {size:,} bytes")
+        assert size <= MOST_BYTES, f"{path.name} is too heavy"
+        visitor.close()
+
+
+def _talked(studio: Studio, **context: Any) -> Visitor:
+    visitor = studio.visit(9, **context)
+    studio.drive(visitor, 9)
+    visitor.say("add five potholes")
+    studio.drive(visitor, 7)
+    visitor.say("put a cone right in front of the car")
+    studio.drive(visitor, 1)
+    visitor.say("why did you do that?")
+    return visitor
+
+
+def page(studio: Studio) -> None:
+    """The whole of it, on a desk in the dark."""
+    studio.take(_talked(studio), "page")
+
+
+def light(studio: Studio) -> None:
+    """The same by day."""
+    studio.take(_talked(studio, color_scheme="light"), "light")
+
+
+def phone(studio: Studio) -> None:
+    """In a hand."""
+    visitor = studio.visit(9, **PHONE)
+    studio.drive(visitor, 9)
+    visitor.say("add five potholes")
+    visitor.page.evaluate("() => document.activeElement.blur()")
+    studio.take(visitor, "phone")
+
+
+def crash(studio: Studio) -> None:
+    """Straight on, by hand, on a busy road."""
+    visitor = studio.visit(16, config={"vehicles": 24, "potholes": 4, "pedestrians": 4})
+    visitor.say("let me drive")
+    for _ in range(60):
+        visitor.script.act({"do": "drive", "move": "forward"})
+        studio.drive(visitor, 1)
+        if visitor.script.state()["status"] != "running":
+            break
+    assert visitor.script.state()["status"] == "crash"
+    expect(visitor.page.locator(".verdict")).to_be_visible()
+    visitor.say("why did you do that?")
+    studio.take(visitor, "crash")
+
+
+def bubble(studio: Studio) -> None:
+    """What is known about what the pointer rests on."""
+    visitor = studio.visit(9)
+    studio.drive(visitor, 16)
+    state = visitor.script.state()
+    column, row = state["vehicles"][0]["cell"]
+    visitor.script.act({"do": "add", "kind": "barrier", "count": 1, "where": {"cell": [column, row - 1]}})
+    studio.drive(visitor, 1)
+    x, y = visitor.page.evaluate(PLACE_OF, [column, row - 1])
+    visitor.page.mouse.move(x - 3, y - 3)
+    visitor.page.mouse.move(x, y)
+    expect(visitor.page.locator("#bubble")).to_be_visible()
+    studio.take(visitor, "bubble")
+
+
+def beside(studio: Studio) -> None:
+    """What would have been, beside what was."""
+    visitor = studio.visit(9)
+    studio.drive(visitor, 16)
+    column, row = visitor.script.state()["vehicles"][0]["cell"]
+    visitor.script.act({"do": "add", "kind": "barrier", "count": 1, "where": {"cell": [column, row - 1]}})
+    studio.drive(visitor, 1)
+    visitor.say("why did you do that?")
+    visitor.watch(1.5)  # until the vehicle is where it is going
+    visitor.page.mouse.click(*visitor.page.evaluate(PLACE_OF, visitor.script.state()["vehicles"][0]["cell"]))
+    visitor.page.locator("#bubble .bubble-move", has_text="a barrier").click()
+    end = visitor.page.locator("#beside [data-side=changed] .beside-verdict")
+    expect(end).to_be_visible(timeout=15_000)
+    visitor.page.keyboard.press("End")
+    for _ in range(40):
+        if visitor.page.locator("#beside .beside-tick").inner_text() == "tick 18":
+            break
+        visitor.page.keyboard.press("ArrowLeft")
+    studio.take(visitor, "beside")
+
+
+PICTURES: dict[str, Callable[[Studio], None]] = {
+    each.__name__: each for each in (page, light, phone, crash, bubble, beside)
+}
+
+
+def main(names: list[str]) -> None:
+    """Take the pictures that are named, or all."""
     FOLDER.mkdir(exist_ok=True)
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
         service = ServiceProcess(Path(folder) / "pictures.db")
         service.start()
         browser = playwright.chromium.launch(executable_path=chromium(), args=QUIET)
-        visitor = Visitor(browser, service.url, color_scheme="dark").open()
-        visitor.pause()
-        visitor.say("add five potholes")
-        visitor.say("advance six ticks")
-        visitor.say("put a cone right in front of the car")
-        visitor.say("advance one tick")
-        visitor.say("why did you do that?")
-        visitor.page.evaluate("() => Promise.all(document.getAnimations().map((one) => one.finished))")
-        visitor.page.screenshot(path=FOLDER / "page.png")
-        visitor.close()
-        browser.close()
-        service.kill()
+        try:
+            for name in names or PICTURES:
+                PICTURES[name](Studio(browser, service))
+        finally:
+            browser.close()
+            service.kill()
 
 
 if __name__ == "__main__":
-    main()
+    main(sys.argv[1:])

@@ -12,7 +12,9 @@ import { createSuggest } from "./suggest.js";
 
 /** Well beyond what the service takes, so that it is the one to say that a text is too long. */
 const LONGEST_TEXT = 2_000;
-const RESTING = "Enter sends · ↑ brings back · Ctrl K for everything";
+const RESTING = matchMedia("(hover: none)").matches
+  ? "In plain words · ? tells what can be said"
+  : "Enter sends · ↑ brings back · Ctrl K for everything";
 
 /**
  * @param {HTMLElement} host  a form

@@ -39,7 +39,7 @@ function resultParts(result, page, undos, taken) {
     parts.push(make("p", { class: "correction" }, "Read “", make("s", {}, from), "” as “", make("b", {}, to), "”."));
   }
   if (result.answer) parts.push(answerElement(result.answer, result.reply, page));
-  else parts.push(make("p", { class: "reply" }, result.reply));
+  else parts.push(make("p", { class: "reply" }, result.reply.replaceAll(" → ", "\u00a0→\u00a0")));
   const changes = changesOf(result);
   // A thing moved changes no figure, and can be taken back all the same.
   if (changes.length > 0 || undos > 0 || taken) {

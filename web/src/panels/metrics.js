@@ -38,6 +38,7 @@ export function createMetrics(host, page) {
   let tick = 0;
   let stale = true;
   let failed = "";
+  /** @type {State | null} */ let newest = null;
 
   /** @param {Figure} figure @param {string} title */
   function chart(figure, title) {
@@ -64,6 +65,7 @@ export function createMetrics(host, page) {
   /** Ask for what is missing, as long as the panel is seen. @param {State} state */
   async function fill(state) {
     if (!state.views.metrics || state.connection.phase !== "live" || document.hidden) return;
+    const asked = tick;
     try {
       const running = state.past === null && state.world?.paused === false && state.world.status === "running";
       if (!(await book.fill(tick, running))) return;
@@ -74,6 +76,8 @@ export function createMetrics(host, page) {
     tell();
     stale = true;
     page.wake();
+    // What came meanwhile was not asked for.
+    if (tick !== asked && newest) void fill(newest);
   }
 
   function tell() {
@@ -96,6 +100,7 @@ export function createMetrics(host, page) {
       } else if (state.past === null && before.past === null && before.world && rewritten(state, before)) book.forget();
       if (state.past === null && decision?.tick === world.tick - 1) book.note(decision.tick, decision.blocked?.length ?? null);
       tick = world.tick;
+      newest = state;
       stale = true;
       const { metrics } = world;
       FIGURES.forEach(({ value }, at) => setText(values[at].value, value(metrics)));

@@ -114,6 +114,8 @@ export function createWheel(host, page) {
       box.hidden = !on;
       host.toggleAttribute("data-manual", on);
       if (!on) return held.clear();
+      // Nothing is driven before the next episode begins.
+      pad.hidden = words.hidden = world.status !== "running";
       if (before.world?.mode !== "manual" || words.textContent === "") setText(words, HOW());
       if (log === before.log) return;
       const line = log.at(-1);
