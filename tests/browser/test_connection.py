@@ -70,3 +70,44 @@ def test_a_link_leads_to_the_same_road_and_new_session_to_another(visit: Visit) 
     expect(second.page).not_to_have_url(re.compile(old))
     second.wait_live()
     expect(second.page.locator(".paused")).to_be_hidden()
+
+
+def test_without_the_service_every_part_says_so_and_goes_on_after(
+    service: ServiceProcess, visit: Visit
+) -> None:
+    visitor = visit()
+    page = visitor.page
+    visitor.pause()
+    for _ in range(6):
+        visitor.script.act({"do": "step", "ticks": 1})
+    figure = page.locator("[data-figure=tick] .figure-value")
+    expect(figure).to_have_text("6")
+    session = visitor.session
+    service.kill()
+    expect(page.locator("#connection")).to_have_attribute("data-phase", "lost")
+    told = page.locator("#notice, .road-toast, [role=alert], .past-trouble")
+    # What would have been: asked of the service, which is not there.
+    page.locator("#plan .way[data-standing=blocked], #plan .way[data-standing=free]").first.click()
+    expect(page.locator("#beside, #notice").get_by_text(re.compile("reach|fetch")).first).to_be_visible()
+    page.keyboard.press("Escape")
+    # A new session.
+    page.get_by_role("button", name="New session").click()
+    expect(page.get_by_text(re.compile("cannot be reached")).first).to_be_visible()
+    # A menu opens all the same, and what it cannot do is said.
+    page.get_by_role("button", name="Session", exact=True).click()
+    page.get_by_role("menuitem", name=re.compile("link", re.IGNORECASE)).first.click()
+    expect(told.get_by_text(re.compile("reach|fetch|Failed")).first).to_be_visible()
+    page.keyboard.press("Escape")
+    # Help tells keys and choices, and that the rest is not known.
+    page.locator("#help").click()
+    expect(page.get_by_role("dialog").get_by_text("Keys", exact=True)).to_be_visible()
+    expect(page.get_by_role("dialog").get_by_role("alert")).to_contain_text("not known just now")
+    page.keyboard.press("Escape")
+    service.start()
+    visitor.wait_live()
+    assert visitor.session == session
+    expect(figure).to_have_text("6")
+    expect(page.locator(".verdict")).to_be_hidden()
+    page.keyboard.press("ArrowRight")
+    expect(figure).to_have_text("7")
+    visitor.console = [line for line in visitor.console if "net::ERR_" not in line]
