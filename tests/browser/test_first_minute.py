@@ -56,12 +56,16 @@ def test_what_is_added_is_seen(visit: Visit) -> None:
     visitor = visit()
     visitor.script.act({"do": "pause"}, {"do": "reset"})
     visitor.script.act({"do": "remove", "kind": "everything", "count": "all"})
-    expect(visitor.page.locator("#road .road-canvas")).to_have_attribute("aria-label", re.compile("nothing on it"))
+    expect(visitor.page.locator("#road .road-canvas")).to_have_attribute(
+        "aria-label", re.compile("nothing on it")
+    )
     settled = visitor.watch(1.5)["pictures"][-1]
     assert visitor.picture() == settled, "a paused, settled road stands still"
     column, row = visitor.script.state()["vehicles"][0]["cell"]
     visitor.script.act({"do": "add", "kind": "pothole", "count": 1, "where": {"cell": [column, row - 3]}})
-    expect(visitor.page.locator("#road .road-canvas")).to_have_attribute("aria-label", re.compile("1 pothole"))
+    expect(visitor.page.locator("#road .road-canvas")).to_have_attribute(
+        "aria-label", re.compile("1 pothole")
+    )
     assert visitor.watch(1)["pictures"][-1] != settled
 
 
