@@ -12,6 +12,7 @@ from pathlib import Path
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
+TYPE_CHECK = "--noEmit --checkJs --strict --target es2023 --module es2022 --moduleResolution bundler"
 
 
 def test_the_modules_pass_their_unit_tests() -> None:
@@ -40,3 +41,39 @@ def test_every_module_is_small_type_checked_and_says_what_it_is_for() -> None:
         source = path.read_text(encoding="utf-8")
         assert source.startswith("// @ts-check\n/**"), f"{path}: not type-checked, or without its purpose"
         assert len(source.splitlines()) < 300, f"{path} is too long"
+
+
+def test_the_modules_pass_the_type_checker() -> None:
+    """TypeScript, where it is at hand: on the path, or what `npx` finds without fetching anything."""
+    checker = _type_checker()
+    if checker is None:
+        print("TypeScript is not installed: the modules' types were not checked.")
+        return
+    source = ROOT / "web" / "src"
+    run = subprocess.run(
+        [*checker, *TYPE_CHECK.split(), str(source / "main.js"), str(source / "early.js")],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
+    assert run.returncode == 0, run.stdout[-6000:]
+
+
+def _type_checker() -> list[str] | None:
+    tsc = shutil.which("tsc")
+    if tsc is not None:
+        return [tsc]
+    npx = shutil.which("npx")
+    if npx is None:
+        return None
+    found = subprocess.run(
+        [npx, "--no-install", "tsc", "--version"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    return [npx, "--no-install", "tsc"] if found.stdout.startswith("Version ") else None
