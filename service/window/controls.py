@@ -248,7 +248,7 @@ def clipboard() -> str:
     """What can be pasted; nothing where the machine offers none."""
     try:
         if hasattr(pygame.scrap, "get_text"):
-            return pygame.scrap.get_text()
+            return str(pygame.scrap.get_text())
         if not pygame.scrap.get_init():
             pygame.scrap.init()
         data = pygame.scrap.get("text/plain;charset=utf-8") or pygame.scrap.get(pygame.SCRAP_TEXT)

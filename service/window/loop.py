@@ -56,7 +56,7 @@ def play(
         while not window.closed:
             for event in pygame.event.get():
                 window.handle(event)
-            surface = pygame.display.get_surface()
+            surface: pygame.Surface | None = pygame.display.get_surface()
             if window.fullscreen != fullscreen:
                 fullscreen = window.fullscreen
                 window_size = window.size if fullscreen else window_size
