@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
+import httpx
 import pytest
 from playwright.sync_api import expect
 
 from tests.browser.conftest import Visit
+from tests.browser.service_process import ServiceProcess
 from tests.browser.test_accessibility import violations
 from tests.browser.test_layout import FAINT_TEXT
 from tests.browser.visitor import Visitor
@@ -108,10 +110,11 @@ def test_forced_colours_and_more_contrast_are_usable(visit: Visit, scheme: str) 
 
 @pytest.mark.parametrize("phone", PHONES, ids=["360", "390"])
 def test_on_a_phone_nothing_sticks_out_and_every_target_can_be_hit(
-    visit: Visit, phone: dict[str, Any]
+    service: ServiceProcess, visit: Visit, phone: dict[str, Any]
 ) -> None:
-    visitor = visit(**phone)
-    visitor.pause()
+    made = httpx.post(f"{service.url}/api/v1/sessions", json={"seed": 9, "paused": True}, timeout=10)
+    visitor = visit(f"/#/s/{made.json()['id']}", **phone)
+    visitor.script.act({"do": "step", "ticks": 9})
     page = visitor.page
     states: dict[str, list[str]] = {}
 
@@ -122,6 +125,7 @@ def test_on_a_phone_nothing_sticks_out_and_every_target_can_be_hit(
     visitor.say("add five potholes")
     visitor.say("slow down")
     visitor.say("why did you do that?")
+    expect(visitor.page.locator(".alternatives summary")).to_be_visible()
     look("talk")
     page.get_by_role("button", name="Views", exact=True).click()
     look("views menu")
