@@ -28,7 +28,7 @@ from service.client.results import (
     State,
 )
 
-DELETED, NO_KEY = 1000, 4401
+DELETED, NO_KEY, NO_SESSION = 1000, 4401, 4404
 FINAL = frozenset((1002, 1003, 1007, 1008, 1009, 1010))
 """Close codes after which a new connection would end like the one before."""
 
@@ -186,6 +186,9 @@ class Watching:
                 "detail": "The stream asks for a key, or for another one.",
             }
             raise refusal(document, 401) from error
+        if code == NO_SESSION:
+            document = {"type": "/problems/unknown-session", "detail": "There is no session with this id."}
+            raise refusal(document, 404) from error
         if self._problem is not None:
             raise self._problem from error
         if code in FINAL or (code is not None and code >= 4000):

@@ -139,8 +139,8 @@ def test_little_motion_means_cuts_from_tick_to_tick(visit: Visit) -> None:
 def test_the_road_changes_with_the_colours_of_the_system(visit: Visit) -> None:
     visitor = visit(color_scheme="light")
     visitor.pause()
-    light = visitor.watch(1.5)["pictures"][-1]
+    light = visitor.settled()
     visitor.page.emulate_media(color_scheme="dark")
-    assert visitor.watch(0.5)["pictures"][-1] != light
+    assert visitor.settled() != light
     visitor.page.emulate_media(color_scheme="light")
-    assert visitor.watch(0.5)["pictures"][-1] == light
+    assert visitor.settled() == light

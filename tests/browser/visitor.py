@@ -119,6 +119,14 @@ class Visitor:
         number: int = self.watch(0.02)["pictures"][-1]
         return number
 
+    def settled(self) -> int:
+        """The road's picture as a number, once nothing glides any more."""
+        for _ in range(20):
+            pictures = self.watch(0.5)["pictures"]
+            if len(pictures) > 3 and len(set(pictures[-len(pictures) // 2 :])) == 1:
+                return int(pictures[-1])
+        raise AssertionError("the road does not come to rest")
+
     def tick(self) -> int:
         """The tick that the page shows."""
         return int(self.page.locator("[data-figure=tick] .figure-value").inner_text())

@@ -96,7 +96,8 @@ async def test_as_fast_as_possible_there_is_no_gliding(session: Session) -> None
     session.pace = "max"
     session.tick()
     await reel.look(1.1)
-    assert read(await slot.next())[:2] == (8, 1.0)
+    assert session.timeline.tick > 1
+    assert read(await slot.next())[:2] == (session.timeline.tick, 1.0)
 
 
 async def test_all_who_watch_the_same_share_a_drawing(session: Session) -> None:

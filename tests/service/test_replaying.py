@@ -141,8 +141,8 @@ async def test_what_cannot_be_done_again_is_told_by_its_number_also_in_a_fork() 
     await do(child, ADD)
     await do(child, ADD)
     await service.manager.close()
-    last = store._entries[child.id][-1]
-    store._entries[child.id][-1] = type(last)(
+    last = max(store._entries[child.id].values(), key=lambda entry: entry.sequence)
+    store._entries[child.id][last.sequence] = type(last)(
         sequence=last.sequence, tick=last.tick, text=None, actions=last.actions, digest="0" * 32
     )
     with pytest.raises(NotRestorable, match=f"entry {last.sequence}"):

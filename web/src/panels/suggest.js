@@ -52,6 +52,9 @@ export function createSuggest(words, page, rest) {
   words.addEventListener("input", () => {
     typed = words.value;
     if (typed.trim() === "" || page.state().session === null) return close();
+    // What no longer goes on from what stands there must not be taken by a quick key.
+    const fitting = options.map((option) => option.dataset.text ?? "").filter((each) => begins(each, typed));
+    if (fitting.length < options.length) show(fitting, typed);
     latest.want(typed);
   });
   words.addEventListener("blur", close);
@@ -70,7 +73,7 @@ export function createSuggest(words, page, rest) {
   function show(sentences, text) {
     choose(-1);
     options = sentences.map((sentence, at) => {
-      const same = sentence.toLowerCase().startsWith(text.toLowerCase()) ? text.length : 0;
+      const same = begins(sentence, text) ? text.length : 0;
       const option = make(
         "div",
         { class: "suggestion", id: `suggestion-${at}`, role: "option", "aria-selected": "false", "data-text": sentence },
@@ -147,4 +150,9 @@ export function createSuggest(words, page, rest) {
       return false;
     },
   };
+}
+
+/** @param {string} sentence @param {string} typed */
+function begins(sentence, typed) {
+  return sentence.toLowerCase().startsWith(typed.toLowerCase());
 }
