@@ -82,12 +82,14 @@ def test_without_the_service_every_part_says_so_and_goes_on_after(
         visitor.script.act({"do": "step", "ticks": 1})
     figure = page.locator("[data-figure=tick] .figure-value")
     expect(figure).to_have_text("6")
+    rejected = page.locator("#plan .way[data-standing=blocked], #plan .way[data-standing=free]").first
+    expect(rejected).to_be_visible()  # the next decision is known
     session = visitor.session
     service.kill()
     expect(page.locator("#connection")).to_have_attribute("data-phase", "lost")
     told = page.locator("#notice, .road-toast, [role=alert], .past-trouble")
     # What would have been: asked of the service, which is not there.
-    page.locator("#plan .way[data-standing=blocked], #plan .way[data-standing=free]").first.click()
+    rejected.click()
     expect(page.locator("#beside, #notice").get_by_text(re.compile("reach|fetch")).first).to_be_visible()
     page.keyboard.press("Escape")
     # A new session.
