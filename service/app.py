@@ -34,6 +34,7 @@ from service.api import (
     openapi,
     pages,
     parse,
+    plainly,
     sessions,
     sse,
     stream,
@@ -145,6 +146,7 @@ def create_app(
     app.state.guard = guard
     app.state.metrics = counted
     app.add_middleware(glance.Glance, manager=manager)
+    app.add_middleware(plainly.Plainly, routes=commands.router.routes)
     app.add_middleware(edges.BodyLimit, most=partial(_body_bytes, settings))
     app.add_middleware(gate.Gate, guard=guard)
     app.add_middleware(edges.SecurityHeaders)

@@ -39,10 +39,11 @@ ErrorDetails = Sequence[Any]
 def install(app: FastAPI) -> None:
     """Answer every error of the application with a problem."""
     for kind in (ProblemError, RequestValidationError, HTTPException, StoreError, Exception):
-        app.add_exception_handler(kind, _respond)
+        app.add_exception_handler(kind, respond)
 
 
-def _respond(request: Request, error: Exception) -> Response:
+def respond(request: Request, error: Exception) -> Response:
+    """An error as it is told."""
     match error:
         case ProblemError():
             return problem_response(error)

@@ -106,12 +106,13 @@ def kept_answer(request: Request, told: Callable[[Told], Response]) -> Callable[
     return None if once is None else lambda of: once.keeping(told(of))
 
 
-async def _terms(request: Request) -> OnTerms:
+async def terms_of(request: Request) -> OnTerms:
+    """The terms a request comes on. Raises `Invalid`."""
     sequences = matched(request)
     return lambda told: Terms(sequences, kept_answer(request, told))
 
 
-TheTerms = Annotated[OnTerms, Depends(_terms)]
+TheTerms = Annotated[OnTerms, Depends(terms_of)]
 
 
 def tagged(request: Request, response: Response, sequence: int) -> Response:
