@@ -12,17 +12,15 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
-import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
-from dataclasses import dataclass
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).parents[2]
+from tests.contract.running import PHASES, Tool, serving
+from tests.contract.whole import Part, Whole
+
 SESSIONS = "/api/v1/sessions"
 OWN = f"{SESSIONS}/{{session_id}}"
 ENDLESS = f"{OWN}/events/stream"
@@ -76,24 +74,6 @@ SMALL = {
 """Small films and roads: what is looked at here is the contract, not the work."""
 
 
-@dataclass(frozen=True)
-class Report:
-    """What came of it."""
-
-    cases: int
-    failures: tuple[str, ...]
-    errors: tuple[str, ...]
-    operations: int
-    phases: Mapping[str, str]
-    seconds: float
-    output: str
-
-    @property
-    def clean(self) -> bool:
-        """Whether nothing was found."""
-        return not self.failures and not self.errors
-
-
 def configuration(document: Mapping[str, Any]) -> str:
     """schemathesis' own configuration, for the calls there are."""
     lines = [
@@ -120,69 +100,6 @@ def _listed(statuses: tuple[int | str, ...]) -> str:
     return json.dumps([str(status) for status in statuses])
 
 
-@contextmanager
-def serving(folder: Path, *, key: str | None = None) -> Iterator[str]:
-    """The real service as a process of its own; answers its address."""
-    environment = {**os.environ, **SMALL} | ({"ROADTALK_API_KEY": key} if key else {})
-    command = [sys.executable, "-m", "service", "serve", "--port", "0"]
-    process = subprocess.Popen(
-        [*command, "--database", f"sqlite:///{folder / 'generated.db'}"],
-        cwd=ROOT,
-        env=environment,
-        stdout=subprocess.PIPE,
-        text=True,
-    )
-    assert process.stdout is not None
-    try:
-        yield process.stdout.readline().rsplit(" ", 1)[-1].strip().rstrip("/")
-    finally:
-        process.kill()
-        process.wait()
-        process.stdout.close()
-
-
-def generated(
-    url: str,
-    folder: Path,
-    document: Mapping[str, Any],
-    *options: str,
-    seed: int,
-    examples: int,
-    key: str | None = None,
-    timeout_s: float = 3_600,
-) -> Report:
-    """Let schemathesis loose on a service; `examples` for each call and phase."""
-    settings, found = folder / "schemathesis.toml", folder / "report.json"
-    settings.write_text(configuration(document), encoding="utf-8")
-    command = [sys.executable, "-m", "schemathesis.cli", "--config-file", str(settings), "run"]
-    command += [f"{url}/openapi.json", "--seed", str(seed), "-n", str(examples), "--request-timeout", "60"]
-    command += ["--report", "json", "--report-json-path", str(found), *options]
-    if key is not None:
-        command += ["-H", f"Authorization: Bearer {key}"]
-    done = subprocess.run(
-        command, cwd=folder, capture_output=True, text=True, timeout=timeout_s, check=False, env=_plain()
-    )
-    if not found.exists():
-        raise RuntimeError(f"schemathesis did not run:\n{done.stdout}\n{done.stderr}")
-    told = json.loads(found.read_text(encoding="utf-8"))
-    if told["operations"] is None:
-        raise RuntimeError(f"schemathesis did not read the document:\n{done.stdout}\n{done.stderr}")
-    return Report(
-        cases=told["test_cases"]["generated"],
-        failures=tuple(json.dumps(each)[:2_000] for each in told["failures"]),
-        errors=tuple(json.dumps(each)[:2_000] for each in told["errors"]),
-        operations=told["operations"]["tested"],
-        phases={name: each["status"] for name, each in told["phases"].items()},
-        seconds=told["running_time"],
-        output=done.stdout,
-    )
-
-
-def _plain() -> dict[str, str]:
-    """The environment without what would turn the tool's own warnings into errors."""
-    return {name: value for name, value in os.environ.items() if name != "PYTHONWARNINGS"}
-
-
 def openapi() -> dict[str, Any]:
     """The document of the service as it is."""
     from service.app import create_app
@@ -191,30 +108,44 @@ def openapi() -> dict[str, Any]:
     return create_app(Settings(database="memory:")).openapi()
 
 
+def plan(cases: int) -> list[Part]:
+    """The phases of a whole run: at least so many cases by chance, two thirds of them stateful.
+
+    What examples and coverage make is fixed by the document and comes on top.
+    """
+    stateful = cases * 2 // 3
+    return [
+        Part("examples", examples=1),
+        Part("coverage", examples=1),
+        Part("fuzzing", cases - stateful, examples=20),
+        Part("stateful", stateful, examples=60),
+    ]
+
+
 def main() -> int:
-    """The long run; prints totals. 1 where something was found."""
+    """The whole run; prints totals, also of a run that was stopped.
+
+    1 where something was found, 2 where nothing was and it was stopped before its end.
+    """
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--cases", type=int, default=3_000, help="at least so many requests")
+    parser.add_argument(
+        "--cases", type=int, default=3_000, help="at least so many by chance, two thirds of them stateful"
+    )
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--keyed", action="store_true", help="with a key configured")
+    parser.add_argument("--phase", action="append", choices=PHASES, help="this phase only; may be repeated")
+    parser.add_argument("--seconds", type=float, help="stop after so long")
     asked = parser.parse_args()
+    parts = [part for part in plan(asked.cases) if not asked.phase or part.phase in asked.phase]
     document = openapi()
-    calls = sum(len(item) for item in document["paths"].values())
     key = KEY if asked.keyed else None
-    total, seconds, round_, found = 0, 0.0, 0, 0
-    with tempfile.TemporaryDirectory() as name, serving(Path(name), key=key) as url:
-        while total < asked.cases:
-            examples = max(10, min(50, (asked.cases - total) // calls))
-            report = generated(
-                url, Path(name), document, seed=asked.seed + round_, examples=examples, key=key
-            )
-            total, seconds, round_ = total + report.cases, seconds + report.seconds, round_ + 1
-            found += len(report.failures) + len(report.errors)
-            print(f"seed {asked.seed + round_ - 1}: {report.cases} cases, {dict(report.phases)}")
-            if not report.clean:
-                print(report.output)
-    print(f"{total} cases on {calls} calls in {seconds:.0f} s: {found} failures")
-    return int(found > 0)
+    with tempfile.TemporaryDirectory() as name, serving(Path(name), SMALL, key=key) as url:
+        tool = Tool(url, Path(name), configuration(document), key=key)
+        run = Whole(tool, parts, seed=asked.seed, seconds=asked.seconds)
+        run.go()
+    calls = {f"{method.upper()} {path}" for path, item in document["paths"].items() for method in item}
+    run.tell(calls)
+    return 1 if run.violations else 0 if run.complete else 2
 
 
 if __name__ == "__main__":
