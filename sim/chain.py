@@ -54,6 +54,11 @@ class Chain(Sequence[Item]):
         """What follows the first `count`."""
         return self._shared[count : self._length]
 
+    @property
+    def shared(self) -> Sequence[Item]:
+        """The list that it is the beginning of, with what others have put after it."""
+        return self._shared
+
     def alike(self, other: Chain[Item]) -> int:
         """How many items both begin with."""
         shorter = min(self._length, other._length)

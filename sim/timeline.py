@@ -55,7 +55,7 @@ class Entry:
 
 
 @dataclass(frozen=True, slots=True)
-class _Snapshot:
+class Snapshot:
     """A state on the way: at a tick, once the first `entries` of the log were applied."""
 
     tick: int
@@ -73,8 +73,31 @@ class Timeline:
         self.entries: Chain[Entry] = Chain()
         self._gap = SNAPSHOT_TICKS
         self._work = 0
-        self._snapshots: tuple[_Snapshot, ...] = (_Snapshot(0, self.run, 0),)
+        self.worked = 0
+        """all the work that was done on it, in ticks of the simplest planner: about what a replay takes"""
+        self._snapshots: tuple[Snapshot, ...] = (Snapshot(0, self.run, 0),)
         self._recent: deque[Run] = deque(maxlen=RECENT_RUNS)
+
+    @classmethod
+    def made(
+        cls,
+        config: Config,
+        run: Run,
+        entries: Chain[Entry],
+        snapshots: Sequence[Snapshot],
+        gap: int,
+        work: int,
+    ) -> Timeline:
+        """A timeline of the parts of another: see `parts`. They are taken as they are."""
+        new = cls.__new__(cls)
+        new.config, new.run, new.entries = config, run, entries
+        new._snapshots, new._gap, new._work, new.worked = tuple(snapshots), gap, work, 0
+        new._recent = deque(maxlen=RECENT_RUNS)
+        return new
+
+    def parts(self) -> tuple[Config, Run, Chain[Entry], tuple[Snapshot, ...], int, int]:
+        """What it is made of, but for the states that are only kept for being near."""
+        return self.config, self.run, self.entries, self._snapshots, self._gap, self._work
 
     @property
     def tick(self) -> int:
@@ -89,6 +112,7 @@ class Timeline:
         twin.entries = self.entries
         twin._gap = self._gap
         twin._work = self._work
+        twin.worked = self.worked
         twin._snapshots = self._snapshots
         twin._recent = self._recent.copy()
         return twin
@@ -146,6 +170,7 @@ class Timeline:
         run = self.at(tick)
         if tick == self.tick:
             return
+        self.worked += self.work_to(tick)
         self.run = run
         self.entries = self.entries.first(self._said_by(tick))
         self._snapshots = tuple(shot for shot in self._snapshots if shot.tick <= tick)
@@ -198,10 +223,11 @@ class Timeline:
     def _worked(self, work: int, entries: int) -> None:
         """The present was come to by this much work, with so many entries applied."""
         self._work += work
+        self.worked += work
         if self._work < self._gap:
             return
         self._work = 0
-        self._snapshots = (*self._snapshots, _Snapshot(self.tick, self.run, entries))
+        self._snapshots = (*self._snapshots, Snapshot(self.tick, self.run, entries))
         if len(self._snapshots) > MAX_SNAPSHOTS:
             self._gap *= 2
             self._snapshots = self._snapshots[::2]
@@ -220,7 +246,7 @@ class Timeline:
         """How many entries there are up to a tick and at it."""
         return bisect_right(self.entries, tick, key=lambda entry: entry.tick)
 
-    def _nearest_shot(self, tick: int) -> _Snapshot:
+    def _nearest_shot(self, tick: int) -> Snapshot:
         return self._snapshots[bisect_right(self._snapshots, tick, key=lambda shot: shot.tick) - 1]
 
     def _nearest(self, tick: int) -> tuple[Run, int]:

@@ -9,8 +9,11 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterable, Mapping
+from copy import copy
+from dataclasses import asdict
 from typing import Any, TypeAlias
 
+from service import actions as contract
 from service.actions import Action, Redo, Undo
 from service.language.topic import Phrases, Topic
 from service.sessions.facts import Answerable, Asked, Fact, Undone
@@ -38,9 +41,22 @@ class Conversation:
         self._removed = False
         self._where: Where | None = None
         self._episode: Episode | None = None
+        self._kept: Conversation | None = None
+        """the same without what is kept nowhere, where they differ"""
 
-    def note(self, outcome: Outcome) -> None:
-        """Remember what was done, or told about."""
+    @property
+    def lasting(self) -> Conversation:
+        """What would be remembered after a restart; a copy."""
+        twin = copy(self._kept or self)
+        twin._added = twin._added.copy()
+        return twin
+
+    def note(self, outcome: Outcome, *, passing: bool = False) -> None:
+        """Remember what was done, or told about; what is `passing` is kept nowhere."""
+        if passing:
+            self._kept = self._kept or self.lasting
+        elif self._kept is not None:
+            self._kept.note(outcome)
         actions, facts = outcome.utterance.actions, outcome.facts
         if not any(isinstance(action, Undo | Redo) for action in actions):
             self._actions = actions
@@ -90,6 +106,35 @@ class Conversation:
     def _forget_things(self) -> None:
         self._things = ()
         self._added.clear()
+
+    def values(self) -> dict[str, Any]:
+        """All of it as JSON values."""
+        return {
+            "things": [*self._things],
+            "added": [*self._added],
+            "actions": contract.dump(self._actions),
+            "undone": self._undone,
+            "kind": self._kind,
+            "removed": self._removed,
+            "where": None if self._where is None else asdict(self._where),
+            "episode": self._episode,
+        }
+
+    @classmethod
+    def of(cls, values: Mapping[str, Any]) -> Conversation:
+        """The same from JSON values. Raises `ValueError`, `TypeError` or `LookupError`."""
+        new, where = cls(), values["where"]
+        new._things = tuple(values["things"])
+        new._added.extend(values["added"])
+        new._actions = contract.load(values["actions"])
+        new._undone, new._removed, new._kind = values["undone"], values["removed"], values["kind"]
+        if where is not None:
+            cell = where["cell"]
+            new._where = Where(**{**where, "cell": None if cell is None else (cell[0], cell[1])})
+        if values["episode"] is not None:
+            number, start = values["episode"]
+            new._episode = number, start
+        return new
 
     def topic(self, world: World, phrases: Phrases, names: Iterable[str] = ()) -> Topic:
         """What a sentence said now may refer to; `names` are those of saved moments."""

@@ -1,7 +1,8 @@
 """A session's log: what happened, in numbered lines; the latest few hundred are kept.
 
 Numbers are absolute and start at 1, so that a reader can ask for what came after the last line it
-saw and be told when lines have been dropped meanwhile.
+saw and be told when lines have been dropped meanwhile. Most lines come back when the session does; those
+that nothing in the store stands for (`passing`) do not, and then were never there.
 """
 
 from __future__ import annotations
@@ -31,6 +32,10 @@ class Log:
     def __init__(self, kept: int) -> None:
         self._events: deque[LogEvent] = deque(maxlen=kept)
         self._last = 0
+        self._passed = 0
+        self._passing: set[int] = set()
+        self._before: deque[LogEvent] = deque()
+        """lines that would still be held if there were no passing ones"""
 
     @property
     def last(self) -> int:
@@ -52,15 +57,44 @@ class Log:
         if lines:
             self._last += lines
             self._events.clear()
+            self._before.clear()
+            self._passing.clear()
 
     def add(
-        self, tick: int, kind: str, text: str, ids: tuple[str, ...] = (), cell: Cell | None = None
+        self,
+        tick: int,
+        kind: str,
+        text: str,
+        ids: tuple[str, ...] = (),
+        cell: Cell | None = None,
+        *,
+        passing: bool = False,
     ) -> LogEvent:
         """Write one line."""
         self._last += 1
         event = LogEvent(self._last, tick, kind, text, ids, cell)
+        if passing:
+            self._passed += 1
+            self._passing.add(event.number)
+        if self._passing:
+            self._drop_for_one()
         self._events.append(event)
         return event
+
+    def lasting(self) -> tuple[int, list[LogEvent]]:
+        """How many lines there would be without passing ones, and those of them that would be held."""
+        held = [*self._before, *(event for event in self._events if event.number not in self._passing)]
+        return self._last - self._passed, held
+
+    def _drop_for_one(self) -> None:
+        if len(self._events) == self._events.maxlen:
+            oldest = self._events[0]
+            if oldest.number in self._passing:
+                self._passing.remove(oldest.number)
+            else:
+                self._before.append(oldest)
+        while len(self._before) > len(self._passing):
+            self._before.popleft()
 
     def after(self, number: int, limit: int) -> list[LogEvent]:
         """Up to `limit` lines that follow `number`, oldest first."""

@@ -11,6 +11,7 @@ import secrets
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, replace
 from datetime import UTC, datetime
+from functools import partial
 
 import structlog
 from anyio import to_thread
@@ -29,7 +30,7 @@ from service.problems import (
 from service.sessions.draft import check_ticks
 from service.sessions.forking import way_of
 from service.sessions.pace import NORMAL
-from service.sessions.replaying import ReplayError
+from service.sessions.replaying import ReplayError, repeat, replay
 from service.sessions.saved import with_names
 from service.sessions.session import Session, Surroundings
 from service.sessions.sleeping import Idleness, Sleeper
@@ -182,7 +183,7 @@ class SessionManager:
                         actions=contract.dump(each),
                     )
                 )
-                await to_thread.run_sync(session.repeat, entries[-1])
+                await to_thread.run_sync(repeat, session, self._around.words, entries[-1])
             session.record = replace(record, tick=session.timeline.tick)
             session.paused = session.paused if paused is None else paused
             kept = () if answer is None else (answer(session),)
@@ -304,7 +305,7 @@ class SessionManager:
             entries = await self._around.store.entries(session_id)
             config = Config().with_parts(**record.config)
             session = Session(record, Timeline(config), self._around)
-            await to_thread.run_sync(session.replay, entries, record.tick)
+            await to_thread.run_sync(replay, session, self._around.words, entries, record.tick)
         except ReplayError as error:
             sequence = entries[error.position].sequence
             _LOG.error(
@@ -320,8 +321,9 @@ class SessionManager:
 
     async def _replay(self, session: Session, recorded: Recorded) -> None:
         try:
-            most = self._around.settings.max_recording_ticks
-            await to_thread.run_sync(session.replay, recorded.entries, recorded.tick, most)
+            words, most = self._around.words, self._around.settings.max_recording_ticks
+            again = partial(replay, session, words, recorded.entries, recorded.tick, most=most)
+            await to_thread.run_sync(again)
         except ReplayError as error:
             field = f"recording.entries.{error.position}"
             if error.differs:

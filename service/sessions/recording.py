@@ -37,7 +37,7 @@ def recording_json(session: Session, entries: Sequence[EntryRecord]) -> dict[str
 def _entry(entry: EntryRecord) -> dict[str, Any]:
     """As it was said, and the digest it led to where that is known: a replay goes wrong at an entry."""
     said = asdict(entry)
-    del said["names"]
+    del said["names"], said["paused"]
     if said["digest"] is None:
         del said["digest"]
     return said

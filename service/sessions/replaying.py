@@ -54,6 +54,32 @@ class _Line:
     text: str
 
 
+def replay(
+    session: Session,
+    words: Words,
+    entries: Sequence[EntryRecord],
+    tick: int,
+    *,
+    most: int | None = None,
+    first: int | None = None,
+) -> None:
+    """Do again what was done, and run on to `tick`; the session then stands paused.
+
+    It stands where it began, or with `first` where the entries before that have led to. It is one that nobody
+    else has yet; in any thread. Raises `ReplayError`, also where more than `most` ticks would have to be run:
+    with going back, they may be more than where it ends.
+    """
+    Replay(session, words, session.log).all(entries, tick, most, first)
+    session.paused = True
+
+
+def repeat(session: Session, words: Words, entry: EntryRecord) -> None:
+    """Do one kept utterance again. Raises `ProblemError`, or pydantic's `ValidationError`."""
+    again = Replay(session, words, session.log)
+    again.one(entry, contract.load(entry.actions))
+    again.tell()
+
+
 class Replay:
     """Does again what was done to a session that nobody else has yet; in any thread."""
 
@@ -64,13 +90,14 @@ class Replay:
         self._lines: deque[_Line | tuple[Event, Run]] = deque(maxlen=log.kept)
         self._written = 0
 
-    def all(self, entries: Sequence[EntryRecord], tick: int, most: int | None = None) -> None:
-        """Do these, and run on to `tick`. Raises `ReplayError`, also for more than `most` ticks to run."""
+    def all(self, entries: Sequence[EntryRecord], tick: int, most: int | None, first: int | None) -> None:
+        """See `replay`."""
         ticks, session = 0, self._session
-        actions = _loaded(entries)
+        actions = _loaded(entries[first or 0 :])
         branch = session.record.branch
-        shared = 0 if branch is None else self._common(branch, entries, actions)
-        for position, entry in enumerate(entries[shared:], start=shared):
+        if first is None:
+            first = 0 if branch is None else self._common(branch, entries, actions)
+        for position, entry in enumerate(entries[first:], start=first):
             try:
                 said = next(actions)
                 ticks += max(0, entry.tick - session.timeline.tick) + ticks_to_run(said)
@@ -112,10 +139,13 @@ class Replay:
         if entry.tick < session.timeline.tick or entry.sequence != session.sequence + 1:
             raise Invalid(f"Entry {entry.sequence} at tick {entry.tick} is out of order.")
         self.run_to(entry.tick)
+        if entry.paused is not None:
+            session.paused = entry.paused
         draft = Draft(session.timeline, session.paused, session.history, session.pace)
         facts = draft.perform(entry.sequence, said)
         before = session.run
         session.adopt(draft, entry.sequence, said)
+        session.footing.kept(entry)
         self._check(entry)
         answers = [self._words.answer(fact) for fact in facts if isinstance(fact, Answerable)]
         session.conversation.note(

@@ -10,20 +10,20 @@ from __future__ import annotations
 import asyncio
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from contextlib import asynccontextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
 import structlog
 from anyio import to_thread
 
-from service import actions as contract
 from service.actions import Action, Advise, Ask, Hide, Show
 from service.problems import NotSaved, UnknownName, UnknownSession
 from service.sessions.clock import Clock
 from service.sessions.conversation import Conversation
 from service.sessions.draft import Draft, check_ticks
 from service.sessions.facts import Fact, happened_in, views_of
+from service.sessions.footing import Footing
 from service.sessions.forking import Way, is_mixed
 from service.sessions.history import History
 from service.sessions.later import Later
@@ -31,7 +31,6 @@ from service.sessions.log import Log, LogEvent
 from service.sessions.messages import changed_message, tick_message
 from service.sessions.pace import NORMAL, Pace, hurried, period_s, turn
 from service.sessions.possible import possible
-from service.sessions.replaying import Replay
 from service.sessions.saved import told_where
 from service.sessions.telling import entry_of, long_to_answer, outcome_of
 from service.sessions.terms import ANY_TERMS, Terms
@@ -39,7 +38,7 @@ from service.sessions.utterance import Outcome, Utterance
 from service.sessions.watchers import Watchers
 from service.sessions.words import Words
 from service.settings import Settings
-from service.store import EntryRecord, SessionRecord, Store, StoreError
+from service.store import SessionRecord, Store, StoreError
 from service.timing import part as timed
 from service.wire.state import Standing, state_json
 from sim.actions import SetMode
@@ -86,6 +85,8 @@ class Session:
         self.mixed: set[int] = set()
         """changes of which the timeline has a part only: the others were no changes of the road"""
         self.conversation = Conversation()
+        self.footing = Footing(record)
+        self.after_change: Callable[[Session], None] | None = None
         self.log = Log(around.settings.log_events)
         self.watchers = Watchers()
         self._later = Later(self._write_late)
@@ -264,7 +265,7 @@ class Session:
                     return await self._told(utterance, facts, self.sequence)
                 if all(isinstance(action, CHANGES_NOTHING) for action in utterance.actions):
                     outcome = await self._told(utterance, facts, self.sequence)
-                    self.conversation.note(outcome)
+                    self.conversation.note(outcome, passing=True)
                     if views := views_of(facts):
                         self._publish_changed(utterance.text, outcome.reply, (), (), views)
                     return outcome
@@ -292,14 +293,18 @@ class Session:
 
     async def _save(self, outcome: Outcome, draft: Draft, terms: Terms) -> None:
         kept = () if terms.answer is None else (terms.answer(outcome),)
+        entry = entry_of(outcome, self.timeline.tick, draft)
+        if self.paused != self.footing.paused:
+            entry = replace(entry, paused=self.paused)
         try:
             if draft.timeline.tick < self.timeline.tick:
                 # First: where time once stood must never be run on to from a log that has gone back.
                 await self._around.store.save_ticks({self.id: draft.timeline.tick})
-            await self._around.store.append(self.id, entry_of(outcome, self.timeline.tick, draft), *kept)
+            await self._around.store.append(self.id, entry, *kept)
         except StoreError as error:
             _LOG.error("a change was not saved", session=self.id, error=str(error))
             raise NotSaved from error
+        self.footing.kept(entry)
 
     def _become(self, draft: Draft, outcome: Outcome) -> None:
         """Take the draft's state and tell watchers."""
@@ -309,7 +314,7 @@ class Session:
         self.adopt(draft, outcome.sequence, outcome.utterance.actions)
         self.set_paused(draft.paused)
         self.conversation.note(outcome)
-        lines = [self._line(began, "changed", outcome.reply)]
+        lines = [self._line(began, "changed", outcome.reply, passing=False)]
         playing = outcome.only_steps and len(outcome.ticks) <= PLAYED_TICKS
         for run, part in happened_in(outcome.facts):
             noted = self._note(run, part)
@@ -320,6 +325,8 @@ class Session:
             before = run
         text, views = outcome.utterance.text, views_of(outcome.facts)
         self._publish_changed(text, outcome.reply, outcome.changes, lines, views)
+        if self.after_change is not None:
+            self.after_change(self)
 
     def adopt(self, draft: Draft, sequence: int, actions: Sequence[Action]) -> None:
         """Take a draft's state, made by these actions; for who has the session to itself."""
@@ -327,6 +334,7 @@ class Session:
             self.mixed.add(sequence)
         self.timeline, self.history = draft.timeline, draft.history
         self.paused, self.pace, self.sequence = draft.paused, draft.pace, sequence
+        self.footing.become(draft.paused, draft.timeline.tick)
 
     def _take_tick_due(self) -> None:
         if self._tick_due:
@@ -334,27 +342,10 @@ class Session:
             if not self.paused:
                 self.tick()
 
-    # Replay
-
     def begin_with(self, way: Way) -> None:
         """Begin where another session's log has led to; for a session that nobody else has yet."""
         self.timeline, self.history = way.timeline, way.history(self.paused)
         self.sequence = way.branch.sequence
-
-    def replay(self, entries: Sequence[EntryRecord], tick: int, most: int | None = None) -> None:
-        """Do again what was done, and run on to `tick`; the session then stands paused.
-
-        For a session that nobody else has yet, in any thread. Raises `ReplayError`, also where more than
-        `most` ticks would have to be run: with going back, they may be more than where it ends.
-        """
-        Replay(self, self._around.words, self.log).all(entries, tick, most)
-        self.paused = True
-
-    def repeat(self, entry: EntryRecord) -> None:
-        """Do one kept utterance again. Raises `ProblemError`, or pydantic's `ValidationError`."""
-        replay = Replay(self, self._around.words, self.log)
-        replay.one(entry, contract.load(entry.actions))
-        replay.tell()
 
     # Telling
 
@@ -374,9 +365,9 @@ class Session:
         lines = self._write(worded)
         self._publish_changed(None, lines[-1].text, (), lines)
 
-    def _line(self, tick: int, kind: str, text: str) -> LogEvent:
+    def _line(self, tick: int, kind: str, text: str, *, passing: bool = True) -> LogEvent:
         self._later.settle()
-        return self.log.add(tick, kind, text)
+        return self.log.add(tick, kind, text, passing=passing)
 
     def _publish_tick(self, before: Run, tick: Tick, lines: Sequence[LogEvent]) -> None:
         def message() -> bytes:

@@ -12,6 +12,7 @@ from service.store.base import (
     MomentRecord,
     PhraseRecord,
     SessionRecord,
+    SnapshotRecord,
     Store,
     StoreError,
 )
@@ -26,6 +27,7 @@ __all__ = [
     "MomentRecord",
     "PhraseRecord",
     "SessionRecord",
+    "SnapshotRecord",
     "SqlStore",
     "Store",
     "StoreError",

@@ -1,7 +1,8 @@
 """What a store must do, in terms of what a session is: a start and the changes said to it.
 
 A session is its configuration (seed included) and an append-only list of entries; everything else
-is replayed from those. Leaves out worlds and snapshots: they are derived.
+is replayed from those. A snapshot of what that comes to may be kept beside it: it saves time, and
+nothing is lost with it.
 """
 
 from __future__ import annotations
@@ -63,6 +64,7 @@ class EntryRecord:
     contract's form; `text` is what was said, None for typed actions. `digest` is that of the world
     after it, to know whether it was done again the same; None where it was never known. `names` are those
     it gave to moments, each with its tick; they are listed by themselves and not read back with it.
+    `paused` is whether time stood still when it was said, where the log does not tell: after a restart.
     """
 
     sequence: int
@@ -71,6 +73,7 @@ class EntryRecord:
     actions: Sequence[Mapping[str, Any]]
     digest: str | None = None
     names: Mapping[str, int] = field(default_factory=dict, compare=False)
+    paused: bool | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -108,6 +111,22 @@ class KeptAnswer:
     at: int
     status: int
     headers: Mapping[str, str]
+    body: bytes
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SnapshotRecord:
+    """What a session's log comes to after the change `sequence`, at a tick.
+
+    `version` is that of its form and of the program that made it, `checksum` that of all the rest; what they
+    are, and what `body` holds, is the business of who made it.
+    """
+
+    session: str
+    sequence: int
+    tick: int
+    version: str
+    checksum: str
     body: bytes
 
 
@@ -151,10 +170,16 @@ class Store(Protocol):
         """Remember how far clocks have run, by session id; unknown sessions are passed over."""
 
     async def delete(self, session_id: str) -> bool:
-        """Forget a session and its changes; whether there was one.
+        """Forget a session, its changes and its snapshot; whether there was one.
 
         What forks share with it is kept, unseen, as long as there is one.
         """
+
+    async def keep_snapshot(self, record: SnapshotRecord) -> None:
+        """Keep a session's snapshot in place of the one before; none of an unknown session is kept."""
+
+    async def snapshot(self, session_id: str) -> SnapshotRecord | None:
+        """The snapshot of a session, or None."""
 
     async def moments(
         self, limit: int, before: int | None = None, name: str | None = None

@@ -15,6 +15,7 @@ from service.store.base import (
     MomentRecord,
     PhraseRecord,
     SessionRecord,
+    SnapshotRecord,
     StoreError,
 )
 from service.store.lineage import joined
@@ -32,6 +33,7 @@ class MemoryStore:
         self._moments: dict[tuple[str, str], MomentRecord] = {}
         self._last_moment = 0
         self._unseen: set[str] = set()
+        self._snapshots: dict[str, SnapshotRecord] = {}
 
     async def open(self) -> None:
         """Nothing to make ready."""
@@ -105,6 +107,7 @@ class MemoryStore:
         if session_id not in self._sessions or session_id in self._unseen:
             return False
         self._moments = {key: each for key, each in self._moments.items() if each.session != session_id}
+        self._snapshots.pop(session_id, None)
         self._unseen.add(session_id)
         self._clear(session_id)
         return True
@@ -120,6 +123,15 @@ class MemoryStore:
                 return
             session_id = branch.parent
             forked.remove(session_id)
+
+    async def keep_snapshot(self, record: SnapshotRecord) -> None:
+        """See `Store.keep_snapshot`."""
+        if record.session in self._sessions and record.session not in self._unseen:
+            self._snapshots[record.session] = record
+
+    async def snapshot(self, session_id: str) -> SnapshotRecord | None:
+        """See `Store.snapshot`."""
+        return self._snapshots.get(session_id)
 
     async def moments(
         self, limit: int, before: int | None = None, name: str | None = None

@@ -7,7 +7,7 @@ from typing import Any
 
 from sqlalchemy import Row
 
-from service.store.base import Branch, EntryRecord, KeptAnswer, SessionRecord
+from service.store.base import Branch, EntryRecord, KeptAnswer, SessionRecord, SnapshotRecord
 
 
 def session_values(record: SessionRecord) -> dict[str, Any]:
@@ -74,7 +74,32 @@ def entry_values(session_id: str, entry: EntryRecord) -> dict[str, Any]:
         "text": entry.text,
         "actions": [dict(action) for action in entry.actions],
         "digest": entry.digest,
+        "paused": entry.paused,
     }
+
+
+def snapshot_values(record: SnapshotRecord) -> dict[str, Any]:
+    """A snapshot as a row."""
+    return {
+        "session_id": record.session,
+        "sequence": record.sequence,
+        "tick": record.tick,
+        "version": record.version,
+        "checksum": record.checksum,
+        "body": record.body,
+    }
+
+
+def snapshot_of(row: Row[Any]) -> SnapshotRecord:
+    """A snapshot of a row."""
+    return SnapshotRecord(
+        session=row.session_id,
+        sequence=row.sequence,
+        tick=row.tick,
+        version=row.version,
+        checksum=row.checksum,
+        body=row.body,
+    )
 
 
 def moment_values(session_id: str, entry: EntryRecord) -> list[dict[str, Any]]:

@@ -28,13 +28,22 @@ from service.store.base import (
     MomentRecord,
     PhraseRecord,
     SessionRecord,
+    SnapshotRecord,
     StoreError,
 )
 from service.store.engines import Postgres, Sqlite, kind_of, reason
 from service.store.lineage import joined
-from service.store.rows import answer_values, entry_values, moment_values, record_of, session_values
+from service.store.rows import (
+    answer_values,
+    entry_values,
+    moment_values,
+    record_of,
+    session_values,
+    snapshot_of,
+    snapshot_values,
+)
 from service.store.schema import bring_up
-from service.store.tables import ENTRIES, IDEMPOTENCY, MOMENTS, PHRASES, SESSIONS
+from service.store.tables import ENTRIES, IDEMPOTENCY, MOMENTS, PHRASES, SESSIONS, SNAPSHOTS
 
 _Pending = tuple[str, EntryRecord, KeptAnswer | None, "asyncio.Future[None]"]
 
@@ -175,7 +184,8 @@ class SqlStore:
         async with self._transaction() as connection:
             if (await connection.execute(seen.values(unseen=True))).rowcount == 0:
                 return False
-            await connection.execute(delete(MOMENTS).where(MOMENTS.c.session_id == session_id))
+            for table in (MOMENTS, SNAPSHOTS):
+                await connection.execute(delete(table).where(table.c.session_id == session_id))
             of: str | None = session_id
             while of is not None:  # those of its parents as well that were kept for it alone
                 forks = select(SESSIONS.c.number).where(SESSIONS.c.parent == of).exists()
@@ -184,6 +194,21 @@ class SqlStore:
                 of = None if row is None else row.parent
         self._unseen.add(session_id)
         return True
+
+    async def keep_snapshot(self, record: SnapshotRecord) -> None:
+        """See `Store.keep_snapshot`."""
+        there = select(SESSIONS.c.number).where(SESSIONS.c.id == record.session, ~SESSIONS.c.unseen)
+        async with self._transaction() as connection:
+            if (await connection.execute(there)).one_or_none() is not None:
+                await connection.execute(delete(SNAPSHOTS).where(SNAPSHOTS.c.session_id == record.session))
+                await connection.execute(insert(SNAPSHOTS), snapshot_values(record))
+
+    async def snapshot(self, session_id: str) -> SnapshotRecord | None:
+        """See `Store.snapshot`."""
+        query = select(SNAPSHOTS).where(SNAPSHOTS.c.session_id == session_id)
+        async with self._transaction() as connection:
+            row = (await connection.execute(query)).one_or_none()
+        return None if row is None else snapshot_of(row)
 
     async def moments(
         self, limit: int, before: int | None = None, name: str | None = None
@@ -358,7 +383,12 @@ async def _own_entries(connection: AsyncConnection, session_id: str, most: int |
     rows = (await connection.execute(query)).all()
     return [
         EntryRecord(
-            sequence=row.sequence, tick=row.tick, text=row.text, actions=row.actions, digest=row.digest
+            sequence=row.sequence,
+            tick=row.tick,
+            text=row.text,
+            actions=row.actions,
+            digest=row.digest,
+            paused=row.paused,
         )
         for row in rows
     ]

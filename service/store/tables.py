@@ -19,7 +19,7 @@ from sqlalchemy import (
     false,
 )
 
-VERSION = 4
+VERSION = 5
 """Of the schema; the number of the last migration."""
 
 METADATA = MetaData()
@@ -52,6 +52,18 @@ ENTRIES = Table(
     Column("text", Text),
     Column("actions", JSON, nullable=False),
     Column("digest", String(32), comment="of the world after it; none for what was kept before version 3"),
+    Column("paused", Boolean, comment="whether time stood still, where the log does not tell"),
+)
+
+SNAPSHOTS = Table(
+    "snapshots",
+    METADATA,
+    Column("session_id", ForeignKey("sessions.id", ondelete="CASCADE"), primary_key=True),
+    Column("sequence", Integer, nullable=False),
+    Column("tick", Integer, nullable=False),
+    Column("version", String(64), nullable=False, comment="of its form, and of the program that made it"),
+    Column("checksum", String(32), nullable=False, comment="of all the rest"),
+    Column("body", LargeBinary, nullable=False, comment="JSON, deflated"),
 )
 
 MOMENTS = Table(

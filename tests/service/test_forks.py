@@ -12,11 +12,12 @@ from hypothesis import strategies as st
 from service import actions as contract
 from service.api.links import MOST_CARRIED, Named, opened
 from service.problems import DoesNotFit, Invalid, NotSaved, ProblemError
+from service.sessions.replaying import replay
 from service.sessions.session import Session
 from service.store import EntryRecord, MemoryStore, StoreError
 from tests.service.conftest import Service as Http
 from tests.service.test_rewind import SAID, anew
-from tests.service.test_sessions import ADD, ADD_CARS, UNDO, Service, do, fingerprint, potholes
+from tests.service.test_sessions import ADD, ADD_CARS, UNDO, WORDS, Service, do, fingerprint, potholes
 
 Json = dict[str, Any]
 
@@ -163,7 +164,7 @@ def test_a_link_opens_to_the_same_digest(
             for each in found.entries
         ]
         copy = await Service().session(session.timeline.config, paused=True)
-        copy.replay(entries, found.tick)
+        replay(copy, WORDS, entries, found.tick)
         assert copy.run.world.digest() == found.digest
 
     asyncio.run(way())

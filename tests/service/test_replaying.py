@@ -147,3 +147,20 @@ async def test_what_cannot_be_done_again_is_told_by_its_number_also_in_a_fork() 
     )
     with pytest.raises(NotRestorable, match=f"entry {last.sequence}"):
         await Service(store).manager.get(child.id)
+
+
+async def test_a_pause_that_nobody_said_is_no_part_of_a_step_afterwards_either() -> None:
+    """A session that ran comes back paused; what is said then comes back as it was said."""
+    store = MemoryStore()
+    first = await (service := Service(store)).session(paused=False)
+    await service.manager.close()
+    second = await (service := Service(store)).manager.get(first.id)
+    assert second.paused
+    await do(second, ADD, {"do": "pause"})
+    await do(second, {"do": "resume"})
+    await do(second, {"do": "pause"})
+    await service.manager.close()
+    third = await Service(store).manager.get(first.id)
+    assert whole(third) == whole(second)
+    assert third.history.done[0].paused_before is True
+    assert [each.paused for each in await store.entries(first.id)] == [True, None, None]

@@ -20,6 +20,7 @@ from service.store import (
     EntryRecord,
     MemoryStore,
     SessionRecord,
+    SnapshotRecord,
     SqlStore,
     Store,
     StoreError,
@@ -181,6 +182,46 @@ async def test_a_parent_is_kept_unseen_for_its_forks(store: Store) -> None:
     assert await store.delete("c") is True
     await store.create(record("a"))  # nothing of it is left
     assert list(await store.entries("a")) == []
+
+
+def snapshot(name: str, sequence: int, body: bytes = b"\x00\xff\x80 worlds") -> SnapshotRecord:
+    return SnapshotRecord(
+        session=name, sequence=sequence, tick=9, version="1.ab", checksum=f"{sequence:032x}", body=body
+    )
+
+
+async def test_the_latest_snapshot_of_a_session_is_kept(store: Store) -> None:
+    await store.create(record("a"), [entry(1)])
+    await store.create(record("b"), [entry(1)])
+    assert await store.snapshot("a") is None
+    await store.keep_snapshot(snapshot("a", 1))
+    await store.keep_snapshot(snapshot("a", 2, bytes(range(256)) * 999))
+    await store.keep_snapshot(snapshot("b", 1))
+    assert await store.snapshot("a") == snapshot("a", 2, bytes(range(256)) * 999)
+    assert await store.snapshot("b") == snapshot("b", 1)
+    await store.keep_snapshot(snapshot("nobody", 1))
+    assert await store.snapshot("nobody") is None
+
+
+async def test_a_snapshot_goes_with_its_session_also_where_a_fork_needs_the_log(store: Store) -> None:
+    await store.create(record("a"), [entry(number) for number in range(1, 7)])
+    await store.create(record("b", branch=branch("a", 4)))
+    for name in "ab":
+        await store.keep_snapshot(snapshot(name, 6))
+    await store.delete("a")
+    assert await store.snapshot("a") is None
+    await store.keep_snapshot(snapshot("a", 7))
+    assert await store.snapshot("a") is None, "one that was still being made"
+    await store.delete("b")
+    assert await store.snapshot("b") is None
+
+
+async def test_whether_time_stood_still_is_kept_where_it_is_said(store: Store) -> None:
+    said = [replace(entry(number), paused=paused) for number, paused in ((1, True), (2, False), (3, None))]
+    await store.create(record("a"), said[:1])
+    for each in said[1:]:
+        await store.append("a", each)
+    assert list(await store.entries("a")) == said
 
 
 async def test_named_moments_of_all_sessions(store: Store) -> None:
