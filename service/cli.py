@@ -35,6 +35,9 @@ from service.version import VERSION
 from service.window.command import play
 from sim import planner_names
 
+GARBAGE = 20_000
+"""So many values more than there were are looked through for rings that nobody holds."""
+
 STOP_S = 1
 """How long a stopping service waits for requests under way."""
 
@@ -215,6 +218,8 @@ async def _serve(config: uvicorn.Config, store: Store, listener: socket.socket, 
     # 200 ms and more each time, in the midst of ticks; frozen, they are never looked at again.
     gc.collect()
     gc.freeze()
+    # Ticks make and drop thousands of values a second that hold no rings, which need no looking for.
+    gc.set_threshold(GARBAGE, 20, 10)
     # Before the server starts, so that a database that cannot be opened is one clear line.
     await store.open()
     host, port = listener.getsockname()[:2]

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
+from sim.changing import changer
 from sim.config import Config
 from sim.courtesy import yielding
 from sim.kinds import Kind, Move
 from sim.rules import followed_board, followed_table, move_movers, pedestrians_walk
 from sim.world import World
+
+_moved = changer(World, "tick", "avs", "right", "left", "pedestrians", "movers")
 
 
 def commit(world: World, move: Move, config: Config) -> World:
@@ -29,12 +30,12 @@ def commit(world: World, move: Move, config: Config) -> World:
     target = road.moved(world.av, move)
     if target is None:
         raise ValueError(f"{move} leads off the road")
-    return replace(
+    return _moved(
         world,
-        tick=world.tick + 1,
-        avs=(target, *world.avs[1:]),
-        right=motion.right,
-        left=motion.left,
-        pedestrians=followed_board(world.pedestrians, motion),
-        movers=followed_table(world.movers, motion),
+        world.tick + 1,
+        (target, *world.avs[1:]),
+        motion.right,
+        motion.left,
+        followed_board(world.pedestrians, motion),
+        followed_table(world.movers, motion),
     )

@@ -37,6 +37,6 @@ def outcome(after: World, crashes: tuple[Cause, ...], max_ticks: int) -> Outcome
     """How the episode stands after a tick with these collisions."""
     if crashes:
         return Outcome.CRASH
-    if all(cell < after.road.columns for cell in after.avs):
+    if max(after.avs) < after.road.columns:
         return Outcome.SUCCESS
     return Outcome.STUCK if after.episode_tick > max_ticks else Outcome.RUNNING

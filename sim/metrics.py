@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from sim.changing import changer
 from sim.kinds import Move, Outcome
 
 _LATERAL = frozenset((Move.LEFT, Move.RIGHT))
@@ -44,12 +45,12 @@ class Metrics:
     def after_move(self, move: Move, cell_m: float) -> Metrics:
         """With one more decision taken."""
         if move is Move.FORWARD:
-            return replace(self, forward=self.forward + 1, distance_m=self.distance_m + cell_m)
+            return _forward(self, self.forward + 1, self.distance_m + cell_m)
         if move in _LATERAL:
-            return replace(self, lateral=self.lateral + 1, distance_m=self.distance_m + cell_m)
+            return _lateral(self, self.lateral + 1, self.distance_m + cell_m)
         if move in _DIAGONAL:
-            return replace(self, diagonal=self.diagonal + 1, distance_m=self.distance_m + cell_m * 2**0.5)
-        return replace(self, stay=self.stay + 1)
+            return _diagonal(self, self.diagonal + 1, self.distance_m + cell_m * 2**0.5)
+        return _stay(self, self.stay + 1)
 
     def after_end(self, outcome: Outcome, ticks: int) -> Metrics:
         """With one more episode ended."""
@@ -60,3 +61,9 @@ class Metrics:
             stuck=self.stuck + (outcome is Outcome.STUCK),
             last_episode_ticks=ticks,
         )
+
+
+_forward = changer(Metrics, "forward", "distance_m")
+_lateral = changer(Metrics, "lateral", "distance_m")
+_diagonal = changer(Metrics, "diagonal", "distance_m")
+_stay = changer(Metrics, "stay")

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
+from sim.changing import changer
 from sim.commit import commit
 from sim.config import Config
 from sim.course import Course
@@ -61,6 +62,9 @@ class Tick:
     run: Run
     decision: Decision | None
     events: tuple[Event, ...]
+
+
+_advanced = changer(Run, "world", "metrics", "queue", "fault", "course")
 
 
 def decide(run: Run) -> Decision | None:
@@ -120,7 +124,7 @@ def advance(run: Run) -> Tick:
         ended=result is not Outcome.RUNNING,
     )
     return Tick(
-        replace(run, world=after, metrics=metrics, queue=run.queue[1:], fault=decision.fault, course=course),
+        _advanced(run, after, metrics, run.queue[1:], decision.fault, course),
         decision,
         tuple(events),
     )

@@ -13,7 +13,7 @@ from service.narrate.sayings import Sayings
 from service.sessions.facts import Answerable, Fact, Lesson
 from sim.events import Event, EventType
 from sim.kinds import Move
-from sim.plan import Decision, Measure
+from sim.plan import Decision, Measure, Option
 from sim.run import Run
 
 ENDS = (EventType.ARRIVED, EventType.CRASHED, EventType.STUCK)
@@ -39,30 +39,27 @@ class Narrator:
         if decision.fault is not None:
             return self._say("fault", planner=decision.planner, fault=decision.fault)
         naming = Naming(self._sayings, run)
-        first, chosen = decision.options[0], decision.chosen
-        name = self._sayings.move(decision.move, "name").capitalize()
         if decision.asked is not None:
-            return self._asked(decision, decision.asked, name, naming)
+            return self._asked(decision, decision.asked, naming)
         if decision.measure is not Measure.RANK:
-            return self._weighed(decision, name, naming)
-        if decision.move is first.move:
-            return self._straight_on(decision, run, naming)
+            return self._weighed(decision, naming)
+        first, chosen = decision.options[0], decision.chosen
+        if chosen is first:
+            return self._straight_on(chosen, run, naming)
         if decision.move is not Move.STAY:
-            return self._say("other", move=name, reason=self._sayings.met(first, "now", naming))
+            reason = self._sayings.met(first, "now", naming)
+            return self._say("other", move=self._named(decision.move), reason=reason)
         if chosen.verdict == "free":
             return self._say("no_way")
         return self._say("no_safe_way", reason=self._sayings.met(chosen, "now", naming))
 
-    def _straight_on(self, decision: Decision, run: Run, naming: Naming) -> str:
+    def _straight_on(self, chosen: Option, run: Run, naming: Naming) -> str:
         """Straight on, in a word; in a few more where something is passed closely, or the goal is near."""
-        world, cell = run.world, decision.chosen.cell
-        if cell is not None and cell[1] == 0:
+        if chosen.cell is not None and chosen.cell[1] == 0:
             return self._say("into_the_goal")
-        column, row = world.road.cell(world.av)
-        beside = [
-            world.road.index((c, row - 1)) for c in (column - 1, column + 1) if 0 <= c < world.road.columns
-        ]
-        movers = [world.movers[index] for index in beside if index in world.movers]
+        world, road = run.world, run.world.road
+        beside = [road.moved(world.av, move) for move in (Move.FORWARD_LEFT, Move.FORWARD_RIGHT)]
+        movers = [world.movers[index] for index in beside if index is not None and index in world.movers]
         if movers:
             return self._say("passing", who=naming.things(movers))
         return self._say("first_choice")
@@ -107,8 +104,9 @@ class Narrator:
         """The answer to a question, as JSON values."""
         return self._answers.answer(asked)
 
-    def _weighed(self, decision: Decision, name: str, naming: Naming) -> str:
+    def _weighed(self, decision: Decision, naming: Naming) -> str:
         """The move of a planner that knows what each costs in all, against going straight on."""
+        name = self._named(decision.move)
         straight, chosen = decision.option(Move.FORWARD), decision.chosen
         if chosen.cost is None:
             return self._say("no_way_on", move=name)
@@ -121,11 +119,15 @@ class Narrator:
         more = straight.cost - chosen.cost
         return self._say(f"saves_{decision.measure}", move=name, more=f"{more:g}")
 
-    def _asked(self, decision: Decision, asked: Move, name: str, naming: Naming) -> str:
+    def _asked(self, decision: Decision, asked: Move, naming: Naming) -> str:
         if decision.held_back:
             reason = self._sayings.met(decision.option(asked), "now", naming)
             return self._say("held_back", move=self._sayings.move(asked, "name"), reason=reason)
-        return self._say("asked", move=name)
+        return self._say("asked", move=self._named(decision.move))
+
+    def _named(self, move: Move) -> str:
+        """A move at the beginning of a sentence."""
+        return self._sayings.move(move, "name").capitalize()
 
     def _say(self, key: str, **parts: object) -> str:
         return self._sayings.say("log", "decisions", key, **parts)

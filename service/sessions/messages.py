@@ -11,7 +11,7 @@ from service.wire.decision import brief_decision_json
 from service.wire.encode import encoded
 from service.wire.state import Json, Standing, metrics_json, state_json
 from sim.edit import Change
-from sim.kinds import Cell, Kind
+from sim.kinds import Kind
 from sim.plan import Decision
 from sim.run import Run
 from sim.world import World
@@ -104,13 +104,12 @@ def motion_json(before: World, after: World) -> dict[str, Any]:
         was = {name: index for index, name in before.movers.items()}
         olds = [was.get(name, -1) for name in names]
     columns, right_before, right_after = after.road.columns, before.right, after.right
-    moved: dict[str, Cell] = {}
-    turned: dict[str, str] = {}
-    for old, index, name in zip(olds, after.movers, names, strict=True):
-        if old != index:
-            moved[name] = (index % columns, index // columns)
-        faces_right = right_after >> index & 1
-        if old >= 0 and right_before >> old & 1 != faces_right:
-            turned[name] = "right" if faces_right else "left"
+    ways = [*zip(olds, after.movers, names, strict=True)]
+    moved = {name: (index % columns, index // columns) for old, index, name in ways if old != index}
+    turned = {
+        name: "right" if right_after >> index & 1 else "left"
+        for old, index, name in ways
+        if old >= 0 and (right_before >> old ^ right_after >> index) & 1
+    }
     vehicles = {after.id_at(index, Kind.AV): after.road.cell(index) for index in after.avs}
     return {"vehicles": vehicles, "moved": moved, "turned": turned}

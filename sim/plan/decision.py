@@ -87,7 +87,10 @@ class Decision:
 
     def option(self, move: Move) -> Option:
         """The trace of one move."""
-        return next(option for option in self.options if option.move == move)
+        for option in self.options:
+            if option.move is move:
+                return option
+        raise ValueError(f"there is no option {move}")
 
     @property
     def chosen(self) -> Option:

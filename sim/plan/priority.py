@@ -11,12 +11,14 @@ Source: the pygame study this project grew from; see "Planners" in the project's
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Final
 
 from sim.config import Config
-from sim.forecast import Forecast
+from sim.forecast import Forecast, Verdict
 from sim.kinds import Move
 from sim.plan.decision import Decision, Option
+from sim.road import Road
 
 ORDER: Final = (
     Move.FORWARD,
@@ -30,13 +32,28 @@ ORDER: Final = (
 
 def options_in_order(forecast: Forecast) -> tuple[Option, ...]:
     """Every move with what it would meet; its cost is its place in the order."""
-    options = []
-    for rank, move in enumerate(ORDER):
-        end = forecast.road.moved(forecast.ego, move)
-        reason, causes = forecast.expect(forecast.ego, end)
-        cell = None if end is None else forecast.road.cell(end)
-        options.append(Option(move, cell, reason, None if reason.blocks else float(rank), causes))
-    return tuple(options)
+    # Most moves of most ticks are free: all that are, are found at once, and only the others looked into.
+    steps = forecast.steps(1 << forecast.ego)
+    ready = _free_options(forecast.road, forecast.ego)
+    return tuple([free if there else _met(forecast, free) for there, free in zip(steps, ready, strict=True)])
+
+
+def _met(forecast: Forecast, free: Option) -> Option:
+    """A move that is not free, with what it would meet."""
+    end = None if free.cell is None else forecast.road.index(free.cell)
+    reason, causes = forecast.expect(forecast.ego, end)
+    return Option(free.move, free.cell, reason, None, causes)
+
+
+@lru_cache(maxsize=4_096)
+def _free_options(road: Road, index: int) -> tuple[Option, ...]:
+    """Every move from a cell as it is where nothing would be met, in the order of `ORDER` and of `Steps`."""
+    ends = [road.moved(index, move) for move in ORDER]
+    cells = [None if end is None else road.cell(end) for end in ends]
+    return tuple(
+        Option(move, cell, Verdict.FREE, float(rank), ())
+        for rank, (move, cell) in enumerate(zip(ORDER, cells, strict=True))
+    )
 
 
 class PriorityPlanner:

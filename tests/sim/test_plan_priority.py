@@ -6,10 +6,11 @@ import pytest
 from hypothesis import given, settings
 
 from sim.config import Config
-from sim.forecast import Verdict
+from sim.forecast import Verdict, foretell
 from sim.kinds import Move
+from sim.perceive import perceive
 from sim.plan import Decision, planner_named, register
-from sim.plan.priority import ORDER, PriorityPlanner
+from sim.plan.priority import ORDER, PriorityPlanner, options_in_order
 from sim.run import Run, decide
 from sim.world import World
 from tests.sim.roads import road, run_on, worlds
@@ -129,3 +130,13 @@ def test_a_planner_that_is_not_there_is_named() -> None:
     decision = decide(Run.start(Config(planner="dwa")))
     assert decision is not None
     assert (decision.move, decision.fault) == (Move.STAY, "is not installed")
+
+
+@given(worlds())
+def test_all_moves_at_once_meet_what_each_alone_does(world: World) -> None:
+    forecast = foretell(perceive(world, run_on(world).config), 1)
+    for rank, option in enumerate(options_in_order(forecast)):
+        end = world.road.moved(world.av, option.move)
+        assert (option.reason, option.causes) == forecast.expect(world.av, end)
+        assert option.cell == (None if end is None else world.road.cell(end))
+        assert option.cost == (None if option.reason.blocks else float(rank))

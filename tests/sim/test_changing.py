@@ -1,0 +1,51 @@
+"""Values copied slot by slot are those that `dataclasses.replace` would make."""
+
+from __future__ import annotations
+
+from dataclasses import FrozenInstanceError, dataclass, fields, replace
+
+import pytest
+
+from sim.changing import changer
+from sim.config import Config
+from sim.kinds import Outcome
+from sim.metrics import Metrics
+from sim.road import Road
+from sim.run import Run
+from sim.world import World
+
+RUN = Run.start(Config(seed=3))
+
+
+@pytest.mark.parametrize("value", [RUN, RUN.world, RUN.metrics], ids=lambda value: type(value).__name__)
+def test_one_field_is_new_and_the_others_are_the_same(value: Run | World | Metrics) -> None:
+    for field in fields(value):
+        new = object()
+        changed = changer(type(value), field.name)(value, new)
+        assert type(changed) is type(value)
+        for other in fields(value):
+            was = getattr(value, other.name)
+            assert getattr(changed, other.name) is (new if other.name == field.name else was)
+
+
+def test_several_fields_come_in_the_order_they_were_named() -> None:
+    ended = changer(World, "ended", "outcome")(RUN.world, 7, Outcome.STUCK)
+    assert ended == replace(RUN.world, outcome=Outcome.STUCK, ended=7)
+    assert RUN.world.ended is None
+
+
+def test_what_is_made_cannot_be_changed_either() -> None:
+    made = changer(Metrics, "stay")(Metrics(), 4)
+    assert hash(made) == hash(Metrics(stay=4))
+    with pytest.raises(FrozenInstanceError):
+        made.stay = 5  # type: ignore[misc]
+
+
+def test_only_plain_slotted_classes_and_their_fields() -> None:
+    @dataclass(frozen=True)
+    class Open:
+        field: int
+
+    for kind, name in ((Open, "field"), (Metrics, "nothing"), (Road, "columns")):
+        with pytest.raises(TypeError):
+            changer(kind, name)
