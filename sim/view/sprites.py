@@ -25,19 +25,29 @@ def av_sprite(px: int) -> pygame.Surface:
     return _shadowed(_car(px, theme.AV, theme.AV_GLASS, lights=True))
 
 
-@lru_cache(maxsize=_SPRITES)
 def vehicle_sprite(px: int, look: int, heading: str, disabled: bool) -> pygame.Surface:
-    """An obstacle vehicle facing `heading`; `look` picks its colour."""
-    colour = theme.DISABLED if disabled else theme.VEHICLES[look % len(theme.VEHICLES)]
+    """An obstacle vehicle facing `heading`; any number `look` picks its colour."""
+    return _vehicle(
+        px, theme.DISABLED if disabled else theme.VEHICLES[look % len(theme.VEHICLES)], heading, disabled
+    )
+
+
+@lru_cache(maxsize=_SPRITES)
+def _vehicle(px: int, colour: Colour, heading: str, disabled: bool) -> pygame.Surface:
     sprite = _car(px, colour, theme.GLASS, lights=not disabled)
     return _shadowed(pygame.transform.rotate(sprite, 90 if heading == "left" else -90))
 
 
-@lru_cache(maxsize=_SPRITES)
 def pedestrian_sprite(px: int, look: int, heading: str, disabled: bool) -> pygame.Surface:
-    """A pedestrian from above: shoulders, head, and a foot ahead."""
+    """A pedestrian from above: shoulders, head, and a foot ahead; any number `look` picks the colour."""
+    return _pedestrian(
+        px, theme.DISABLED if disabled else theme.PEDESTRIANS[look % len(theme.PEDESTRIANS)], heading
+    )
+
+
+@lru_cache(maxsize=_SPRITES)
+def _pedestrian(px: int, body: Colour, heading: str) -> pygame.Surface:
     canvas, unit = _canvas(px)
-    body = theme.DISABLED if disabled else theme.PEDESTRIANS[look % len(theme.PEDESTRIANS)]
     centre = canvas.get_rect().center
     ahead = -1 if heading == "left" else 1
     _ellipse(
