@@ -17,6 +17,7 @@ from fastapi.routing import APIRoute
 
 from service.api import (
     advice,
+    bodiless,
     commands,
     config,
     counterfactual,
@@ -71,6 +72,8 @@ plain words.
 Everything the page does is a call documented here. Errors are problems (RFC 9457). A session is also
 a stream: open a WebSocket on `/api/v1/sessions/{id}/stream`; it sends `hello`, then `tick` and
 `changed` messages, and takes `{"type": "command", "id": "1", "text": "add five potholes"}`.
+
+HEAD answers as GET does, without the body. A parameter in the URL that a call does not have is refused.
 """
 
 
@@ -151,6 +154,7 @@ def create_app(
     app.add_middleware(gate.Gate, guard=guard)
     app.add_middleware(edges.SecurityHeaders)
     app.add_middleware(metrics.Counted, metrics=counted)
+    app.add_middleware(bodiless.Bodiless)
     app.add_middleware(RequestIds)
     errors.install(app)
     for resource in (

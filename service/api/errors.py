@@ -49,6 +49,8 @@ def respond(request: Request, error: Exception) -> Response:
             return problem_response(error)
         case RequestValidationError():
             return problem_response(_validation(error))
+        case HTTPException(status_code=405) if request.method == "OPTIONS":
+            return Response(status_code=204, headers={"Allow": _allowed(_methods_of(request))})
         case HTTPException():
             return problem_response(_http(request, error))
         case StoreError():
@@ -161,13 +163,19 @@ def _http(request: Request, error: HTTPException) -> ProblemError:
         case 405:
             offered = _methods_of(request)
             can = f"{where} is not offered; here one can {' or '.join(offered)}."
-            return WrongMethod(can, headers={"Allow": ", ".join(offered)})
+            return WrongMethod(can, headers={"Allow": _allowed(offered)})
         case 413:
             return TooLarge("The body is larger than is read here.", headers={"Connection": "close"})
         case 400:
             return Malformed("The body cannot be read.")
         case _:
             return NotFound(f"There is nothing at {where}. The calls there are stand at /docs.")
+
+
+def _allowed(offered: Sequence[str]) -> str:
+    """What stands in `Allow`: with GET comes HEAD, and OPTIONS is answered everywhere."""
+    also = ("HEAD", "OPTIONS") if "GET" in offered else ("OPTIONS",)
+    return ", ".join(sorted((*offered, *also)))
 
 
 def _methods_of(request: Request) -> list[str]:

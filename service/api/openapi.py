@@ -12,7 +12,7 @@ from typing import Any
 
 from fastapi import FastAPI
 
-from service.api import gate, idempotency, leads, preconditions
+from service.api import gate, idempotency, leads, preconditions, queries
 from service.api.errors import documented
 from service.problems import KINDS, MEDIA_TYPE
 
@@ -42,8 +42,8 @@ def _corrected(document: dict[str, Any], languages: Sequence[str]) -> dict[str, 
                 for status, response in operation["responses"].items()
                 if not _of_the_framework(response)
             }
-            for headers in (idempotency, preconditions, gate):
-                headers.document(method, path, operation, _add_problems)
+            for around in (queries, idempotency, preconditions, gate):
+                around.document(method, path, operation, _add_problems)
     leads.document(document["paths"])
     _name_languages(document, languages)
     document["components"]["securitySchemes"] = {"key": {"type": "http", "scheme": "bearer"}}

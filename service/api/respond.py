@@ -10,10 +10,13 @@ from typing import Any
 
 import orjson
 from fastapi import Request, Response
+from fastapi.dependencies.utils import get_flat_params
+from fastapi.params import Query
 from fastapi.routing import APIRoute
 
 from service.api.kept import kept_contract
 from service.api.preconditions import checked_first
+from service.api.queries import check_query
 from service.problems import MEDIA_TYPE, ProblemError
 from service.wire.encode import encoded
 
@@ -41,7 +44,7 @@ class _StrictRequest(Request):
 
 
 class StrictRoute(APIRoute):
-    """A route whose bodies are read by `_StrictRequest`, and whose headers are heeded."""
+    """A route whose bodies are read by `_StrictRequest`, and whose headers and questions are heeded."""
 
     def __init__(self, path: str, endpoint: Callable[..., Any], **given: Any) -> None:
         known = hasattr(endpoint, "__wrapped__")
@@ -50,8 +53,12 @@ class StrictRoute(APIRoute):
     def get_route_handler(self) -> Any:
         """The handler, given the stricter request."""
         handler = super().get_route_handler()
+        params = get_flat_params(self.dependant)
+        known = frozenset(each.alias for each in params if isinstance(each.field_info, Query))
 
         async def strict(request: Request) -> Response:
+            if request.scope["query_string"]:
+                check_query(request.query_params.multi_items(), known)
             return await kept_contract(_StrictRequest(request.scope, request.receive), handler)
 
         return strict

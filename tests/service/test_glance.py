@@ -67,4 +67,4 @@ async def test_a_deleted_session_is_not_remembered(service: Service) -> None:
 async def test_other_methods_go_the_long_way(service: Service) -> None:
     path = await service.session()
     answer = await service.client.post(f"{path}/state")
-    assert (answer.status_code, answer.headers["allow"]) == (405, "GET")
+    assert (answer.status_code, answer.headers["allow"]) == (405, "GET, HEAD, OPTIONS")

@@ -56,9 +56,9 @@ def told(answer: httpx.Response) -> tuple[int, bytes, list[tuple[str, str]]]:
 async def both(
     service: Service, name: str, body: bytes, headers: dict[str, str]
 ) -> tuple[httpx.Response, httpx.Response]:
-    """A call by the short way, and (having a question in its address) by the long one."""
+    """A call by the short way, and (having an empty question in its address) by the long one."""
     answers = []
-    for question in ("", "?long"):
+    for question in ("", "?&"):
         path = await service.session(paused=True)
         sent = {"content-type": JSON, **headers}
         if "idempotency-key" in sent:
@@ -90,7 +90,7 @@ async def test_what_is_no_json_is_told_the_same(service: Service, body: bytes) -
 async def test_what_is_no_session_is_told_the_same(service: Service, where: str) -> None:
     said = {"text": "pause"}
     short = await service.client.post(f"/api/v1/sessions/{where}", json=said)
-    long = await service.client.post(f"/api/v1/sessions/{where}?long", json=said)
+    long = await service.client.post(f"/api/v1/sessions/{where}?&", json=said)
     assert short.status_code == 404
     assert told(short) == told(long)
 
@@ -106,7 +106,7 @@ async def test_no_dependencies_are_solved_for_it(service: Service, monkeypatch: 
     assert (await service.act(path, {"do": "undo"})).status_code == 200
     assert (await service.client.post(f"{path}/step", json={})).status_code == 200
     with pytest.raises(AssertionError, match="the long way"):
-        await service.client.post(f"{path}/step?long", json={})
+        await service.client.post(f"{path}/step?&", json={})
 
 
 async def test_under_a_key_it_is_done_once_whichever_way_it_is_sent(service: Service) -> None:

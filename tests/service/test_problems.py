@@ -70,7 +70,7 @@ async def test_each_producer(
     answer = await service.client.request(method, path, content=content, headers=headers)
     document = assert_problem(answer, status, slug)
     if status == 405:
-        assert answer.headers["allow"] == ("GET, POST" if path == SESSIONS else "GET")
+        assert answer.headers["allow"] == f"GET, HEAD, OPTIONS{', POST' if path == SESSIONS else ''}"
     if status == 422:
         assert document["errors"]
 

@@ -1,0 +1,174 @@
+"""Manners of HTTP that every call has: HEAD as GET, OPTIONS and 405 with Allow, no question passed over."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterator
+from typing import Any
+
+import httpx
+import pytest
+
+from service.app import create_app
+from service.settings import Settings
+from service.store import MemoryStore
+from tests.service.fakes import FewSentences, HandClock
+from tests.service.live import running
+
+Json = dict[str, Any]
+APP = create_app(
+    Settings(database="memory:"), store=MemoryStore(), language=FewSentences(), clock=HandClock()
+)
+DOCUMENT: Json = APP.openapi()
+OPERATIONS = [
+    pytest.param(path, method, operation, id=f"{method} {path}")
+    for path, item in DOCUMENT["paths"].items()
+    for method, operation in item.items()
+]
+ENDLESS = "/api/v1/sessions/{session_id}/events/stream"
+READING = [each for each in OPERATIONS if each.values[1] == "get"]
+PAGES = ("/", "/docs", "/docs/start.js", "/openapi.json", "/favicon.svg", "/src/main.js")
+
+
+@pytest.fixture
+async def client() -> AsyncIterator[httpx.AsyncClient]:
+    transport = httpx.ASGITransport(APP, raise_app_exceptions=False)
+    async with httpx.AsyncClient(transport=transport, base_url="http://service") as client:
+        yield client
+
+
+@pytest.fixture
+async def identity(client: httpx.AsyncClient) -> str:
+    answer = await client.post("/api/v1/sessions", json={"seed": 7, "paused": True})
+    found = str(answer.json()["id"])
+    await client.post(f"/api/v1/sessions/{found}/step", json={"ticks": 5})
+    return found
+
+
+def example(operation: Json) -> Json:
+    """What is to be sent."""
+    if "requestBody" not in operation:
+        return {}
+    examples = operation["requestBody"]["content"]["application/json"]["examples"]
+    return {"json": next(iter(examples.values()))["value"]}
+
+
+def told(answer: httpx.Response) -> dict[str, str]:
+    own = ("x-request-id", "date")
+    return {name: value for name, value in answer.headers.items() if name not in own}
+
+
+@pytest.mark.parametrize(("path", "method", "operation"), READING)
+async def test_head_is_get_without_the_body(
+    client: httpx.AsyncClient, identity: str, path: str, method: str, operation: Json
+) -> None:
+    if path == ENDLESS:
+        return  # below
+    assert (method, bool(operation)) == ("get", True)
+    address = path.format(session_id=identity, tick=2)
+    got, head = await client.get(address), await client.head(address)
+    assert (head.status_code, head.content) == (got.status_code, b"")
+    if path not in ("/metrics", "/healthz"):  # which tell of what was just asked
+        assert told(head) == told(got)
+
+
+@pytest.mark.parametrize("path", [*PAGES, "/api/v1/sessions/nobody", "/nowhere"])
+async def test_head_of_pages_and_of_what_is_not_there(client: httpx.AsyncClient, path: str) -> None:
+    got, head = await client.get(path), await client.head(path)
+    assert (head.status_code, head.content, told(head)) == (got.status_code, b"", told(got))
+
+
+async def test_head_of_what_has_no_end_ends() -> None:
+    settings = Settings(database="memory:")
+    app = create_app(settings, store=MemoryStore())
+    async with running(app, settings) as service, httpx.AsyncClient(base_url=service.http) as client:
+        made = await client.post("/api/v1/sessions", json={"seed": 7})
+        path = f"{made.headers['location']}/events/stream"
+        head = await asyncio.wait_for(client.head(path), 5)
+        assert (head.status_code, head.content) == (200, b"")
+        assert head.headers["content-type"].startswith("text/event-stream")
+        # The same connection serves what comes next, and nobody was left behind.
+        assert (await client.get("/healthz")).json()["watchers"] == 0
+
+
+async def test_head_is_refused_as_get_is(client: httpx.AsyncClient, identity: str) -> None:
+    answer = await client.head(f"/api/v1/sessions/{identity}/state?tick=99")
+    assert (answer.status_code, answer.content) == (422, b"")
+    assert answer.headers["content-type"] == "application/problem+json"
+
+
+@pytest.mark.parametrize("path", list(DOCUMENT["paths"]))
+async def test_options_and_wrong_methods_tell_what_is_allowed(
+    client: httpx.AsyncClient, identity: str, path: str
+) -> None:
+    address = path.format(session_id=identity, tick=2)
+    methods = {method.upper() for method in DOCUMENT["paths"][path]} | {"OPTIONS"}
+    methods |= {"HEAD"} if "GET" in methods else set()
+    options = await client.options(address)
+    assert (options.status_code, options.content) == (204, b"")
+    wrong = await client.put(address, json={})
+    assert wrong.status_code == 405
+    for answer in (options, wrong):
+        assert set(answer.headers["allow"].split(", ")) == methods
+
+
+async def test_options_of_what_is_not_there(client: httpx.AsyncClient) -> None:
+    answer = await client.options("/nowhere")
+    assert (answer.status_code, answer.json()["type"]) == (404, "/problems/not-found")
+
+
+@pytest.mark.parametrize(
+    ("path", "method", "operation"), [each for each in OPERATIONS if each.values[0].startswith("/api/")]
+)
+async def test_a_parameter_that_a_call_does_not_have_is_refused(
+    client: httpx.AsyncClient, identity: str, path: str, method: str, operation: Json
+) -> None:
+    address = path.format(session_id=identity, tick=2)
+    before = (await client.get(f"/api/v1/sessions/{identity}/state")).content
+    answer = await client.request(method, address, params={"surprise": "1"}, **example(operation))
+    assert (answer.status_code, answer.json()["type"]) == (422, "/problems/invalid")
+    assert answer.headers["content-type"] == "application/problem+json"
+    assert [error["field"] for error in answer.json()["errors"]] == ["surprise"]
+    assert "invalid" in operation["responses"]["422"]["content"]["application/problem+json"]["examples"]
+    assert (await client.get(f"/api/v1/sessions/{identity}/state")).content == before
+
+
+@pytest.mark.parametrize(("path", "method", "operation"), OPERATIONS)
+async def test_every_parameter_of_the_document_is_known_and_a_slip_is_told(
+    client: httpx.AsyncClient, identity: str, path: str, method: str, operation: Json
+) -> None:
+    address = path.format(session_id=identity, tick=2)
+    for parameter in operation.get("parameters", []):
+        if parameter["in"] != "query":
+            continue
+        name = parameter["name"]
+        slip = f"{name}x"
+        answer = await client.request(method, address, params={slip: "1"}, **example(operation))
+        assert answer.json()["errors"][0]["field"] == slip
+        assert answer.json()["errors"][0]["message"].endswith(f"did you mean {name}")
+        if path != ENDLESS:
+            known = await client.request(method, address, params={name: "1"}, **example(operation))
+            assert "known here" not in known.text
+
+
+async def test_what_is_said_of_parameters_that_are_not_known(
+    client: httpx.AsyncClient, identity: str
+) -> None:
+    own = f"/api/v1/sessions/{identity}"
+    state = (await client.get(f"{own}/state?tik=5")).json()
+    assert state["detail"] == "Of the parameters in the URL: tik is not known here; did you mean tick."
+    twice = (await client.get(f"{own}/state?tick=1&tick=2")).json()
+    assert twice["errors"] == [{"field": "tick", "message": "is there more than once"}]
+    none = (await client.get(f"{own}?tick=5")).json()
+    assert none["errors"][0]["message"] == "is not known here, where there are none"
+    nameless = (await client.get(f"{own}/decisions?=5")).json()
+    assert nameless["detail"] == (
+        "Of the parameters in the URL: a nameless one is not known here, where there are after, limit."
+    )
+    many = (await client.get(f"{own}?" + "&".join(f"{'x' * 500}{n}" for n in range(50)))).json()
+    assert len(str(many)) < 2_000
+
+
+async def test_the_page_its_files_and_the_signs_of_life_take_what_comes(client: httpx.AsyncClient) -> None:
+    for path in (*PAGES, "/healthz", "/readyz", "/metrics"):
+        assert (await client.get(f"{path}?surprise=1")).status_code == 200, path
