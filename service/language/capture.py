@@ -26,6 +26,7 @@ RETURNS = "returns"
 """The form of what brings a name only where that name is known: "go back to autopilot" names no moment."""
 MAX_SHORT = 3
 """Words a name may have after a bare verb, unless it is in quotation marks."""
+_NONE: frozenset[str] = frozenset()
 STARTS_AFTER = "separator"
 COLON = "colon"
 
@@ -43,12 +44,21 @@ def names(tokens: Sequence[Token], lexicon: Lexicon, said: str, topic: Topic) ->
     and the names that were given and so can be gone back to.
     """
     found: dict[int, Name] = {}
+    words = {token.text for token in tokens}
+    teaching, capturing = lexicon.begins.get(TEACH, _NONE), lexicon.begins.get(CAPTURE, _NONE)
+    forgetting = lexicon.begins.get(FORGETS, _NONE)
+    if words.isdisjoint(forgetting) and words.isdisjoint(teaching) and words.isdisjoint(capturing):
+        return found
     if (begun := _forgets(tokens, lexicon, topic.phrases)) is not None:
         start, end = begun
         quoted = _quoted(tokens, start, said)
         return {start: quoted or Name(end, said[tokens[start].start : tokens[end - 1].end])}
     at, meaning = 0, 0
     while at < len(tokens):
+        word = tokens[at].text
+        if word not in teaching and word not in capturing:
+            at += 1
+            continue
         after = _longest(lexicon, tokens, at, TEACH)
         if after and not found and (name := _taught(tokens, after, lexicon, said)) is not None:
             found[after] = name

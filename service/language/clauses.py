@@ -105,12 +105,17 @@ def fragments(lattice: Lattice, start: int, end: int) -> list[Fragment]:
     found: list[Fragment] = []
     start, end = _past_interjection(lattice, start, end), _before_tag(lattice, start, end)
     after, begin, at, inside = "pause", start, start, start
-    while at < end:
-        separator = max(
-            (e for e in lattice.edges[at] if e.sense.concept == SEPARATOR and e.end <= end),
-            key=lambda edge: edge.end,
-            default=None,
-        )
+    while at < end and SEPARATOR in lattice.concepts:
+        separator: Edge | None = None
+        reach = inside
+        for edge in lattice.edges[at]:
+            stop, concept = edge[1], edge[2][0]
+            if stop > end or concept == INTERJECTION:
+                continue
+            if concept != SEPARATOR:
+                reach = max(reach, stop)
+            elif separator is None or stop > separator.end:
+                separator = edge
         if separator is not None and inside <= at:
             if _says_something(lattice, begin, at):
                 found.append(Fragment(after, begin, at))
@@ -119,9 +124,7 @@ def fragments(lattice: Lattice, start: int, end: int) -> list[Fragment]:
                 after = str(separator.sense.value)
             at = begin = inside = separator.end
             continue
-        for edge in lattice.edges[at]:
-            if edge.end <= end and edge.sense.concept not in (SEPARATOR, INTERJECTION):
-                inside = max(inside, edge.end)
+        inside = reach
         at += 1
     if _says_something(lattice, begin, end):
         found.append(Fragment(after, begin, end))
@@ -130,6 +133,8 @@ def fragments(lattice: Lattice, start: int, end: int) -> list[Fragment]:
 
 def _past_interjection(lattice: Lattice, start: int, end: int) -> int:
     """Past a first part that only calls for attention: "right, …", "no, …", "car, …"."""
+    if INTERJECTION not in lattice.concepts:
+        return start
     longest = max((edge.end for edge in lattice.edges[start]), default=start) if start < end else start
     for edge in lattice.edges[start] if start < end else ():
         if edge.end == longest and edge.sense.concept == INTERJECTION and edge.end < end:
@@ -161,15 +166,17 @@ def _says_something(lattice: Lattice, start: int, end: int, *, marks: bool = Fal
     """Whether the tokens are not all glue; with `marks`, or punctuation."""
     at = start
     while at < end:
-        glue = [
-            e.end
-            for e in lattice.edges[at]
-            if e.end <= end
-            and ((e.sense.concept == GLUE and not e.sense.form) or (marks and e.sense.concept == SEPARATOR))
-        ]
-        if not glue or any(e.sense.concept == REPEATED and e.end <= end for e in lattice.edges[at]):
+        passed = 0
+        for _, stop, (concept, _, form), _ in lattice.edges[at]:
+            if stop > end:
+                continue
+            if concept == REPEATED:
+                return True
+            if stop > passed and ((concept == GLUE and not form) or (marks and concept == SEPARATOR)):
+                passed = stop
+        if not passed:
             return True
-        at = max(glue)
+        at = passed
     return False
 
 
@@ -312,11 +319,14 @@ class Divider:
         edges: dict[int, list[Edge]] = {}
         forms = set(self._moods)
         concepts: set[str] = {edge.sense.concept for edge in context.verb}
-        for edge in self._lattice.between(start, end):
-            edges.setdefault(edge.start, []).append(edge)
-            concepts.add(edge.sense.concept)
-            if edge.sense.concept == ALLOWS:
-                forms.add(str(edge.sense.value))
+        for at, starting in enumerate(self._lattice.edges[start:end], start=start):
+            inside = [edge for edge in starting if edge[1] <= end]
+            if inside:
+                edges[at] = inside
+                concepts.update([edge[2][0] for edge in inside])
+        if ALLOWS in concepts:
+            for inside in edges.values():
+                forms.update([str(edge.sense.value) for edge in inside if edge.sense.concept == ALLOWS])
         if context.noun is not None:
             for edge in understood_nouns(self._lattice, start, end, context.noun, self._vague):
                 edges.setdefault(edge.start, []).append(edge)

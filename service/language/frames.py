@@ -63,7 +63,7 @@ class Filled:
         return [
             edge
             for edge in self.slots
-            if edge.concept in concepts or edge.concept.partition(".")[0] in concepts
+            if (concept := edge.sense.concept) in concepts or concept.partition(".")[0] in concepts
         ]
 
 

@@ -24,6 +24,10 @@ class Sense(NamedTuple):
     form: str = ""
 
 
+Meant = tuple[tuple[Sense, Words], ...]
+"""Senses, each with the whole phrase where it is half of a split one."""
+
+
 @dataclass(slots=True)
 class Node:
     """A place in the tree of phrases."""
@@ -32,6 +36,16 @@ class Node:
     senses: list[Sense] | None = None
     split: dict[Words, list[Sense]] | None = None
     """Whole split phrase → the senses this half of it has."""
+    _meant: tuple[Meant, frozenset[str]] | None = None
+
+    @property
+    def meant(self) -> tuple[Meant, frozenset[str]]:
+        """All that the phrase which ends here means, and the concepts; for a lexicon that is complete."""
+        if self._meant is None:
+            pairs: list[tuple[Sense, Words]] = [(sense, ()) for sense in self.senses or ()]
+            pairs += [(sense, whole) for whole, senses in (self.split or {}).items() for sense in senses]
+            self._meant = tuple(pairs), frozenset(sense.concept for sense, _ in pairs)
+        return self._meant
 
 
 Match = tuple[int, Sequence[Sense], Words]
@@ -151,6 +165,38 @@ class Lexicon:
                 open_paths.append((after, here + 1, (*slots, ordinals[here])))
             if (after := node.next.get(tokens[here].text)) is not None:
                 open_paths.append((after, here + 1, slots))
+        return found
+
+    def plain_matches(
+        self,
+        tokens: Sequence[Token],
+        at: int,
+        numbers: Mapping[int, Found],
+        ordinals: Mapping[int, int],
+    ) -> list[tuple[int, Node]] | None:
+        """The ends of all phrases that start at token `at`, in the order of `matches`.
+
+        None where a number, an id or an ordinal may stand in one of them: that is for `matches`.
+        """
+        found: list[tuple[int, Node]] = []
+        node = self._root
+        for here in range(at, len(tokens)):
+            following = node.next
+            token = tokens[here]
+            if (
+                (here in numbers and NUMBER in following)
+                or (token.id and ID in following)
+                or (here in ordinals and ORDINAL in following)
+            ):
+                return None
+            after = following.get(token.text)
+            if after is None:
+                break
+            node = after
+            if node.senses is not None or node.split is not None:
+                found.append((here + 1, node))
+            if not node.next:
+                break
         return found
 
     def phrases(self) -> Iterator[tuple[Words, tuple[Sense, ...]]]:

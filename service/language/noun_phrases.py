@@ -22,7 +22,7 @@ OF_THE = "of_the"
 DETERMINED = "the"
 """Form of senses that hold only after a bare definite article: "the car" is the vehicle itself."""
 
-_AMOUNTS = (NUMBER, QUANTITY)
+_AMOUNTS = frozenset((NUMBER, QUANTITY))
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,24 +46,27 @@ class _Gathered:
 
 def add_noun_phrases(lattice: Lattice, vague: int) -> None:
     """Give each noun its quantity; a bare noun's edge is replaced. `vague` is what "a few" counts as."""
+    named = {concept for concept in lattice.concepts if concept.startswith(NOUN)}
+    if not named:
+        return
     amounts: dict[int, list[Edge]] = {}
-    for edge in lattice.all():
-        if edge.sense.concept in _AMOUNTS:
-            amounts.setdefault(edge.end, []).append(edge)
+    for starting in lattice.edges:
+        for edge in starting:
+            if edge[2][0] in _AMOUNTS:
+                amounts.setdefault(edge[1], []).append(edge)
     for at in range(lattice.size):
-        nouns = [edge for edge in lattice.edges[at] if edge.sense.concept.startswith(NOUN)]
+        nouns = [edge for edge in lattice.edges[at] if edge[2][0] in named]
         if not nouns:
             continue
         gathered = _gather(amounts, at)
-        lattice.edges[at] = [
-            edge
-            for edge in lattice.edges[at]
-            if edge not in nouns and (edge.sense.form != DETERMINED or not edge.sense.form)
-        ] + [
-            Edge(gathered.start, edge.end, Sense(edge.sense.concept, edge.sense.value))
-            for edge in lattice.edges[at]
-            if edge.sense.form == DETERMINED and gathered.said == {"the"} and gathered.number is None
-        ]
+        here = lattice.edges[at]
+        lattice.edges[at] = [e for e in here if e[2][0] not in named and e[2][2] != DETERMINED]
+        if gathered.said == {"the"} and gathered.number is None:
+            lattice.edges[at] += [
+                Edge(gathered.start, edge.end, Sense(edge.sense.concept, edge.sense.value))
+                for edge in here
+                if edge.sense.form == DETERMINED
+            ]
         for noun in nouns:
             phrase = _joined(gathered, noun, vague)
             lattice.edges[gathered.start].append(phrase)

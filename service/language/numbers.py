@@ -9,8 +9,9 @@ frames to say.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
 from itertools import takewhile
 from typing import Any
 
@@ -22,6 +23,9 @@ MAX_DECIMALS = 40
 """Longer ones are no numbers anyone says; a float written out exactly is shorter."""
 LONGEST_WORD = 80
 """Letters of the longest word that is read as a number in one word."""
+
+REMEMBERED = 4_096
+"""Words of which it is remembered which number they are."""
 
 OPENING = ("(", "[")
 """After one of these "3,7" is a pair and not a number, whatever the decimal mark."""
@@ -71,6 +75,16 @@ class NumberWords:
     thousands: str = ","
     part_ending: str = "s"
     """What a word for a part ends in when there are several: "quarters"."""
+    _first: frozenset[str] = field(init=False, repr=False, compare=False)
+    """Words that a number may begin with, those put together aside."""
+    _in_one_word: Callable[[str], int | None] = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        tables = (self.ones, self.tens, self.fractions)
+        first = self.minus | self.point | self.articles | {word for table in tables for word in table}
+        object.__setattr__(self, "_first", first)
+        # Taking a word apart is slow where numbers are written together, and most words are asked of again.
+        object.__setattr__(self, "_in_one_word", lru_cache(REMEMBERED)(self._taken_apart))
 
     @classmethod
     def from_data(cls, data: Mapping[str, Any]) -> NumberWords:
@@ -97,6 +111,12 @@ class NumberWords:
         """Every word that can be part of a number and of little else: never guessed at in a typo."""
         tables = (self.ones, self.tens, self.powers, self.groups, self.fractions, self.ordinals)
         return frozenset(word for table in tables for word in table) | self.minus | self.point
+
+    def may_begin(self, token: Token) -> bool:
+        """Whether any number begins with a token; nearly all tokens are no such."""
+        if token.digits or token.text in self._first:
+            return True
+        return self.together is not None and self._in_one_word(token.text) is not None
 
     def ordinal(self, token: Token) -> int | None:
         """The place in a row a token names: "second" and "2nd" are 2."""
@@ -181,7 +201,7 @@ class NumberWords:
         """Whether more may be joined to a word: "hundert und fünf"."""
         return self.together is not None and word.endswith(tuple(self.powers))
 
-    def _in_one_word(self, word: str) -> int | None:
+    def _taken_apart(self, word: str) -> int | None:
         """The number that is one word: "seven", and "einundzwanzig" where words are put together."""
         plain = self.ones.get(word)
         if plain is not None or self.together is None or word in self.together.bound:

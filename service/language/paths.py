@@ -24,6 +24,9 @@ SEPARATOR = "separator"
 NEGATION = "negation"
 MAX_STEPS = 600
 
+_LOOSE = frozenset((GLUE, ALLOWS, SECOND, SPEAKER, SEPARATOR, NEGATION))
+"""What a frame may have no use for."""
+
 
 @dataclass(frozen=True, slots=True)
 class Stretch:
@@ -86,14 +89,13 @@ def _usable(frame: Frame, stretch: Stretch) -> dict[int, list[tuple[Edge, bool]]
     for at in range(stretch.end - 1, stretch.start - 1, -1):
         here: list[tuple[Edge, bool]] = []
         for edge in stretch.edges.get(at, ()):
-            if edge.end not in reachable:
+            _, end, (concept, _, form), _ = edge
+            if end not in reachable:
                 continue
-            sense = edge.sense
-            concept = sense.concept
-            if concept in accepted and (not sense.form or sense.form in forms):
+            if concept in accepted and (not form or form in forms):
                 here.append((edge, True))
-            elif (
-                (concept == GLUE and (not sense.form or sense.form in forms))
+            elif concept in _LOOSE and (
+                (concept == GLUE and (not form or form in forms))
                 or concept in (ALLOWS, SECOND)
                 or (concept == SPEAKER and frame.speaker)
                 or (stretch.joined and concept == SEPARATOR)
@@ -101,7 +103,8 @@ def _usable(frame: Frame, stretch: Stretch) -> dict[int, list[tuple[Edge, bool]]
             ):
                 here.append((edge, False))
         if here:
-            here.sort(key=lambda pair: (-pair[0].end, not pair[1]))
+            if len(here) > 1:
+                here.sort(key=lambda pair: (-pair[0].end, not pair[1]))
             usable[at] = here
             reachable.add(at)
     return usable if stretch.start in reachable else None

@@ -64,10 +64,11 @@ def heard(parse: Callable[[str, Topic], Parse], text: str, topic: Topic) -> Pars
 def add_known(lattice: Lattice, tokens: Sequence[Token], topic: Topic) -> None:
     """Edges for ids, and for phrases that were taught."""
     words = [token.text for token in tokens]
+    phrases = topic.phrases if topic.phrases.by_first else None
     for at, token in enumerate(tokens):
         if token.id:
             lattice.edges[at].append(_things(at, at + 1, (token.text,)))
-        taught = topic.phrases.at(words, at)
+        taught = None if phrases is None else phrases.at(words, at)
         if taught is not None:
             lattice.edges[at].append(Edge(at, taught[0], Sense(TAUGHT, taught[1])))
 
@@ -75,7 +76,7 @@ def add_known(lattice: Lattice, tokens: Sequence[Token], topic: Topic) -> None:
 def add_referents(lattice: Lattice, topic: Topic) -> list[Unclear]:
     """Edges for all that words refer to; what stays unclear. After noun phrases were found."""
     unclear: list[Unclear] = []
-    for edge in [edge for starting in lattice.edges for edge in starting if edge.sense.concept in _REFERRING]:
+    for edge in [edge for starting in lattice.edges for edge in starting if edge[2][0] in _REFERRING]:
         found = _pronoun(edge, lattice, topic) if edge.sense.concept == REFERS else _pointed(edge, topic)
         if isinstance(found, Unclear):
             unclear.append(found)

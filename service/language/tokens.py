@@ -10,8 +10,8 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 from sim.kinds import Kind
 
@@ -42,8 +42,7 @@ _TOKEN = re.compile(
 )
 
 
-@dataclass(frozen=True, slots=True)
-class Token:
+class Token(NamedTuple):
     """One word or mark: `text` as the lexicon knows it, `[start, end)` its place in the written text."""
 
     text: str
@@ -149,4 +148,4 @@ def written(text: str, tokens: Sequence[Token]) -> str:
 
 def renamed(token: Token, word: str) -> Token:
     """The same place in the text, read as another word."""
-    return replace(token, text=word)
+    return token._replace(text=word)

@@ -16,6 +16,9 @@ THEN_WHAT = "then_what"
 TEACH = "teach"
 MEANS = "means"
 
+_OPENING = frozenset((WHAT_IF, IF, THEN_WHAT, TEACH))
+"""Where none of these is said, nothing is wrapped."""
+
 TEACHING = frozenset({"teach", "forget"})
 NO_CHANGE = TEACHING | {"ask"}
 """Actions that cannot stand in a condition."""
@@ -62,6 +65,8 @@ def _sentences(lattice: Lattice, start: int, end: int) -> list[tuple[int, int]]:
 
 def _wrapped(lattice: Lattice, start: int, end: int, divide: Divide) -> Clause | Fragment | None:
     """The clause a wrapped sentence is, the part of it that nothing fits, or None when it is not wrapped."""
+    if lattice.concepts.isdisjoint(_OPENING):
+        return None
     begin, start = start, _past_glue(lattice, start, end)
     if start == end:
         return None
