@@ -27,6 +27,7 @@ from service.language.noun_phrases import NOUN, QUANTITY, Amount, add_noun_phras
 from service.language.parse_types import Ambiguous, Choice, Correction, Parse, Reason, Refused, Understood
 from service.language.paths import ALLOWS, SEPARATOR
 from service.language.references import Unclear, add_known, add_referents
+from service.language.remembered import Remembered
 from service.language.sentences import Sentences
 from service.language.suggestions import Suggestions
 from service.language.tokens import Token, as_said, normalise, renamed, tokenise
@@ -53,6 +54,7 @@ class Language:
         self._scanner = Scanner(data.lexicon, data.numbers)
         self.frames = Frames(data.frames, data.parameters)
         self.sentences = Sentences(data.sentences)
+        self._remembered = Remembered(lambda text, topic: self.read(text, topic, asking=True))
 
     @classmethod
     def load(
@@ -76,7 +78,7 @@ class Language:
 
         `topic` is what it may refer to; without one it is read as a sentence that stands alone.
         """
-        return self.read(text, topic, asking=True)
+        return self._remembered.parse(text, topic)
 
     def read(self, text: str, topic: Topic, *, asking: bool) -> Parse:
         """`parse`; unless `asking`, what would be asked about is refused."""
