@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from service.sessions.log import LogEvent
@@ -38,24 +38,25 @@ def hello_message(
 
 
 def tick_message(
-    standing: Standing,
+    sequence: int,
+    standing: Callable[[], Standing],
     before: Run,
     after: Run,
     decision: Decision | None,
     narration: str | None,
     lines: Sequence[LogEvent],
 ) -> bytes:
-    """One tick: what moved, or the whole state where a new road began."""
+    """One tick: what moved, or the whole state, `standing` included, where a new road began."""
     world = after.world
     message: Json = {
         "type": "tick",
         "tick": world.tick,
-        "sequence": standing.sequence,
+        "sequence": sequence,
         "episode": world.episode,
         "status": world.outcome,
     }
     if world.episode != before.world.episode:
-        message["state"] = state_json(standing, after)
+        message["state"] = state_json(standing(), after)
     else:
         message.update(motion_json(before.world, world))
     message["decision"] = None if decision is None else brief_decision_json(decision)

@@ -352,7 +352,7 @@ class Session:
     def _note(self, run: Run, part: Applied | Tick) -> list[LogEvent]:
         """Write the events of a tick or an action to the log."""
         self._later.settle()
-        return self._write(self._worded(run, part))
+        return self._write(self._worded(run, part)) if part.events else []
 
     def _worded(self, run: Run, part: Applied | Tick) -> list[tuple[Event, str]]:
         return [(event, self._around.words.event(event, run)) for event in part.events]
@@ -373,7 +373,9 @@ class Session:
         def message() -> bytes:
             decision = tick.decision
             narration = None if decision is None else self._around.words.decision(decision, before)
-            return tick_message(self.standing, before, tick.run, decision, narration, lines)
+            return tick_message(
+                self.sequence, lambda: self.standing, before, tick.run, decision, narration, lines
+            )
 
         self.watchers.publish(tick.run.world.tick, message)
 
