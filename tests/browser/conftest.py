@@ -1,7 +1,7 @@
 """The real service and a real Chromium; every visit must end without an error behind the scenes.
 
-All of it lives as long as one test module and no longer: Playwright's event loop must be gone
-before asynchronous tests of other modules run in the same process.
+One service and one browser for all of these tests, and no longer: Playwright's event loop must be gone
+before asynchronous tests of other folders run in the same process.
 """
 
 from __future__ import annotations
@@ -14,8 +14,10 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, sync_playwright
 
+from tests.browser.hands import Road, empty_road
 from tests.browser.service_process import ServiceProcess
 from tests.browser.visitor import Visitor
+from tests.browser.walking import began
 
 # Nothing of a browser's own is wanted on the network; the rest is for running as root without a screen.
 QUIET = [
@@ -31,9 +33,13 @@ QUIET = [
 Visit = Callable[..., Visitor]
 
 
+# The first is the same engine without windows, which takes two thirds of the other's work.
+PROGRAMS = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")
+
+
 def chromium() -> str | None:
     """The system's Chromium, else (None) the one that `playwright install chromium` brings."""
-    return shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    return next(filter(None, map(shutil.which, PROGRAMS)), None)
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -45,7 +51,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             item.add_marker(pytest.mark.xdist_group("browser"))
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="package")
 def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ServiceProcess]:
     process = ServiceProcess(tmp_path_factory.mktemp("service") / "roadtalk.db")
     process.start()
@@ -53,9 +59,9 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ServiceProcess
     process.kill()
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="package")
 def browser() -> Iterator[Browser]:
-    """One for all visits of a module."""
+    """One for all visits."""
     with sync_playwright() as playwright:
         running = playwright.chromium.launch(executable_path=chromium(), args=QUIET)
         yield running
@@ -80,3 +86,17 @@ def visit(service: ServiceProcess, browser: Browser) -> Iterator[Visit]:
     for visitor in visitors:
         visitor.close()
     assert problems == []
+
+
+@pytest.fixture
+def road(visit: Visit, service: ServiceProcess) -> Road:
+    """An empty road with the clock stopped."""
+    return empty_road(visit, service)
+
+
+@pytest.fixture
+def run(visit: Visit) -> Visitor:
+    """A paused run of so many ticks, with something said at tick 40 and heavy traffic from there on."""
+    visitor = visit()
+    began(visitor)
+    return visitor

@@ -19,8 +19,8 @@ from PIL import Image
 from playwright.sync_api import Browser, expect, sync_playwright
 
 from tests.browser.conftest import QUIET, chromium
+from tests.browser.hands import PLACE_OF
 from tests.browser.service_process import ServiceProcess
-from tests.browser.test_hands import PLACE_OF
 from tests.browser.visitor import Visitor
 
 FOLDER = Path(__file__).parent / "pictures"

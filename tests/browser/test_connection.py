@@ -3,11 +3,22 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
+import pytest
 from playwright.sync_api import expect
 
 from tests.browser.conftest import Visit
 from tests.browser.service_process import ServiceProcess
+
+
+@pytest.fixture(scope="module")
+def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ServiceProcess]:
+    """One of this module's own, since it is killed."""
+    process = ServiceProcess(tmp_path_factory.mktemp("service") / "roadtalk.db")
+    process.start()
+    yield process
+    process.kill()
 
 
 def test_a_killed_service_leaves_a_stale_page_that_comes_back(service: ServiceProcess, visit: Visit) -> None:

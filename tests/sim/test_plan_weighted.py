@@ -24,6 +24,9 @@ from tests.sim.roads import road, run_on, worlds
 from tests.sim.slow_search import totals
 from tests.sim.twin import position
 
+# What they use is compiled at first use, once in every worker that has one of them.
+pytestmark = pytest.mark.xdist_group("compiled")
+
 PREFERENCES = st.lists(st.sampled_from(get_args(Preference)), unique=True, max_size=3)
 MOVES = list(Move)
 

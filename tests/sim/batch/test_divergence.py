@@ -4,10 +4,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import pytest
+
 from sim.batch import first_divergence
 from sim.config import Config
 from sim.kinds import Outcome
 from sim.run import Run, advance
+
+# What they use is compiled at first use, once in every worker that has one of them.
+pytestmark = pytest.mark.xdist_group("compiled")
 
 
 def parting(config: Config) -> int:

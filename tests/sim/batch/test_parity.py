@@ -18,6 +18,9 @@ from sim.world import World
 from tests.sim.batch.parity import difference, mixed_configs
 from tests.sim.roads import run_on, worlds
 
+# What they use is compiled at first use, once in every worker that has one of them.
+pytestmark = pytest.mark.xdist_group("compiled")
+
 CONFIGS = list(mixed_configs(seed=1, count=240))
 
 

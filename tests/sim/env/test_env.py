@@ -17,6 +17,9 @@ from sim.env import RoadEnv, RoadVectorEnv
 from sim.kinds import Move, Outcome
 from sim.run import Run, advance
 
+# What they use is compiled at first use, once in every worker that has one of them.
+pytestmark = pytest.mark.xdist_group("compiled")
+
 
 class OneLane(gymnasium.Env[Any, Any]):
     """A vector environment of one lane in the form of a single one, for the checker that there is."""

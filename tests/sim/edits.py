@@ -1,0 +1,81 @@
+"""Roads to be changed, and what holds of every change and of every refusal."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from sim.actions import (
+    PlaceableKind,
+    WorldAction,
+)
+from sim.edit import Applied, EditError, apply
+from sim.kinds import Kind
+from sim.road import bits
+from sim.run import Run
+from sim.world import World
+from tests.sim.roads import road, run_on
+
+EMPTY = run_on(
+    road(
+        ".......",
+        ".......",
+        ".......",
+        ".......",
+        "...A...",
+        ".......",
+    )
+)
+FULL = run_on(
+    road(
+        "o......",
+        "..>..#.",
+        "o..o...",
+        ".).....",
+        "...A.o.",
+        "..<....",
+    )
+)
+KINDS: list[PlaceableKind] = ["pothole", "barrier", "vehicle", "pedestrian"]
+
+
+def refusal(run: Run, action: WorldAction) -> EditError:
+    """The error of an action; its message is a sentence and the run is as it was."""
+    before = replace(run)
+    with pytest.raises(EditError) as refused:
+        apply(run, action)
+    error = refused.value
+    assert run == before
+    assert str(error) == error.message
+    assert error.message[0].isalnum()
+    assert error.message.endswith(".")
+    return error
+
+
+def tried(run: Run, action: WorldAction) -> Applied | None:
+    """What an action has done, or None if it was refused in a sentence."""
+    try:
+        return apply(run, action)
+    except EditError:
+        refusal(run, action)
+        return None
+
+
+def counts_of(world: World) -> tuple[int, ...]:
+    return tuple(world.counts().values())
+
+
+def sound(world: World) -> None:
+    """The tables and the boards tell one story."""
+    assert set(world.movers) == set(bits(world.moving))
+    assert set(world.hazards) == set(bits(world.fixed))
+    assert world.right & world.left == 0
+    assert world.potholes & world.barriers == 0
+    assert world.pedestrians & ~world.moving == 0
+    assert world.moving & world.barriers == 0
+    names = [*world.movers.values(), *world.hazards.values()]
+    assert len(set(names)) == len(names)
+    for name in names:
+        kind, _, number = name.rpartition("-")
+        assert int(number) <= world.numbered[Kind(kind)]
