@@ -142,6 +142,7 @@ def test_a_fork_goes_its_own_way_and_the_browser_leads_back(run: Visitor) -> Non
     look(run, 25)
     expect(slider(run)).to_have_attribute("aria-valuetext", re.compile("Forked here"))
     choose(run, "Open the fork made here")
+    expect(run.page).not_to_have_url(re.compile(parent))
     run.wait_live()
     expect(origin).to_be_visible()
     origin.click()

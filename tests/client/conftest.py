@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import AsyncIterator, Iterator
+from pathlib import Path
 
 import httpx
 import pytest
@@ -26,9 +27,17 @@ async def inside() -> AsyncIterator[AsyncClient]:
         yield client
 
 
-@pytest.fixture(scope="module")
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """In one worker, with one service."""
+    here = Path(__file__).parent
+    for item in items:
+        if here in item.path.parents:
+            item.add_marker(pytest.mark.xdist_group("client"))
+
+
+@pytest.fixture(scope="session")
 def process(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ServiceProcess]:
-    """One for a test module."""
+    """One for all tests that do not end it."""
     service = ServiceProcess(tmp_path_factory.mktemp("service") / "roadtalk.db")
     service.start()
     yield service

@@ -31,6 +31,10 @@ class CannotError(Exception):
     """This machine does not let this fault be made; the message says what it lacks."""
 
 
+class ForbiddenError(CannotError):
+    """It lacks a permission, which nothing that is installed gives."""
+
+
 @dataclass(frozen=True)
 class Row:
     """What came of one fault. `held_s` is None where no service ran, `lost` where nothing can be asked."""
@@ -60,11 +64,14 @@ def url(path: Path) -> str:
 
 @contextmanager
 def small_disk(at: Path, size: str) -> Iterator[Path]:
-    """A file system of its own. Raises `CannotError`."""
+    """A file system of its own. Raises `CannotError`; there is no way to one but by mounting."""
     at.mkdir()
+    if shutil.which("mount") is None:
+        raise CannotError("there is no program to mount with (Debian: apt-get install mount)")
     command = ["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", str(at)]
-    if os.geteuid() != 0 or subprocess.run(command, capture_output=True).returncode:
-        raise CannotError("mounting needs root")
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode:
+        raise ForbiddenError(f"nothing can be mounted here: {done.stderr.strip()}")
     try:
         yield at
     finally:
@@ -190,7 +197,7 @@ def _mortal() -> list[str]:
     if os.geteuid() != 0:
         return []
     if shutil.which("setpriv") is None:
-        raise CannotError("root needs setpriv to be refused anything")
+        raise CannotError("root needs setpriv to be refused anything (Debian: apt-get install util-linux)")
     caps = "-dac_override,-dac_read_search"
     return ["setpriv", "--bounding-set", caps, "--inh-caps", caps]
 
@@ -326,7 +333,7 @@ def clock_jumps(folder: Path) -> Iterator[Row]:
     """The wall clock, while a session runs: by libfaketime, which stands between Python and the kernel."""
     found = sorted(Path("/").glob(_FAKETIME.lstrip("/")))
     if not found:
-        raise CannotError("libfaketime is not installed")
+        raise CannotError("libfaketime is not installed (Debian: apt-get install libfaketime)")
     for name, jump in (("+3 days", "+3d"), ("-400 days", "-400d")):
         yield _clock_jump(folder / f"roads{jump}.db", folder / f"clock{jump}", str(found[0]), name, jump)
 

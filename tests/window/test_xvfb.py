@@ -1,7 +1,7 @@
 """The real program on a real X server, driven by real key presses.
 
-Needs Xvfb and xdotool; without them these are skipped. What is on the screen is read from the X server, so
-that it is the window's own pixels that are judged.
+Needs Xvfb and xdotool; without them these are skipped, though not in CI. What is on the screen is read
+from the X server, so that it is the window's own pixels that are judged.
 """
 
 from __future__ import annotations

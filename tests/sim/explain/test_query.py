@@ -9,6 +9,8 @@ from sim.explain import QuestionError, why, why_not
 from sim.kinds import Move
 from sim.timeline import Timeline
 
+pytestmark = pytest.mark.xdist_group("a run of 400 ticks")
+
 
 @pytest.fixture(scope="module")
 def timeline() -> Timeline:
