@@ -60,6 +60,12 @@ class Settings(BaseSettings):
         default=False,
         description="Whether running sessions that nobody watches sleep as well; they wake up paused.",
     )
+    snapshot_work: int = Field(
+        default=4_000,
+        ge=1,
+        description="Work on a session, about in ticks, after which another snapshot of it is kept; it saves "
+        "time when the session comes back, and nothing else.",
+    )
     max_malformed_messages: int = Field(
         default=20, ge=1, description="Malformed stream messages before the socket is closed."
     )

@@ -87,17 +87,18 @@ class Timeline:
         snapshots: Sequence[Snapshot],
         gap: int,
         work: int,
+        worked: int,
     ) -> Timeline:
         """A timeline of the parts of another: see `parts`. They are taken as they are."""
         new = cls.__new__(cls)
         new.config, new.run, new.entries = config, run, entries
-        new._snapshots, new._gap, new._work, new.worked = tuple(snapshots), gap, work, 0
+        new._snapshots, new._gap, new._work, new.worked = tuple(snapshots), gap, work, worked
         new._recent = deque(maxlen=RECENT_RUNS)
         return new
 
-    def parts(self) -> tuple[Config, Run, Chain[Entry], tuple[Snapshot, ...], int, int]:
+    def parts(self) -> tuple[Config, Run, Chain[Entry], tuple[Snapshot, ...], int, int, int]:
         """What it is made of, but for the states that are only kept for being near."""
-        return self.config, self.run, self.entries, self._snapshots, self._gap, self._work
+        return self.config, self.run, self.entries, self._snapshots, self._gap, self._work, self.worked
 
     @property
     def tick(self) -> int:

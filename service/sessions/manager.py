@@ -29,12 +29,14 @@ from service.problems import (
 )
 from service.sessions.draft import check_ticks
 from service.sessions.forking import way_of
+from service.sessions.keeping import Keeper
 from service.sessions.pace import NORMAL
 from service.sessions.replaying import ReplayError, repeat, replay
 from service.sessions.saved import with_names
 from service.sessions.session import Session, Surroundings
 from service.sessions.sleeping import Idleness, Sleeper
 from service.sessions.terms import ANY_TERMS, Terms
+from service.sessions.waking import woken
 from service.store import EntryRecord, KeptAnswer, MomentRecord, SessionRecord, StoreError
 from sim.actions import Set
 from sim.config import Config, ConfigError
@@ -44,6 +46,9 @@ _LOG = structlog.get_logger(__name__)
 
 END_S = 0.2
 """How long changes under way are waited for at a stop."""
+
+SNAPSHOTS_S = 0.15
+"""How long snapshots are kept at a stop."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -65,6 +70,7 @@ class SessionManager:
         self._making = 0
         self._kept = 0
         self.idleness = Idleness()
+        self.keeper = Keeper(around.store, around.settings)
 
     @property
     def live(self) -> int:
@@ -130,6 +136,7 @@ class SessionManager:
             self._making -= 1
         self._live[session.id] = session
         self._kept += 1
+        self.keeper.join(session)
         session.set_paused(paused)
         return session
 
@@ -171,7 +178,7 @@ class SessionManager:
             )
             session = Session(record, way.timeline, self._around)
             session.begin_with(way)
-            session.mixed = mixed
+            session.mixed = {each["sequence"] for each in way.branch.instead}
             said = [] if pace == NORMAL else [(Set(parameter="playback_speed", value=pace),)]
             entries: list[EntryRecord] = []
             for each in (*said, *((actions,) if actions else ())):
@@ -198,6 +205,7 @@ class SessionManager:
             self._making -= 1
         self._live[session.id] = session
         self._kept += 1
+        self.keeper.fork(session)
         session.set_paused(session.paused)
         return session
 
@@ -239,6 +247,7 @@ class SessionManager:
             raise UnknownSession
         self._kept -= 1
         self.idleness.forget(session_id)
+        self.keeper.forget(session_id)
         session = self._live.pop(session_id, None)
         if session is not None:
             await session.end()
@@ -265,6 +274,7 @@ class SessionManager:
             for session in sessions:
                 if self._live.get(session.id) is session and still(session):
                     session.retire()
+                    self.keeper.leave(session)
                     del self._live[session.id]
                     self.idleness.forget(session.id)
                     let_go += 1
@@ -291,6 +301,8 @@ class SessionManager:
             await self._around.store.save_ticks(ticks)
         except StoreError as error:
             _LOG.error("where clocks stood was not saved", error=str(error))
+        else:
+            await self.keeper.close((ending[each] for each in ended), SNAPSHOTS_S)
 
     async def _wake(self, session_id: str) -> Session:
         try:
@@ -303,9 +315,8 @@ class SessionManager:
         self._check_room()
         try:
             entries = await self._around.store.entries(session_id)
-            config = Config().with_parts(**record.config)
-            session = Session(record, Timeline(config), self._around)
-            await to_thread.run_sync(replay, session, self._around.words, entries, record.tick)
+            snapshot = await self.keeper.find(session_id)
+            session, unfit = await to_thread.run_sync(woken, record, entries, snapshot, self._around)
         except ReplayError as error:
             sequence = entries[error.position].sequence
             _LOG.error(
@@ -315,8 +326,11 @@ class SessionManager:
         except (ConfigError, TypeError, StoreError) as error:
             _LOG.error("a kept session cannot be replayed", session=session_id, error=str(error))
             raise NotRestorable from error
+        if snapshot is not None:
+            self.keeper.used(session_id, unfit)
         self.idleness.used(session_id)
         self._live[session_id] = session
+        self.keeper.join(session)
         return session
 
     async def _replay(self, session: Session, recorded: Recorded) -> None:

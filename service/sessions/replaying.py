@@ -144,6 +144,7 @@ class Replay:
         draft = Draft(session.timeline, session.paused, session.history, session.pace)
         facts = draft.perform(entry.sequence, said)
         before = session.run
+        session.footing.owe(draft.timeline.worked, 1)
         session.adopt(draft, entry.sequence, said)
         session.footing.kept(entry)
         self._check(entry)

@@ -1,0 +1,47 @@
+"""A kept session made live again: from its snapshot if there is one that fits, else all of its log."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from service.sessions.replaying import ReplayError, replay
+from service.sessions.session import Session, Surroundings
+from service.sessions.snapshots import UnfitError, opened
+from service.store import EntryRecord, SessionRecord, SnapshotRecord
+from sim.config import Config
+from sim.timeline import Timeline
+
+
+def woken(
+    record: SessionRecord,
+    entries: Sequence[EntryRecord],
+    snapshot: SnapshotRecord | None,
+    around: Surroundings,
+) -> tuple[Session, UnfitError | None]:
+    """The session, paused, and why its snapshot was not used if it was not; in any thread.
+
+    Raises `ReplayError` where the log cannot be done again, `ConfigError` or `TypeError` for a configuration
+    that cannot be.
+    """
+    unfit: UnfitError | None = None
+    if snapshot is not None:
+        try:
+            return _from(snapshot, record, entries, around), None
+        except UnfitError as error:
+            unfit = error
+        except ReplayError as error:
+            unfit = UnfitError(f"what follows it cannot be done: {error}")
+    session = Session(record, Timeline(Config().with_parts(**record.config)), around)
+    replay(session, around.words, entries, record.tick)
+    return session, unfit
+
+
+def _from(
+    snapshot: SnapshotRecord, record: SessionRecord, entries: Sequence[EntryRecord], around: Surroundings
+) -> Session:
+    frozen, position = opened(snapshot, record, entries, around.settings.log_events)
+    session = Session(record, frozen.timeline, around)
+    frozen.give(session)
+    session.footing.seen = frozen.timeline.worked
+    replay(session, around.words, entries, record.tick, first=position)
+    return session
