@@ -19,13 +19,13 @@ from contextlib import suppress
 from typing import Any, Literal, TextIO
 
 import structlog
-from starlette.datastructures import MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from structlog.contextvars import bind_contextvars, get_contextvars
 
 from service.settings import Settings
 
 HEADER = "X-Request-ID"
+_ENCODED = HEADER.lower().encode()
 HIDDEN = "[hidden]"
 MOST_WAITING = 10_000
 """Lines that may wait to be written; more are lost."""
@@ -170,7 +170,8 @@ class RequestIds:
 
         async def named(message: Message) -> None:
             if message["type"] in ("http.response.start", "websocket.http.response.start"):
-                MutableHeaders(scope=message)[HEADER] = request_id
+                others = [each for each in message["headers"] if each[0] != _ENCODED]
+                message["headers"] = [*others, (_ENCODED, request_id.encode())]
             await send(message)
 
         # Left bound: a request is a task of its own, and an error is logged outside of every middleware.

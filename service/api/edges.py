@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from service.api.respond import problem_response
@@ -22,6 +21,15 @@ SECURITY_HEADERS = {
 
 
 _ENCODED = [(name.lower().encode(), value.encode()) for name, value in SECURITY_HEADERS.items()]
+_NAMES = frozenset(name for name, _ in _ENCODED)
+
+
+def first_header(scope: Scope, asked: bytes) -> str | None:
+    """The first header of a request under a name, which is in small letters; None where there is none."""
+    for name, value in scope["headers"]:
+        if name == asked:
+            return str(value, "latin-1")
+    return None
 
 
 class SecurityHeaders:
@@ -40,7 +48,12 @@ class SecurityHeaders:
             if message["type"] == "http.response.start":
                 headers = message["headers"]
                 said = {name for name, _ in headers}
-                message["headers"] = [*headers, *(each for each in _ENCODED if each[0] not in said)]
+                missing = (
+                    _ENCODED
+                    if _NAMES.isdisjoint(said)
+                    else [each for each in _ENCODED if each[0] not in said]
+                )
+                message["headers"] = [*headers, *missing]
             await send(message)
 
         await self._app(scope, receive, guarded)
@@ -64,7 +77,7 @@ class BodyLimit:
             await self._app(scope, receive, send)
             return
         most = self._most(scope["path"])
-        said = Headers(scope=scope).get("content-length", "")
+        said = first_header(scope, b"content-length") or ""
         body = None if said.isdecimal() and int(said) > most else await _read(receive, most)
         if body is None:
             refusal = TooLarge(f"At most {most} bytes are read here.", headers={"Connection": "close"})

@@ -8,10 +8,10 @@ from __future__ import annotations
 from typing import Any
 
 import orjson
-from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from starlette.websockets import WebSocket
 
+from service.api.edges import first_header
 from service.api.respond import problem_response
 from service.api.views import PREFIX
 from service.problems import CrossSite, ForeignHost, KeyNeeded, ProblemError
@@ -49,17 +49,16 @@ class Gate:
             await self._app(scope, receive, send)
 
     def _check(self, scope: Scope) -> None:
-        headers = Headers(scope=scope)
-        host = headers.get("host")
+        host = first_header(scope, b"host")
         if not self._guard.hosts.answers_to(host, scope):
             raise ForeignHost
         changing = scope["type"] == "websocket" or scope["method"] not in _READING
-        if changing and not same_site(headers.get("origin"), host):
+        if changing and not same_site(first_header(scope, b"origin"), host):
             raise CrossSite("Only this service's own page may do this, or no page at all. Nothing was done.")
         # A socket may bring its key, or a ticket, in its first message: pages cannot set its headers.
         if scope["type"] == "websocket" or not _guarded(scope["path"]):
             return
-        if not self._guard.key.admits(headers.get("authorization")):
+        if not self._guard.key.admits(first_header(scope, b"authorization")):
             raise KeyNeeded
         if changing:
             self._guard.count_change(client_of(scope))

@@ -11,8 +11,7 @@ import inspect
 import time
 from bisect import bisect_left
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager, nullcontext
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import accumulate
 from typing import Any, Literal, cast
 
@@ -28,7 +27,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from service.api.context import context_of
 from service.problems import KINDS, MEDIA_TYPE
 from service.store import Store
-from service.timing import PARTS, told_to
+from service.timing import PARTS, Part, told_to
 
 LATENESS_S = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.25, 0.5, 1.0)
 COMMAND_S = (0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1.0, 2.5)
@@ -82,6 +81,24 @@ def _labelled(
     return family
 
 
+class Command:
+    """The time of one command, from entering to leaving."""
+
+    __slots__ = ("_began", "_parts", "_whole")
+
+    def __init__(self, whole: Histogram, parts: Callable[[Part, float], None]) -> None:
+        self._whole = whole
+        self._parts = told_to(parts)
+
+    def __enter__(self) -> None:
+        self._began = time.perf_counter()
+        self._parts.__enter__()
+
+    def __exit__(self, *_: object) -> None:
+        self._parts.__exit__()
+        self._whole.observe(time.perf_counter() - self._began)
+
+
 class Metrics:
     """What one service counts."""
 
@@ -89,18 +106,17 @@ class Metrics:
         self.lateness = Histogram(LATENESS_S)
         self.commands = {(channel,): Histogram(COMMAND_S) for channel in CHANNELS}
         self.parts = {(channel, part): Histogram(COMMAND_S) for channel in CHANNELS for part in PARTS}
+        self._observers = {channel: self._observer(channel) for channel in CHANNELS}
         self.store = Histogram(STORE_S)
         self.refusals: Counter[str] = Counter()
 
-    @contextmanager
-    def command(self, channel: Channel) -> Iterator[None]:
+    def command(self, channel: Channel) -> Command:
         """Times a command that came by a channel, and its parts."""
-        began = time.perf_counter()
-        try:
-            with told_to(lambda part, seconds: self.parts[channel, part].observe(seconds)):
-                yield
-        finally:
-            self.commands[channel,].observe(time.perf_counter() - began)
+        return Command(self.commands[channel,], self._observers[channel])
+
+    def _observer(self, channel: Channel) -> Callable[[Part, float], None]:
+        observed = {part: self.parts[channel, part].observe for part in PARTS}
+        return lambda part, seconds: observed[part](seconds)
 
     def families(self, sessions: int, sleeping: int, watchers: int) -> Iterator[Metric]:
         """Everything, as it is now."""
@@ -154,7 +170,10 @@ class Counted:
             await send(message)
 
         is_command = scope["method"] == "POST" and scope["path"].endswith(_COMMANDS)
-        with self._metrics.command("rest") if is_command else nullcontext():
+        if not is_command:
+            await self._app(scope, receive, counting)
+            return
+        with self._metrics.command("rest"):
             await self._app(scope, receive, counting)
 
 

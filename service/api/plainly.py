@@ -1,10 +1,10 @@
 """A short way for what is said and done to a session, past routes and their dependencies.
 
 Finding a route and solving its dependencies takes three times as long as doing what was asked. A request
-whose form is right at a glance (JSON under that name, a body its model takes, no question in the URL) is given
-to the endpoint itself, with the same session, terms and keys as on the long way. Every rule is the route's own:
-the endpoint, its model and what surrounds all handlers (`kept`). Whatever is not plainly right goes the long
-way, untouched, which says what is wrong with it.
+whose form is right at a glance (JSON under that name, a body its model takes, no question in the URL) is
+given to the endpoint itself, with the same session, terms and keys as on the long way. Every rule is the
+route's own: the endpoint, its model and what surrounds all handlers (`kept`). Whatever is not plainly right
+goes the long way, untouched, which says what is wrong with it.
 """
 
 from __future__ import annotations

@@ -9,8 +9,12 @@ from __future__ import annotations
 
 import ipaddress
 from collections.abc import Mapping
+from functools import lru_cache
 from typing import Any
 from urllib.parse import urlsplit
+
+_LONGEST = 255
+"""Letters of a name that is remembered: it is asked under the same few again and again."""
 
 _LOOPBACK = frozenset(("localhost", "127.0.0.1", "::1"))
 
@@ -36,7 +40,7 @@ class Hosts:
         """Whether a `Host` header, if there is one, names this service."""
         if host is None:
             return True
-        name = _name(host)
+        name = _remembered(host) if len(host) <= _LONGEST else _name(host)
         came_in_at = scope.get("server")
         return name in self._named or (came_in_at is not None and name == str(came_in_at[0]).lower())
 
@@ -59,3 +63,6 @@ def _name(host: str) -> str | None:
     except ValueError:
         return None
     return None if parts.path or parts.query or parts.fragment or "@" in host else parts.hostname
+
+
+_remembered = lru_cache(64)(_name)
