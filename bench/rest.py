@@ -3,7 +3,8 @@
 Both are asked by `wrk` where it is there, otherwise by a few connections of our own. The bare app reads the
 same body by the same model and sends a fixed answer of the same length; it checks nothing, knows nothing and
 stores nothing. Commands are asked of a service that keeps them in memory, which is the comparison, and of one
-with a file that is synchronised before each answer, which is stated apart.
+with a file that is synchronised before each answer, which is stated apart. The same sentence again is known
+again; sentences that are never said twice are stated beside it.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ import time
 from collections.abc import AsyncIterator
 from contextlib import AsyncExitStack, asynccontextmanager
 from dataclasses import dataclass
+from itertools import count
 from pathlib import Path
 
 import uvloop
@@ -34,6 +36,20 @@ ROUNDS = 5
 SENTENCE = b'{"text":"set the number of potholes to 5"}'
 ACTIONS = b'{"actions":[{"do":"set_count","kind":"pothole","count":5}]}'
 """The same without a sentence that has to be read."""
+WORDINGS = (
+    "set the courtesy to #",
+    "please make the courtesy #",
+    "courtesy #",
+    "change the courtesy to #",
+    "could you set the courtesy to #, please",
+)
+"""Sentences with a number that is another one each time, so that none was read before."""
+
+_PARTS, _MOST_IN_A_TURN = 1_000_000, 50_000
+"""Those numbers: millionths, and so many for one turn."""
+
+_DISTINCT = tuple(json.dumps({"text": wording}).encode() for wording in WORDINGS)
+
 _RATE = re.compile(r"Requests/sec:\s+([\d.]+)")
 _BAD = re.compile(r"Non-2xx or 3xx responses: (\d+)")
 
@@ -70,12 +86,12 @@ Server(uvicorn.Config(app, port=0, access_log=False, log_level="warning")).run()
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """One request, again and again, of one server."""
+    """One request, again and again, of one server; of several paths by turns, and with `#` always another."""
 
     name: str
     url: str
-    path: str
-    body: bytes = b""
+    paths: tuple[str, ...]
+    bodies: tuple[bytes, ...] = ()
 
 
 def main(arguments: list[str] | None = None) -> None:
@@ -94,19 +110,23 @@ async def _measured(seconds: float) -> None:
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
         kept = await stack.enter_async_context(serving(database="memory:"))
         durable = await stack.enter_async_context(serving())
-        path, durable_path = [await _session(each.url) for each in (kept, durable)]
-        state = await _answer(Asked("", kept.url, f"{path}/state"))
-        result = await _answer(Asked("", kept.url, f"{path}/commands", SENTENCE))
+        path = await _session(kept.url)
+        many = tuple([f"{await _session(durable.url)}/commands" for _ in range(LINES)])
+        look, say, act = [(f"{path}/{each}",) for each in ("state", "commands", "actions")]
+        state = await _answer(Asked("", kept.url, look))
+        result = await _answer(Asked("", kept.url, say, (SENTENCE,)))
         (folder / "state").write_bytes(state)
         (folder / "result").write_bytes(result)
         bare = await stack.enter_async_context(_bare(folder))
         asked = [
-            Asked("state, bare", bare, f"{path}/state"),
-            Asked("state", kept.url, f"{path}/state"),
-            Asked("command, bare", bare, f"{path}/commands", SENTENCE),
-            Asked("command, in memory", kept.url, f"{path}/commands", SENTENCE),
-            Asked("command, typed", kept.url, f"{path}/actions", ACTIONS),
-            Asked("command, durable", durable.url, f"{durable_path}/commands", SENTENCE),
+            Asked("state, bare", bare, look),
+            Asked("state", kept.url, look),
+            Asked("command, bare", bare, say, (SENTENCE,)),
+            Asked("command, in memory", kept.url, say, (SENTENCE,)),
+            Asked("command, never said before", kept.url, say, _DISTINCT),
+            Asked("command, typed", kept.url, act, (ACTIONS,)),
+            Asked("command, durable, one session", durable.url, many[:1], (SENTENCE,)),
+            Asked(f"command, durable, {LINES} sessions", durable.url, many, (SENTENCE,)),
         ]
         rates: dict[str, list[float]] = {each.name: [] for each in asked}
         for _ in range(ROUNDS):
@@ -118,7 +138,7 @@ async def _measured(seconds: float) -> None:
     for name, own in rates.items():
         base = rates[f"{name.partition(',')[0]}, bare"]
         ratio = statistics.median(mine / bare for mine, bare in zip(own, base, strict=True))
-        print(f"  {name:<20} {statistics.median(own):8.0f}   {ratio:5.2f} × bare")
+        print(f"  {name:<30} {statistics.median(own):8.0f}   {ratio:5.2f} × bare")
 
 
 async def _session(url: str) -> str:
@@ -134,17 +154,20 @@ async def _session(url: str) -> str:
         return (await line.ask(sent)).headers["location"]
 
 
-def _sent(asked: Asked, host: str) -> bytes:
-    if asked.body:
-        return request("POST", asked.path, host, asked.body, Content_Type="application/json")
-    return request("GET", asked.path, host)
+def _sent(asked: Asked, host: str, number: int = 0) -> bytes:
+    path = asked.paths[number % len(asked.paths)]
+    if not asked.bodies:
+        return request("GET", path, host)
+    another = f"{number / _PARTS:.6f}".encode()
+    body = asked.bodies[number % len(asked.bodies)].replace(b"#", another)
+    return request("POST", path, host, body, Content_Type="application/json")
 
 
 async def _answer(asked: Asked) -> bytes:
     async with Line(asked.url) as line:
         answer = await line.ask(_sent(asked, line.host))
     if answer.status != 200:
-        raise SystemExit(f"{asked.path} was answered {answer.status}: {answer.body.decode()}")
+        raise SystemExit(f"{asked.paths[0]} was answered {answer.status}: {answer.body.decode()}")
     return answer.body
 
 
@@ -153,13 +176,10 @@ async def _rate(asked: Asked, seconds: float, folder: Path) -> float:
     if shutil.which("wrk") is None:
         return await _own_rate(asked, seconds)
     script = folder / "ask.lua"
-    lines = ""
-    if asked.body:
-        lines = f'wrk.method = "POST"\nwrk.body = {json.dumps(asked.body.decode())}\n'
-        lines += 'wrk.headers["Content-Type"] = "application/json"\n'
-    script.write_text(lines)
+    script.write_text(_script(asked, _first(asked)))
     process = await asyncio.create_subprocess_exec(
-        "wrk", "-t1", f"-c{LINES}", f"-d{max(1, round(seconds))}s", "-s", str(script), asked.url + asked.path,
+        "wrk", "-t1", f"-c{LINES}", f"-d{max(1, round(seconds))}s",
+        "-s", str(script), asked.url + asked.paths[0],
         stdout=asyncio.subprocess.PIPE,
     )  # fmt: skip
     told = (await process.communicate())[0].decode()
@@ -169,16 +189,47 @@ async def _rate(asked: Asked, seconds: float, folder: Path) -> float:
     return float(rate[1])
 
 
+_said: dict[str, int] = {}
+
+
+def _first(asked: Asked) -> int:
+    """The first number of a turn: one that no turn before has come to."""
+    _said[asked.name] = _said.get(asked.name, -_MOST_IN_A_TURN) + _MOST_IN_A_TURN
+    return _said[asked.name]
+
+
+def _script(asked: Asked, first: int) -> str:
+    """What `wrk` is to send."""
+    if not asked.bodies:
+        return ""
+    lines = ['wrk.method = "POST"', 'wrk.headers["Content-Type"] = "application/json"']
+    if len(asked.paths) == 1 and not any(b"#" in body for body in asked.bodies):
+        return "\n".join([*lines, f"wrk.body = {json.dumps(asked.bodies[0].decode())}"])
+    listed = [",".join(map(json.dumps, each)) for each in (asked.paths, (b.decode() for b in asked.bodies))]
+    return "\n".join(
+        [
+            *lines,
+            f"local paths, bodies, n = {{{listed[0]}}}, {{{listed[1]}}}, {first}",
+            "function request()",
+            "  n = n + 1",
+            f'  local another = string.format("%.6f", n / {_PARTS})',
+            '  local body = bodies[n % #bodies + 1]:gsub("#", another)',
+            "  return wrk.format(nil, paths[n % #paths + 1], nil, body)",
+            "end",
+        ]
+    )
+
+
 async def _own_rate(asked: Asked, seconds: float) -> float:
     until_s = time.perf_counter() + seconds
+    numbers = count(_first(asked))
     done = 0
 
     async def one() -> None:
         nonlocal done
         async with Line(asked.url) as line:
-            sent = _sent(asked, line.host)
             while time.perf_counter() < until_s:
-                if (await line.ask(sent)).status != 200:
+                if (await line.ask(_sent(asked, line.host, next(numbers)))).status != 200:
                     raise SystemExit(f"{asked.name} was refused")
                 done += 1
 
