@@ -11,7 +11,7 @@ from typing import Any, Literal, TypeVar
 import httpx
 from websockets.asyncio.client import connect
 
-from service.client import calls, media, results, unbound
+from service.client import calls, media, results, runs, unbound
 from service.client.calls import Call, Json
 from service.client.following import Events, Following
 from service.client.media import Picture
@@ -60,6 +60,10 @@ class AsyncClient:
         """Is it alive, and what does it hold."""
         return await self._do(calls.health())
 
+    async def ready(self) -> results.Ready:
+        """Does its store answer. Raises `Unavailable` where it does not."""
+        return await self._do(calls.ready())
+
     async def parse(self, text: str, *, language: str = "en") -> results.Parsed:
         """What a sentence means; nothing is done."""
         return await self._do(calls.parse(text, language))
@@ -72,13 +76,16 @@ class AsyncClient:
         distance_m: float | None = None,
         speed_kmh: float | None = None,
         weather: str | None = None,
+        language: str = "en",
     ) -> unbound.Advice:
         """What to do about a hazard ahead: `advice("pothole 2m ahead, speed 40 km/h")`, or in figures."""
-        return await self._do(calls.advice(text, hazard, distance_m, speed_kmh, weather))
+        return await self._do(calls.advice(text, hazard, distance_m, speed_kmh, weather, language))
 
-    async def guide(self, prefix: str | None = None, *, language: str = "en") -> unbound.Guide:
-        """What can be said; with `prefix`, how a sentence that was begun could go on."""
-        return await self._do(calls.guide(prefix, None, language))
+    async def guide(
+        self, prefix: str | None = None, *, session: str | None = None, language: str = "en"
+    ) -> unbound.Guide:
+        """What can be said; with `prefix`, how a sentence that was begun could go on, there or anywhere."""
+        return await self._do(calls.guide(prefix, session, language))
 
     async def ticket(self) -> results.Ticket:
         """Lets one socket in that cannot send the key, such as a page's."""
@@ -103,6 +110,10 @@ class AsyncClient:
     async def list(self, *, after: str | None = None, limit: int = 50) -> Page[results.SessionSummary]:
         """Sessions, newest first, a page of them."""
         return await self._do(calls.listed(after, limit))
+
+    async def saved(self, *, after: str | None = None, limit: int = 50) -> Page[results.SessionMoment]:
+        """Moments that were given a name, of all sessions, those named last first, a page of them."""
+        return await self._do(calls.all_saved(after, limit))
 
     def session(self, session_id: str) -> AsyncSession:
         """The session of this id; nothing is asked before it is used."""
@@ -271,6 +282,36 @@ class AsyncSession:
     async def events(self, *, after: int | None = None, limit: int = 100) -> Page[results.LogEvent]:
         """The log: the newest lines, or those after a number."""
         return await self._client._do(calls.events(self.id, after, limit))
+
+    async def timeline(self, first: int = 0, *, limit: int = 500) -> runs.Timeline:
+        """A stretch of the run at a glance: how it moved at each tick, and where something happened."""
+        return await self._client._do(calls.timeline(self.id, first, limit))
+
+    async def changes(self, *, limit: int = 200) -> runs.RoadChanges:
+        """What was said or done to the road and still stands, with its tick."""
+        return await self._client._do(calls.changes(self.id, limit))
+
+    async def moments(self, first: int = 0, *, limit: int = 16) -> runs.Moments:
+        """Worlds in a row, each with the decision that led to it."""
+        return await self._client._do(calls.moments(self.id, first, limit))
+
+    async def forecast(self, ticks: int = 1, *, at_tick: int | None = None) -> runs.Expected:
+        """What the vehicle is about to do, and where movers are expected to be."""
+        return await self._client._do(calls.forecast(self.id, ticks, at_tick))
+
+    async def regret(self, first: int = 0, *, limit: int = 60) -> runs.Judged:
+        """Each decision against the best that could have been done at its moment."""
+        return await self._client._do(calls.regret(self.id, first, limit))
+
+    async def counterfactual(
+        self,
+        *actions: Mapping[str, Any],
+        move: str | None = None,
+        at_tick: int | None = None,
+        ticks: int | None = None,
+    ) -> runs.Counterfactual:
+        """What would have been, had these actions been done or another `move` been made; nothing is."""
+        return await self._client._do(calls.counterfactual(self.id, actions, move, at_tick, ticks))
 
     async def recording(self) -> results.Recording:
         """The whole session as one small file."""

@@ -14,7 +14,7 @@ from urllib.parse import quote
 
 import httpx
 
-from service.client import media, reading, results, unbound
+from service.client import media, reading, results, runs, unbound
 from service.client.errors import Ambiguous, NotReachable, Refused, TimedOut, UnexpectedAnswer, refusal
 
 PREFIX = "/api/v1"
@@ -134,6 +134,11 @@ def _own(session: str, part: str = "") -> str:
 def health() -> Call[results.Health]:
     """Is it alive."""
     return Call("GET", "/healthz", _reading(results.Health))
+
+
+def ready() -> Call[results.Ready]:
+    """Does its store answer."""
+    return Call("GET", "/readyz", _reading(results.Ready))
 
 
 def parse(text: str, language: str) -> Call[results.Parsed]:
@@ -277,6 +282,50 @@ def saved(session: str) -> Call[results.SavedMoments]:
     return Call("GET", _own(session, "/saved"), _reading(results.SavedMoments))
 
 
+def all_saved(after: str | None, limit: int) -> Call[reading.Page[results.SessionMoment]]:
+    """A page of moments with a name, of all sessions."""
+    params = {"after": after, "limit": limit}
+    return Call("GET", f"{PREFIX}/saved", _paging(results.SessionMoment), params=params)
+
+
+def timeline(session: str, first: int, limit: int) -> Call[runs.Timeline]:
+    """A stretch of the run at a glance."""
+    params = {"from": first, "limit": limit}
+    return Call("GET", _own(session, "/timeline"), _reading(runs.Timeline), params=params)
+
+
+def changes(session: str, limit: int) -> Call[runs.RoadChanges]:
+    """What was said and stands."""
+    return Call("GET", _own(session, "/changes"), _reading(runs.RoadChanges), params={"limit": limit})
+
+
+def moments(session: str, first: int, limit: int) -> Call[runs.Moments]:
+    """Several ticks in full."""
+    params = {"from": first, "limit": limit}
+    return Call("GET", _own(session, "/moments"), _reading(runs.Moments), params=params)
+
+
+def forecast(session: str, ticks: int, tick: int | None) -> Call[runs.Expected]:
+    """What is about to happen."""
+    params = {"ticks": ticks, "tick": tick}
+    return Call("GET", _own(session, "/forecast"), _reading(runs.Expected), params=params)
+
+
+def regret(session: str, first: int, limit: int) -> Call[runs.Judged]:
+    """What decisions cost against the best."""
+    params = {"from": first, "limit": limit}
+    return Call("GET", _own(session, "/regret"), _reading(runs.Judged), params=params)
+
+
+def counterfactual(
+    session: str, actions: Sequence[Json], move: str | None, at_tick: int | None, ticks: int | None
+) -> Call[runs.Counterfactual]:
+    """What would have been."""
+    body = _sent(at_tick=at_tick, move=move, actions=list(actions) or None, ticks=ticks)
+    path = _own(session, "/counterfactual")
+    return Call("POST", path, _reading(runs.Counterfactual), body, key=_key())
+
+
 def ticket() -> Call[results.Ticket]:
     """Something that lets one socket in; each is another, so none is asked for under a key."""
     return Call("POST", f"{PREFIX}/tickets", _reading(results.Ticket), {})
@@ -288,9 +337,11 @@ def advice(
     distance_m: float | None,
     speed_kmh: float | None,
     weather: str | None,
+    language: str,
 ) -> Call[unbound.Advice]:
     """What to do about a hazard."""
-    body = _sent(text=text, hazard=hazard, distance_m=distance_m, speed_kmh=speed_kmh, weather=weather)
+    figures = {"hazard": hazard, "distance_m": distance_m, "speed_kmh": speed_kmh, "weather": weather}
+    body = _sent(text=text, **figures, language=language)
     return Call("POST", f"{PREFIX}/advice", _reading(unbound.Advice), body, said="text")
 
 

@@ -144,9 +144,18 @@ class Decision(Result):
         return html.table(self.narration, ("move", "verdict", "cost", "reason"), rows)
 
 
+@dataclass(frozen=True)
+class BlockedMove:
+    """A move that could not be made, and why."""
+
+    move: str
+    reason: str
+    causes: tuple[str, ...]
+
+
 @dataclass(frozen=True, kw_only=True)
 class BriefDecision(Result):
-    """A decision as a tick message tells it, without its options."""
+    """A decision as a tick message tells it: of its options, only those that could not be taken."""
 
     tick: int
     planner: str
@@ -154,6 +163,7 @@ class BriefDecision(Result):
     reason: str
     causes: tuple[str, ...]
     weight: int
+    blocked: tuple[BlockedMove, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -166,6 +176,14 @@ class LogEvent:
     text: str
     ids: tuple[str, ...]
     cell: Cell | None
+
+
+@dataclass(frozen=True)
+class Parent:
+    """Where a fork was taken; the session it was taken from may be deleted since."""
+
+    id: str
+    tick: int
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -185,6 +203,7 @@ class SessionInfo(Result):
     seed: int
     config: Json
     sentence: str | None
+    parent: Parent | None = None
     links: Mapping[str, str]
 
 
@@ -198,6 +217,7 @@ class SessionSummary(Result):
     seed: int
     live: bool
     tick: int
+    parent: Parent | None = None
     links: Mapping[str, str]
 
 
@@ -307,6 +327,15 @@ class SavedMoments(Result):
         return html.table(f"{len(rows)} saved", ("name", "tick"), rows)
 
 
+@dataclass(frozen=True)
+class SessionMoment(SavedMoment):
+    """A moment that was given a name, and the session it is in."""
+
+    session: str
+    session_name: str | None
+    links: Mapping[str, str]
+
+
 @dataclass(frozen=True, kw_only=True)
 class Link(Result):
     """A session at a tick as a piece of a URL; `carries`: whole, so that no service need keep it."""
@@ -332,6 +361,13 @@ class Health(Result):
     version: str
     sessions: int
     watchers: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ready(Result):
+    """That the service's store answers."""
+
+    status: str
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,7 +10,7 @@ from typing import Any, Literal, TypeVar
 import httpx
 from websockets.sync.client import connect
 
-from service.client import calls, html, media, results, unbound
+from service.client import calls, html, media, results, runs, unbound
 from service.client.calls import Call, Json
 from service.client.errors import RoadtalkError
 from service.client.following import Events, Following
@@ -63,6 +63,10 @@ class Client:
         """Is it alive, and what does it hold."""
         return self._do(calls.health())
 
+    def ready(self) -> results.Ready:
+        """Does its store answer. Raises `Unavailable` where it does not."""
+        return self._do(calls.ready())
+
     def parse(self, text: str, *, language: str = "en") -> results.Parsed:
         """What a sentence means; nothing is done."""
         return self._do(calls.parse(text, language))
@@ -75,13 +79,16 @@ class Client:
         distance_m: float | None = None,
         speed_kmh: float | None = None,
         weather: str | None = None,
+        language: str = "en",
     ) -> unbound.Advice:
         """What to do about a hazard ahead: `advice("pothole 2m ahead, speed 40 km/h")`, or in figures."""
-        return self._do(calls.advice(text, hazard, distance_m, speed_kmh, weather))
+        return self._do(calls.advice(text, hazard, distance_m, speed_kmh, weather, language))
 
-    def guide(self, prefix: str | None = None, *, language: str = "en") -> unbound.Guide:
-        """What can be said; with `prefix`, how a sentence that was begun could go on."""
-        return self._do(calls.guide(prefix, None, language))
+    def guide(
+        self, prefix: str | None = None, *, session: str | None = None, language: str = "en"
+    ) -> unbound.Guide:
+        """What can be said; with `prefix`, how a sentence that was begun could go on, there or anywhere."""
+        return self._do(calls.guide(prefix, session, language))
 
     def ticket(self) -> results.Ticket:
         """Lets one socket in that cannot send the key, such as a page's."""
@@ -106,6 +113,10 @@ class Client:
     def list(self, *, after: str | None = None, limit: int = 50) -> Page[results.SessionSummary]:
         """Sessions, newest first, a page of them."""
         return self._do(calls.listed(after, limit))
+
+    def saved(self, *, after: str | None = None, limit: int = 50) -> Page[results.SessionMoment]:
+        """Moments that were given a name, of all sessions, those named last first, a page of them."""
+        return self._do(calls.all_saved(after, limit))
 
     def session(self, session_id: str) -> Session:
         """The session of this id; nothing is asked before it is used."""
@@ -279,6 +290,36 @@ class Session:
     def events(self, *, after: int | None = None, limit: int = 100) -> Page[results.LogEvent]:
         """The log: the newest lines, or those after a number."""
         return self._client._do(calls.events(self.id, after, limit))
+
+    def timeline(self, first: int = 0, *, limit: int = 500) -> runs.Timeline:
+        """A stretch of the run at a glance: how it moved at each tick, and where something happened."""
+        return self._client._do(calls.timeline(self.id, first, limit))
+
+    def changes(self, *, limit: int = 200) -> runs.RoadChanges:
+        """What was said or done to the road and still stands, with its tick."""
+        return self._client._do(calls.changes(self.id, limit))
+
+    def moments(self, first: int = 0, *, limit: int = 16) -> runs.Moments:
+        """Worlds in a row, each with the decision that led to it."""
+        return self._client._do(calls.moments(self.id, first, limit))
+
+    def forecast(self, ticks: int = 1, *, at_tick: int | None = None) -> runs.Expected:
+        """What the vehicle is about to do, and where movers are expected to be."""
+        return self._client._do(calls.forecast(self.id, ticks, at_tick))
+
+    def regret(self, first: int = 0, *, limit: int = 60) -> runs.Judged:
+        """Each decision against the best that could have been done at its moment."""
+        return self._client._do(calls.regret(self.id, first, limit))
+
+    def counterfactual(
+        self,
+        *actions: Mapping[str, Any],
+        move: str | None = None,
+        at_tick: int | None = None,
+        ticks: int | None = None,
+    ) -> runs.Counterfactual:
+        """What would have been, had these actions been done or another `move` been made; nothing is."""
+        return self._client._do(calls.counterfactual(self.id, actions, move, at_tick, ticks))
 
     def recording(self) -> results.Recording:
         """The whole session as one small file."""

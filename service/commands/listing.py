@@ -39,13 +39,19 @@ def table(items: tuple[SessionSummary, ...]) -> Table:
         made.add_column(name, no_wrap=whole)
     made.add_column("tick", justify="right")
     made.add_column("seed", justify="right")
+    forked = any(item.parent for item in items)
+    if forked:
+        made.add_column("from", no_wrap=True)
     for item in items:
-        made.add_row(
+        cells = [
             plain(item.id),
             plain(item.name or ""),
             item.created_at[:16].replace("T", " "),
             "yes" if item.live else "no",
             str(item.tick),
             str(item.seed),
-        )
+        ]
+        if forked:
+            cells.append(plain(f"{item.parent.id}, tick {item.parent.tick}" if item.parent else ""))
+        made.add_row(*cells)
     return made

@@ -137,6 +137,10 @@ def test_sessions_in_a_table(process: ServiceProcess, client: Client) -> None:
     assert "[red]narrow" in row
     assert "\x1b" not in row
     assert row.split()[-3:] == ["yes", "0", "77"]
+    fork = session.fork(name="other")
+    told = run("sessions", "--limit", "2", "--url", process.url)
+    row = next(line for line in told.stdout.splitlines() if fork.id in line)
+    assert row.split()[-4:] == ["77", f"{session.id},", "tick", "0"]
     assert table(()).row_count == 0
     assert SessionSummary.__dataclass_params__.frozen  # type: ignore[attr-defined]
 

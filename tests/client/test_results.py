@@ -8,8 +8,8 @@ from html.parser import HTMLParser
 import pytest
 from pydantic import BaseModel
 
-from service.api import schemas, schemas_advice, shapes, tickets
-from service.client import AsyncClient, Film, Frame, html, media, reading, results, unbound
+from service.api import insight, schemas, schemas_advice, schemas_counterfactual, shapes, tickets, timeline
+from service.client import AsyncClient, Film, Frame, html, media, reading, results, runs, unbound
 from service.client.errors import UnexpectedAnswer
 
 PAIRS: list[tuple[type, type[BaseModel]]] = [
@@ -35,6 +35,25 @@ PAIRS: list[tuple[type, type[BaseModel]]] = [
     (results.SavedMoments, schemas.SavedMoments),
     (results.Link, schemas.Link),
     (results.Ticket, tickets.Ticket),
+    (results.Ready, schemas.Ready),
+    (results.Parent, schemas.Parent),
+    (results.SessionMoment, schemas.SessionMoment),
+    (results.BlockedMove, schemas_counterfactual.BlockedMove),
+    (results.BriefDecision, schemas_counterfactual.BriefDecision),
+    (runs.PlayedTick, schemas_counterfactual.PlayedTick),
+    (runs.End, schemas_counterfactual.End),
+    (runs.Side, schemas_counterfactual.Side),
+    (runs.Counterfactual, schemas_counterfactual.Counterfactual),
+    (runs.TimelineMark, timeline.TimelineMark),
+    (runs.Timeline, timeline.TimelinePage),
+    (runs.RoadChange, timeline.RoadChange),
+    (runs.RoadChanges, timeline.RoadChanges),
+    (runs.Moment, timeline.Moment),
+    (runs.Moments, timeline.Moments),
+    (runs.ExpectedTick, insight.ExpectedTick),
+    (runs.Expected, insight.Expected),
+    (runs.JudgedDecision, insight.JudgedDecision),
+    (runs.Judged, insight.Judged),
     (unbound.Advice, schemas_advice.Advice),
     (unbound.AdviceOption, schemas_advice.AdviceOption),
     (unbound.Intent, schemas.IntentGuide),
@@ -42,11 +61,22 @@ PAIRS: list[tuple[type, type[BaseModel]]] = [
 ]
 
 
+LEFT_IN_RAW: dict[type, set[str]] = {
+    results.Health: {"tick_lateness"},
+    unbound.Advice: {"samples", "physics", "seed", "interval", "parameters"},
+    unbound.AdviceOption: {"harm_kmh", "meets_kmh", "needs_m"},
+    unbound.Guide: {"preview", "taught", "prefix"},
+}
+"""Documented, and not typed here: what is read by the page, or looked up now and then."""
+
+
 @pytest.mark.parametrize(("ours", "documented"), PAIRS)
-def test_every_field_is_documented(ours: type, documented: type[BaseModel]) -> None:
+def test_every_field_is_documented_and_every_documented_one_there(
+    ours: type, documented: type[BaseModel]
+) -> None:
     names = {each.name for each in fields(ours)} - {"raw"}
     assert names
-    assert names <= set(documented.model_fields)
+    assert names == set(documented.model_fields) - LEFT_IN_RAW.get(ours, set())
 
 
 def test_results_are_frozen() -> None:
