@@ -26,6 +26,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from service.api.context import context_of
 from service.problems import KINDS, MEDIA_TYPE
+from service.sessions.keeping import FATES
 from service.store import Store
 from service.timing import PARTS, Part, told_to
 
@@ -118,7 +119,9 @@ class Metrics:
         observed = {part: self.parts[channel, part].observe for part in PARTS}
         return lambda part, seconds: observed[part](seconds)
 
-    def families(self, sessions: int, sleeping: int, watchers: int) -> Iterator[Metric]:
+    def families(
+        self, sessions: int, sleeping: int, watchers: int, snapshots: Mapping[str, int]
+    ) -> Iterator[Metric]:
         """Everything, as it is now."""
         yield GaugeMetricFamily("roadtalk_sessions", "Live sessions", value=sessions)
         yield GaugeMetricFamily(
@@ -140,6 +143,12 @@ class Metrics:
             self.parts,
         )
         yield self.store.family("roadtalk_store_seconds", "One call to the store, durable when it is done")
+        fates = CounterMetricFamily(
+            "roadtalk_snapshots", "Snapshots of sessions, by what became of them", labels=["fate"]
+        )
+        for fate, count in snapshots.items():
+            fates.add_metric([fate], count)
+        yield fates
         refused = CounterMetricFamily("roadtalk_refusals", "Problems answered over HTTP", labels=["kind"])
         for kind in sorted(_SLUGS):
             refused.add_metric([kind], self.refusals[kind])
@@ -237,7 +246,7 @@ async def metrics(request: Request) -> Response:
     manager = context_of(request).manager
     counted = metrics_of(request)
     registry = CollectorRegistry(auto_describe=False)
-    registry.register(
-        cast(Any, _Now(list(counted.families(manager.live, manager.sleeping, manager.watchers))))
-    )
+    snapshots = {fate: manager.keeper.fates[fate] for fate in FATES}
+    figures = counted.families(manager.live, manager.sleeping, manager.watchers, snapshots)
+    registry.register(cast(Any, _Now(list(figures))))
     return Response(generate_latest(registry), media_type=CONTENT_TYPE_LATEST)

@@ -3,13 +3,16 @@
 Clients talk to it in threads, each to a session of its own. What is in the middle of being asked when
 the process dies has an unknown outcome: it is sent again under the same idempotency key once the service
 is back. Afterwards the log must hold exactly what was asked, in order, once each; replaying it compares
-the digest of every entry. With `--database postgres` the same on a PostgreSQL server of its own.
+the digest of every entry. Snapshots are kept after little work, so that sessions come back by them as well as
+without. With `--database postgres` the same on a PostgreSQL server of its own.
 """
 
 from __future__ import annotations
 
 import argparse
+import os
 import random
+import re
 import signal
 import socket
 import subprocess
@@ -28,6 +31,7 @@ import httpx
 from tests.service.postgres import binaries, serving
 
 ROUNDS_OF_A_SESSION = 8
+SNAPSHOT_WORK = 15
 TEXTS = ("step {n}", "set potholes to {n}", "step {n}", "set barriers to {n}", "step {n}", "undo", "redo")
 
 
@@ -44,7 +48,12 @@ class Service:
             self.port = free.getsockname()[1]
         self.url = f"http://127.0.0.1:{self.port}"
         command = [sys.executable, "-m", "service", "serve", "--port", str(self.port), "--database", database]
-        self.process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        self.process = subprocess.Popen(
+            command,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            env=os.environ | {"ROADTALK_SNAPSHOT_WORK": str(SNAPSHOT_WORK)},
+        )
         try:
             self._wait()
         except BaseException:
@@ -143,6 +152,9 @@ class Report:
     acknowledged: int = 0
     retried: int = 0
     sessions: int = 0
+    snapshots: int = 0
+    """how often a session came back by one"""
+    unfit: int = 0
 
 
 def run(database: str, rounds: int, seed: int = 1, clients: int = 4, most_s: float = 1.0) -> Report:
@@ -164,6 +176,7 @@ def run(database: str, rounds: int, seed: int = 1, clients: int = 4, most_s: flo
             for talker in talkers:
                 for path in talker.said:
                     talker.check(http, path)
+            used, unfit = _snapshots(http)
     finally:
         service.kill(signal.SIGTERM)
     return Report(
@@ -171,7 +184,19 @@ def run(database: str, rounds: int, seed: int = 1, clients: int = 4, most_s: flo
         sum(talker.acknowledged for talker in talkers),
         sum(talker.retried for talker in talkers),
         sum(len(talker.said) for talker in talkers),
+        used,
+        unfit,
     )
+
+
+def _snapshots(http: httpx.Client) -> tuple[int, int]:
+    """How many sessions came back by a snapshot, and how many have one that did not fit."""
+    figures = http.get("/metrics").text
+    used, unfit = (
+        int(float(re.search(rf'roadtalk_snapshots_total{{fate="{fate}"}} (\S+)', figures)[1]))  # type: ignore[index]
+        for fate in ("used", "unfit")
+    )
+    return used, unfit
 
 
 def _one_round(service: Service, talkers: list[Client], for_s: float) -> None:
@@ -221,6 +246,7 @@ def main() -> None:
         print(
             f"{given.database}: {report.rounds} rounds, {report.sessions} sessions, {report.acknowledged} "
             f"acknowledged, {report.retried} asked again; 0 lost, 0 twice, 0 digests that differ; "
+            f"at the end {report.snapshots} came back by a snapshot, {report.unfit} could not; "
             f"{time.monotonic() - began:.0f} s"
         )
 
