@@ -78,6 +78,18 @@ def entry_values(session_id: str, entry: EntryRecord) -> dict[str, Any]:
     }
 
 
+def entry_of(row: Row[Any]) -> EntryRecord:
+    """An entry of a row."""
+    return EntryRecord(
+        sequence=row.sequence,
+        tick=row.tick,
+        text=row.text,
+        actions=row.actions,
+        digest=row.digest,
+        paused=row.paused,
+    )
+
+
 def snapshot_values(record: SnapshotRecord) -> dict[str, Any]:
     """A snapshot as a row."""
     return {

@@ -35,6 +35,7 @@ from service.store.engines import Postgres, Sqlite, kind_of, reason
 from service.store.lineage import joined
 from service.store.rows import (
     answer_values,
+    entry_of,
     entry_values,
     moment_values,
     record_of,
@@ -44,6 +45,9 @@ from service.store.rows import (
 )
 from service.store.schema import bring_up
 from service.store.tables import ENTRIES, IDEMPOTENCY, MOMENTS, PHRASES, SESSIONS, SNAPSHOTS
+
+_PAGE = 500
+"""Entries read at once: making records of rows holds up the event loop."""
 
 _Pending = tuple[str, EntryRecord, KeptAnswer | None, "asyncio.Future[None]"]
 
@@ -380,15 +384,10 @@ async def _own_entries(connection: AsyncConnection, session_id: str, most: int |
     query = select(ENTRIES).where(ENTRIES.c.session_id == session_id).order_by(ENTRIES.c.sequence)
     if most is not None:
         query = query.where(ENTRIES.c.sequence <= most)
-    rows = (await connection.execute(query)).all()
-    return [
-        EntryRecord(
-            sequence=row.sequence,
-            tick=row.tick,
-            text=row.text,
-            actions=row.actions,
-            digest=row.digest,
-            paused=row.paused,
-        )
-        for row in rows
-    ]
+    found: list[EntryRecord] = []
+    while True:
+        last = found[-1].sequence if found else 0
+        rows = (await connection.execute(query.where(ENTRIES.c.sequence > last).limit(_PAGE))).all()
+        found += map(entry_of, rows)
+        if len(rows) < _PAGE:
+            return found
