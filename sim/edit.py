@@ -78,8 +78,9 @@ def apply(run: Run, action: WorldAction) -> Applied:
         _refuse_what_is_gone(action)
         begun, event = next_episode(run)
         events = (event,)
-    applied = _apply(begun, action)
-    return replace(applied, changes=differences(run, applied.run), events=(*events, *applied.events))
+    done = _apply(begun, action)
+    changes = () if done.run is run else differences(run, done.run)
+    return Applied(done.action, done.run, changes, done.added, done.removed, (*events, *done.events))
 
 
 def _apply(run: Run, action: WorldAction) -> Applied:

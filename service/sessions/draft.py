@@ -60,6 +60,9 @@ WORLD_ACTIONS = (Add, Remove, SetCount, Scenario, Reset, SetMode, Drive, Set, Ad
 STEPS = (*WORLD_ACTIONS, Rewind, Load)
 """Actions that are a step to undo."""
 
+_MOVES_TIME = (StepTicks, Undo, Redo, Rewind)
+"""Actions for which ticks are run."""
+
 
 class Draft:
     """A session's changeable part, on a copy."""
@@ -91,6 +94,8 @@ class Draft:
 
     def work_ticks(self, actions: Sequence[Action]) -> int:
         """About how many ticks are to be run: those of steps, and those since what is undone or redone."""
+        if not any(isinstance(action, _MOVES_TIME) for action in actions):
+            return 0
         timeline = self.timeline
         undos, redos = (sum(isinstance(action, kind) for action in actions) for kind in (Undo, Redo))
         back = list(islice(self.history.latest_first(timeline.entries), undos))

@@ -78,7 +78,8 @@ class History:
 
     def copy(self) -> History:
         """A history that goes its own way."""
-        return replace(self)
+        # By name: `replace` takes five times as long, for every change.
+        return History(self.done, self.undone, self.saved, self.ground, self.ground_steps, self.ground_paused)
 
     def add(self, step: Step) -> None:
         """One more change; what was undone before it cannot be redone."""
