@@ -1,8 +1,10 @@
 """How long a session of 10,000 entries takes to come back, and to fork: `python -m bench.restore`.
 
-Three sessions: counts set and steps in turn, the same with mixed actions (things added and removed, undone
-and redone, moves, modes), and 10,000 mixed entries over 50,000 ticks. Where it is not said otherwise, times
-are CPU time of the process: on a machine that does other work as well, only that can be compared.
+Four sessions: counts set and steps in turn, the same with mixed actions (things added and removed, undone
+and redone, moves, modes), 10,000 mixed entries over 50,000 ticks, and some with moves in time among them.
+Each comes back by its whole log, and by the snapshot that was kept while it was talked to, as after a kill;
+then it is asked for past ticks at once. Where it is not said otherwise, times are CPU time of the process: on
+a machine that does other work as well, only that can be compared.
 """
 
 from __future__ import annotations
@@ -14,7 +16,9 @@ import statistics
 import sys
 import tempfile
 import time
+from collections import Counter
 from collections.abc import Awaitable, Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -66,8 +70,23 @@ def mixed(entries: int, ticks: int) -> Iterator[Said]:
         yield {"do": "step", "ticks": ticks} if number % 2 else dice.choice(others)
 
 
+def with_moves_in_time(entries: int) -> Iterator[Said]:
+    """The same, and now and then back in time, to a name or by ticks, or a pause."""
+    dice = random.Random(6)
+    moves: list[Said] = [
+        {"do": "load", "name": "here"},
+        {"do": "rewind", "ticks": 3},
+        {"do": "rewind", "ticks": 200},
+        {"do": "pause"},
+        {"do": "resume"},
+        {"do": "set", "parameter": "playback_speed", "value": 2},
+    ]
+    for said in mixed(entries, 5):
+        yield dice.choice(moves) if dice.random() < 0.1 else said
+
+
 async def measure(name: str, script: Callable[[int], Iterator[Said]], entries: int, folder: Path) -> None:
-    """Make a session, let it go, bring it back, look at ticks of it by chance, and fork it."""
+    """Make a session and let it go; then see how it comes back."""
     store = SqlStore(f"sqlite:///{folder}/{name.replace(' ', '-')}.db")
     await store.open()
     around = Surroundings(store, WheelClock(), Narrator.load(), Settings())
@@ -79,15 +98,35 @@ async def measure(name: str, script: Callable[[int], Iterator[Said]], entries: i
             await session.change(Utterance(actions=contract.load([next(sayings)])))
         except ProblemError:
             continue
-    digest, tick = session.run.world.digest(), session.timeline.tick
-    await manager.close()
-
+    ends, kept = (session.run.world.digest(), session.timeline.tick), Counter(manager.keeper.fates)
+    # Nothing is kept at the end, as after a kill; what is due already would have been kept meanwhile.
+    await manager.keeper.settled()
+    kept += manager.keeper.fates - kept
+    snapshot = await store.snapshot(session.id)
+    identity = session.id
+    del session, manager
     gc.collect()
     gc.freeze()  # as the service does once it has started
+    if snapshot is None:
+        raise SystemExit("no snapshot was kept")
+    print(
+        f"{name}: {entries} entries, {ends[1]} ticks; {kept['kept']} snapshots were kept, the last after "
+        f"entry {snapshot.sequence} of {len(snapshot.body) / 1000:.0f} kB",
+        flush=True,
+    )
+    await come_back(f"{name}, by its snapshot", around, identity, ends)
+    await store.keep_snapshot(replace(snapshot, checksum="none of it is used"))
+    await come_back(f"{name}, by its whole log", around, identity, ends)
+    await store.close()
+
+
+async def come_back(name: str, around: Surroundings, session_id: str, ends: tuple[str, int]) -> None:
+    """Bring a session back, look at ticks of it by chance, and fork it."""
     again = SessionManager(around)
-    back, restored_s, restored_cpu_s = await timed(lambda: again.get(session.id))
-    if back.run.world.digest() != digest or back.timeline.tick != tick:
+    back, restored_s, restored_cpu_s = await timed(lambda: again.get(session_id))
+    if (back.run.world.digest(), back.timeline.tick) != ends:
         raise SystemExit("it came back as another")
+    tick = back.timeline.tick
     dice = random.Random(1)
     looks, rewinds, forks, walls = [], [], [], []
     for _ in range(LOOKS):
@@ -96,23 +135,24 @@ async def measure(name: str, script: Callable[[int], Iterator[Said]], entries: i
         rewinds.append(spent(lambda at=at: back.timeline.copy().rewind(at)))
     for number in range(FORKS):
         at = dice.randrange(tick) if number % 2 else tick
+        await again.keeper.settled()
         child, wall_s, cpu_s = await timed(lambda at=at: again.fork(back, at))
         if child.run != back.timeline.at(at):
             raise SystemExit("a fork is another")
         forks.append(cpu_s * 1000)
         walls.append(wall_s * 1000)
     last = child.id
+    await again.keeper.settled()
     await again.close()
     third = SessionManager(around)
     _, _, woken_s = await timed(lambda: third.get(last))
     print(
-        f"{name}: {entries} entries, {tick} ticks: restored in {restored_cpu_s:.2f} s "
+        f"{name}: restored in {restored_cpu_s:.2f} s "
         f"({restored_s:.2f} s by the clock); at a tick: {told(looks)}; back to a tick: {told(rewinds)}; "
         f"fork: {told(forks)} (by the clock {told(walls)}); a fork restored in {woken_s:.2f} s",
         flush=True,
     )
     await third.close()
-    await store.close()
 
 
 async def timed(work: Callable[[], Awaitable[Session]]) -> tuple[Session, float, float]:
@@ -135,12 +175,13 @@ def told(times: list[float]) -> str:
 
 
 async def everything(entries: int) -> None:
-    """All three."""
+    """All four."""
     with tempfile.TemporaryDirectory() as made:
         folder = Path(made)
         await measure("counts and steps", counts_and_steps, entries, folder)
         await measure("mixed", lambda most: mixed(most, 1), entries, folder)
         await measure("mixed and long", lambda most: mixed(most, 10), entries, folder)
+        await measure("with moves in time", with_moves_in_time, entries, folder)
 
 
 def main(entries: int = ENTRIES) -> None:

@@ -31,6 +31,9 @@ if TYPE_CHECKING:
 MOST_STATES = 1_024
 """States on the way of all timelines together; of those beside the present one fewer are written then."""
 
+AT_ONCE = 500
+"""Actions written at once: nothing else is done meanwhile, not even in other threads."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Frozen:
@@ -201,11 +204,12 @@ def _entries(entries: Sequence[Entry]) -> list[Any]:
     numbers: dict[str, int] = {}
     actions: list[Any] = []
     which = []
-    for action in contract.dump(tuple(entry.action for entry in entries)):
-        number = numbers.setdefault(repr(action), len(actions))
-        if number == len(actions):
-            actions.append(action)
-        which.append(number)
+    for start in range(0, len(entries), AT_ONCE):
+        for action in contract.dump(tuple(entry.action for entry in entries[start : start + AT_ONCE])):
+            number = numbers.setdefault(repr(action), len(actions))
+            if number == len(actions):
+                actions.append(action)
+            which.append(number)
     return [[entry.sequence for entry in entries], [entry.tick for entry in entries], which, actions]
 
 

@@ -33,6 +33,9 @@ WRITTEN = 4
 THINGS = 100
 """A road with so many things on it takes twice as long as an empty one."""
 
+MOST_DUE = 64
+"""Sessions whose snapshot is waiting to be written: each is held in memory as it was."""
+
 LEFT = 4
 """Of the work after which one is kept, one part of so many is enough where the session is let go of."""
 
@@ -121,6 +124,8 @@ class Keeper:
             self._take(session)
 
     def _take(self, session: Session) -> None:
+        if len(self._due) >= MOST_DUE and session.id not in self._due:
+            return  # with the next change, or never: it is only a shortcut
         session.footing.owed = 0
         self._due.pop(session.id, None)
         self._due[session.id] = Frozen.of(session)

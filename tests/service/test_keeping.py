@@ -155,6 +155,19 @@ async def test_a_fork_has_one_of_its_own_and_needs_no_parent() -> None:
     await compared(service.store, grandchild.id)
 
 
+async def test_no_more_wait_to_be_written_than_memory_is_meant_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("service.sessions.keeping.MOST_DUE", 2)
+    service = Service(snapshot_work=1)
+    sessions = [await service.session(paused=True) for _ in range(3)]
+    for session in (*sessions, *sessions):
+        await do(session, ADD)
+    keeper = service.manager.keeper
+    assert list(keeper._due) == [each.id for each in sessions[:2]]
+    await keeper.settled()
+    await do(sessions[2], ADD)
+    assert await kept(service, sessions[2]) == 3
+
+
 async def test_deleted_while_it_was_being_written() -> None:
     service = Service(snapshot_work=1)
     session = await service.session(paused=True)
