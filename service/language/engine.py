@@ -28,7 +28,7 @@ from service.language.parse_types import Ambiguous, Choice, Correction, Parse, R
 from service.language.paths import ALLOWS, SEPARATOR
 from service.language.references import Unclear, add_known, add_referents
 from service.language.remembered import Remembered
-from service.language.sentences import Sentences
+from service.language.sentences import Sentences, Unsayable
 from service.language.suggestions import Suggestions
 from service.language.tokens import Token, as_said, normalise, renamed, tokenise
 from service.language.topic import ALONE, Phrases, Topic
@@ -290,9 +290,12 @@ class _Reading:
         if not isinstance(first, Add):
             return self._refused([self._plain], ())
         away = Remove(kind=first.kind, count=first.count, where=first.where)
-        choices = tuple(
-            Choice(self._language.sentence(each), each) for each in ((away, *actions[1:]), actions)
-        )
+        try:
+            choices = tuple(
+                Choice(self._language.sentence(each), each) for each in ((away, *actions[1:]), actions)
+            )
+        except Unsayable:  # a language that says nothing back has no sentences to choose from
+            return self._refused([self._plain], ())
         return Ambiguous(self._text, self._messages["more_of_what"], choices)
 
     def _which(self) -> Parse | None:

@@ -15,6 +15,7 @@ from service.language.data import read_yaml
 from service.language.evaluate import same
 from service.language.numbers import NumberWords
 from service.language.tokens import Contractions, normalise, tokenise
+from service.language.topic import Topic
 from service.resources import prompts_folder
 from tests.language.beside import meaning
 
@@ -297,6 +298,10 @@ def test_a_pair_in_brackets_is_no_decimal(german: Language) -> None:
     assert meaning(german, "ein Kegel bei (3,7)") == [
         {"do": "add", "kind": "barrier", "count": 1, "where": {"cell": [3, 7]}}
     ]
+
+
+def test_what_cannot_be_said_back_is_refused_and_not_asked_about(german: Language) -> None:
+    assert isinstance(german.parse("noch zwei", Topic(kind="pothole", removed=True)), Refused)
 
 
 @given(st.text(max_size=300))
