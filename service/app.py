@@ -32,6 +32,7 @@ from service.api import (
     insight,
     links,
     metrics,
+    nearby,
     openapi,
     pages,
     parse,
@@ -157,6 +158,7 @@ def create_app(
     app.add_middleware(bodiless.Bodiless)
     app.add_middleware(RequestIds)
     errors.install(app)
+    app.state.addresses = addresses = nearby.Addresses()
     for resource in (
         sessions,
         commands,
@@ -177,8 +179,10 @@ def create_app(
         counterfactual,
     ):
         app.include_router(resource.router, prefix=PREFIX)
-    app.include_router(health.router)
-    app.include_router(metrics.router)
+        addresses.add(resource.router, PREFIX)
+    for at_root in (health, metrics):
+        app.include_router(at_root.router)
+        addresses.add(at_root.router)
     openapi.install(app)
     pages.install(app)
     return app

@@ -54,7 +54,8 @@ async def json_only(connection: HTTPConnection) -> None:
     said = connection.headers.get("content-type", "")
     kind = said.partition(";")[0].strip().lower()
     if kind != "application/json":
-        raise NotJson(f"Send the body as application/json, not as {kind or 'nothing said'}.")
+        said = f"not as {kind[:100]}" if kind else "and say so in Content-Type"
+        raise NotJson(f"Send the body as application/json, {said}. With curl: --json '{{}}'.")
 
 
 async def _here(connection: HTTPConnection) -> Context:

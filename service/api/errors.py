@@ -150,6 +150,10 @@ def _validation(error: RequestValidationError) -> ProblemError:
     details = error.errors()
     if any(detail["type"] == "json_invalid" for detail in details):
         return Malformed(f"The body cannot be read as JSON: {details[0]['ctx']['error']}.")
+    if details[0]["loc"] == ("body",):  # the whole of it; there is no field to name
+        missing = details[0]["type"] == "missing"
+        said = "is missing; send a JSON object, {} at least" if missing else _message(details[0])
+        return Invalid(f"The body {said}.", errors=[FieldProblem("", said)])
     # The framework puts first where a value was: in the body, the query or the path.
     inside = [{**detail, "loc": detail["loc"][1:]} for detail in details]
     in_body = all(detail["loc"][0] == "body" for detail in details)
@@ -169,7 +173,8 @@ def _http(request: Request, error: HTTPException) -> ProblemError:
         case 400:
             return Malformed("The body cannot be read.")
         case _:
-            return NotFound(f"There is nothing at {where}. The calls there are stand at /docs.")
+            near = request.app.state.addresses.near(request.url.path) or "The calls there are stand at /docs."
+            return NotFound(f"There is nothing at {where}. {near}")
 
 
 def _allowed(offered: Sequence[str]) -> str:

@@ -29,8 +29,10 @@ CHANGING = ("POST", "PATCH", "DELETE")
 """Methods that may change something."""
 
 _TAG = re.compile(r'(W/)?"([\x21\x23-\x7e]*)"')
-_TAGS = re.compile(rf"\s*{_TAG.pattern}(\s*,\s*{_TAG.pattern})*\s*")
-_DOCUMENTED = r'^\s*(\*|(W/)?"[!#-~]*"(\s*,\s*(W/)?"[!#-~]*")*)\s*$'
+_BLANK = " \t"
+"""What HTTP calls white space: less than a text does."""
+_TAGS = re.compile(rf"[ \t]*{_TAG.pattern}([ \t]*,[ \t]*{_TAG.pattern})*[ \t]*")
+_DOCUMENTED = r'^[ \t]*(\*|(W/)?"[!#-~]*"([ \t]*,[ \t]*(W/)?"[!#-~]*")*)[ \t]*$'
 """What may stand in `If-Match`, in words that every reader of schemas knows."""
 _SEQUENCE = re.compile(r"([0-9]{1,15})(-[0-9a-f]+)?")
 
@@ -41,7 +43,7 @@ OnTerms = Callable[[Callable[[Outcome], Response]], Terms]
 def matched(request: Request) -> frozenset[int] | None:
     """The sequences a session may stand at for this request; None for any. Raises `Invalid`."""
     said = request.headers.get("if-match")
-    if said is None or said.strip() == "*":
+    if said is None or said.strip(_BLANK) == "*":
         return None
     if not _TAGS.fullmatch(said):
         message = 'must be the ETag of an answer about this session, such as "3", or *'
@@ -120,7 +122,7 @@ def tagged(request: Request, response: Response, sequence: int) -> Response:
     digest = hashlib.blake2b(response.body, digest_size=8).hexdigest()
     tag = f"{sequence}-{digest}"
     said = request.headers.get("if-none-match")
-    if said is not None and (said.strip() == "*" or any(tag == own for _, own in _TAG.findall(said))):
+    if said is not None and (said.strip(_BLANK) == "*" or any(tag == own for _, own in _TAG.findall(said))):
         return Response(status_code=304, headers={"ETag": f'"{tag}"'})
     response.headers["ETag"] = f'"{tag}"'
     return response

@@ -70,8 +70,9 @@ SMALL = {
     "ROADTALK_MAX_ROAD_CELLS": "600",
     "ROADTALK_MAX_STEP_TICKS": "200",
     "ROADTALK_MAX_RECORDING_BYTES": "131072",
+    "ROADTALK_CHANGES_PER_MINUTE": "1000000",
 }
-"""Small films and roads: what is looked at here is the contract, not the work."""
+"""Small films and roads, and no haste too great: what is looked at here is the contract, not the work."""
 
 
 def configuration(document: Mapping[str, Any]) -> str:

@@ -172,3 +172,65 @@ async def test_what_is_said_of_parameters_that_are_not_known(
 async def test_the_page_its_files_and_the_signs_of_life_take_what_comes(client: httpx.AsyncClient) -> None:
     for path in (*PAGES, "/healthz", "/readyz", "/metrics"):
         assert (await client.get(f"{path}?surprise=1")).status_code == 200, path
+
+
+@pytest.mark.parametrize(
+    ("asked", "told"),
+    [
+        ("/api/v1/sessions/", "Did you mean /api/v1/sessions?"),
+        ("/api/v1/session", "Did you mean /api/v1/sessions?"),
+        ("/sessions", "Did you mean /api/v1/sessions?"),
+        ("/health", "Did you mean /healthz?"),
+        ("/api/v1/sessions/abc/stat", "Did you mean /api/v1/sessions/abc/state?"),
+        ("/sessions/abc", "Did you mean /api/v1/sessions/abc?"),
+        (
+            "/api/v1/sessions/abc/stream",
+            "This is a WebSocket; by plain HTTP, the same can be read at …/events/stream.",
+        ),
+        ("/nowhere", "The calls there are stand at /docs."),
+        (f"/api/v1/sessions/{'x' * 5_000}/stat", "The calls there are stand at /docs."),
+    ],
+)
+async def test_a_slip_in_an_address_is_told(client: httpx.AsyncClient, asked: str, told: str) -> None:
+    answer = await client.get(asked)
+    assert answer.status_code == 404
+    assert answer.json()["detail"] == f"There is nothing at GET {asked}. {told}"
+
+
+@pytest.mark.parametrize(
+    ("body", "kind", "status", "detail"),
+    [
+        (b"", "application/json", 422, "The body is missing; send a JSON object, {} at least."),
+        (b'"pause"', "application/json", 422, "The body must be an object."),
+        (
+            b"{}",
+            None,
+            415,
+            "Send the body as application/json, and say so in Content-Type. With curl: --json '{}'.",
+        ),
+        (
+            b"{}",
+            "text/plain; charset=utf-8",
+            415,
+            "Send the body as application/json, not as text/plain. With curl: --json '{}'.",
+        ),
+    ],
+)
+async def test_a_body_that_is_none_is_told_how_it_is_meant(
+    client: httpx.AsyncClient, body: bytes, kind: str | None, status: int, detail: str
+) -> None:
+    headers = {} if kind is None else {"content-type": kind}
+    answer = await client.post("/api/v1/sessions", content=body, headers=headers)
+    assert (answer.status_code, answer.json()["detail"]) == (status, detail)
+
+
+@pytest.mark.parametrize("tag", [b"*\xa0", b"\xa0*", b'"0"\xa0', b'"0"\x85', b'"0",\xa0"1"'])
+async def test_white_space_is_what_http_says_it_is(
+    client: httpx.AsyncClient, identity: str, tag: bytes
+) -> None:
+    answer = await client.post(
+        f"/api/v1/sessions/{identity}/actions",
+        content=b'{"actions":[{"do":"pause"}]}',
+        headers=[(b"content-type", b"application/json"), (b"if-match", tag)],
+    )
+    assert (answer.status_code, answer.json()["errors"][0]["field"]) == (422, "If-Match")
