@@ -63,14 +63,14 @@ class Whole:
     def _part(self, part: Part, until: float) -> bool:
         """One phase; whether it came to its end."""
         self.cases[part.phase], self.took[part.phase] = 0, 0.0
-        examples, seed = part.examples, self.seed
+        examples, seed, began = part.examples, self.seed, time.monotonic()
         while True:
             report = self.tool.run(
                 [part.phase],
                 seed=seed,
                 examples=examples,
                 until=until,
-                follow=lambda tally: self._progress(part, tally),
+                follow=lambda tally: self._progress(part, tally, began),
             )
             self.tally += report.tally
             self.cases[part.phase] += report.cases
@@ -86,7 +86,7 @@ class Whole:
             examples = max(FEWEST, round(1.1 * examples * missing / max(1, report.cases)))
             seed += 1
 
-    def _progress(self, part: Part, tally: Tally) -> None:
+    def _progress(self, part: Part, tally: Tally, began: float) -> None:
         shown = sys.stderr.isatty()
         now = time.monotonic()
         if not shown and now - self._line_at < LINE_S:
@@ -94,7 +94,9 @@ class Whole:
         self._line_at = now
         done = self.cases[part.phase] + tally.answers
         wanted = f" of {part.cases}" if part.cases else ""
-        told = f"{part.phase}: {done}{wanted} answers, {tally.violations.total()} violations"
+        pace = done / max(now - began, 0.1)
+        found = self.tally.violations.total() + tally.violations.total()
+        told = f"{part.phase}: {done}{wanted} answers, {pace:.0f}/s, {found} violations so far"
         print(f"\r\x1b[K{told}" if shown else told, end="" if shown else "\n", file=sys.stderr, flush=True)
 
     def tell(self, calls: Iterable[str]) -> None:
@@ -104,7 +106,8 @@ class Whole:
         for report in self.found:
             print(report.output)
         for phase, cases in self.cases.items():
-            print(f"{phase:<9} {cases:>6} cases in {self.took[phase]:.0f} s")
+            took = self.took[phase]
+            print(f"{phase:<9} {cases:>6} cases in {took:.0f} s, {cases / max(took, 0.1):.0f}/s")
         by_status = ", ".join(f"{status}: {count}" for status, count in sorted(self.tally.statuses.items()))
         print(f"answers by status: {by_status}")
         left = sorted(set(calls) - set(self.tally.calls))
