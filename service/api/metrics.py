@@ -246,7 +246,7 @@ async def metrics(request: Request) -> Response:
     manager = context_of(request).manager
     counted = metrics_of(request)
     registry = CollectorRegistry(auto_describe=False)
-    snapshots = {fate: manager.keeper.fates[fate] for fate in FATES}
+    snapshots: dict[str, int] = {fate: manager.keeper.fates[fate] for fate in FATES}
     figures = counted.families(manager.live, manager.sleeping, manager.watchers, snapshots)
     registry.register(cast(Any, _Now(list(figures))))
     return Response(generate_latest(registry), media_type=CONTENT_TYPE_LATEST)
