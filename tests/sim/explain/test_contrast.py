@@ -13,7 +13,7 @@ from tests.sim.roads import road, run_on
 
 def test_every_change_stated_has_the_outcome_stated() -> None:
     flipped = 0
-    for timeline in moments(300, seed=3):
+    for timeline in moments(150, seed=3):
         for foil in Move:
             try:
                 explanation = why_not(timeline, foil)
@@ -28,7 +28,7 @@ def test_every_change_stated_has_the_outcome_stated() -> None:
                 for name in names:
                     others = tuple(other for other in names if other != name)
                     assert move_after(run, removed=others) is not foil
-    assert flipped > 1000
+    assert flipped > 500
 
 
 def test_a_blocked_move_is_freed_by_removing_the_blocker() -> None:

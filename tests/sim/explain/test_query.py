@@ -21,25 +21,29 @@ def timeline() -> Timeline:
     return timeline
 
 
+@pytest.fixture(scope="module")
 def decisions(timeline: Timeline) -> dict[int, Move]:
+    """The move of every tick that had one."""
     found = {tick: timeline.decision(tick) for tick in range(timeline.tick)}
     return {tick: decision.move for tick, decision in found.items() if decision is not None}
 
 
-def test_without_more_the_latest_decision_is_meant(timeline: Timeline) -> None:
-    assert why(timeline).decision.tick == max(decisions(timeline))
+def test_without_more_the_latest_decision_is_meant(timeline: Timeline, decisions: dict[int, Move]) -> None:
+    assert why(timeline).decision.tick == max(decisions)
 
 
 @pytest.mark.parametrize(
     ("asked", "counts"), [(Move.LEFT, {Move.LEFT, Move.FORWARD_LEFT}), (Move.STAY, {Move.STAY})]
 )
-def test_a_move_means_the_latest_such_decision(timeline: Timeline, asked: Move, counts: set[Move]) -> None:
-    latest = max(tick for tick, move in decisions(timeline).items() if move in counts)
+def test_a_move_means_the_latest_such_decision(
+    timeline: Timeline, decisions: dict[int, Move], asked: Move, counts: set[Move]
+) -> None:
+    latest = max(tick for tick, move in decisions.items() if move in counts)
     assert why(timeline, move=asked).decision.tick == latest
 
 
-def test_every_past_decision_can_be_asked_about(timeline: Timeline) -> None:
-    for tick, move in decisions(timeline).items():
+def test_every_past_decision_can_be_asked_about(timeline: Timeline, decisions: dict[int, Move]) -> None:
+    for tick, move in decisions.items():
         explanation = why(timeline, tick=tick)
         assert (explanation.decision.tick, explanation.decision.move) == (tick, move)
 
@@ -62,8 +66,8 @@ def test_what_is_not_so_is_said(timeline: Timeline) -> None:
         assert code(caught) == expected
 
 
-def test_a_tick_with_another_move_is_told_apart(timeline: Timeline) -> None:
-    tick = next(tick for tick, move in decisions(timeline).items() if move is Move.FORWARD)
+def test_a_tick_with_another_move_is_told_apart(timeline: Timeline, decisions: dict[int, Move]) -> None:
+    tick = next(tick for tick, move in decisions.items() if move is Move.FORWARD)
     with pytest.raises(QuestionError) as caught:
         why(timeline, tick=tick, move=Move.STAY)
     assert code(caught) == "not_that_move"
