@@ -160,11 +160,13 @@ def test_the_two_play_in_step_and_stop_when_told(road: Road) -> None:
     road.bubble.locator(".bubble-move", has_text="stay").click()
     tick = road.beside.locator(".beside-tick")
     expect(tick).to_have_text("tick 2", timeout=5_000)
-    labels = [
-        road.beside.locator(f"[data-side={side}] canvas").get_attribute("aria-label")
-        for side in ("real", "changed")
-    ]
-    assert labels[0] != labels[1]
+    # Both at one moment: a tick later, the one behind is where the other was.
+    road.page.wait_for_function(
+        """() => {
+          const label = (side) => document.querySelector(`#beside [data-side=${side}] canvas`).ariaLabel;
+          return label("real") !== label("changed");
+        }"""
+    )
     road.page.keyboard.press("Space")
     expect(road.beside.get_by_role("button", name="Play both")).to_be_visible()
     stood = tick.inner_text()
