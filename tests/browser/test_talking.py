@@ -95,6 +95,8 @@ def test_over_long_text_is_refused_in_words(visit: Visit) -> None:
     exchange = visitor.say("potholes " * 150)
     assert exchange.get_attribute("data-standing") == "refused"
     assert exchange.locator(".reply").inner_text() != ""
+    # Where typing and sending are apart, completions were asked for and refused: the browser's own line.
+    visitor.console = [line for line in visitor.console if "422" not in line]
 
 
 def test_an_unavailable_wish_is_refused_saying_so(visit: Visit) -> None:
