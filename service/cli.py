@@ -174,6 +174,9 @@ def server_config(app: FastAPI, settings: Settings) -> uvicorn.Config:
         ws_per_message_deflate=False,
         access_log=False,
         log_level="warning",
+        # Off unless asked for: else every program on this machine could say that it is somebody else.
+        proxy_headers=bool(settings.trusted_proxies),
+        forwarded_allow_ips=settings.trusted_proxies,
         timeout_graceful_shutdown=STOP_S,
         lifespan="on",
     )

@@ -103,6 +103,11 @@ class Settings(BaseSettings):
     allowed_hosts: str | None = Field(
         default=None, description="Further names to be asked under, by commas; loopback names always are."
     )
+    trusted_proxies: str | None = Field(
+        default=None,
+        description="Addresses, by commas, whose word on whom they ask for is taken (`X-Forwarded-For`); "
+        "without it nobody's.",
+    )
     changes_per_minute: int | None = Field(
         default=None,
         ge=1,

@@ -307,6 +307,18 @@ async def test_who_changes_too_often_is_told_when_to_try_again() -> None:
         assert (await client.get(f"{path}/state")).json()["tick"] == 2
 
 
+@pytest.mark.parametrize(("proxies", "last"), [(None, 429), ("10.0.0.1", 429), ("127.0.0.1", 200)])
+async def test_whom_a_request_is_from_is_told_by_named_proxies_only(proxies: str | None, last: int) -> None:
+    settings = Settings(changes_per_minute=2, trusted_proxies=proxies)
+    app = create_app(settings, store=MemoryStore())
+    async with running(app, settings) as at, httpx.AsyncClient(base_url=at.http) as client:
+        path = (await client.post(SESSIONS, json={"seed": 1})).headers["location"]
+        for number in range(3):
+            said = {"X-Forwarded-For": f"203.0.113.{number}"}
+            answer = await client.post(f"{path}/step", json={"ticks": 1}, headers=said)
+        assert answer.status_code == last
+
+
 def test_each_client_has_a_bucket_and_few_are_remembered() -> None:
     now = [0.0]
     buckets = Buckets(2, lambda: now[0])
