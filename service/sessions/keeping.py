@@ -11,6 +11,7 @@ import asyncio
 import time
 from collections import Counter
 from collections.abc import Iterable
+from contextlib import suppress
 from typing import Literal
 
 import structlog
@@ -53,6 +54,7 @@ class Keeper:
         self._due: dict[str, Frozen] = {}
         self._worker: asyncio.Task[None] | None = None
         self._until_s: float | None = None
+        self._hurry = asyncio.Event()
         self._said = False
         self.fates: Counter[Fate] = Counter()
         """what became of snapshots"""
@@ -96,19 +98,24 @@ class Keeper:
 
     async def settled(self) -> None:
         """Keep what is to be kept, now."""
-        self._until_s = time.monotonic() + 60.0
-        while self._worker is not None:
-            await asyncio.wait([self._worker])
-        await self._keep_due()
+        await self._keep_all(within_s=60.0)
         self._until_s = None
+        self._hurry.clear()
 
     async def close(self, sessions: Iterable[Session], within_s: float) -> None:
         """Keep what there is time for, of those that owe most first. Where clocks stand is stored."""
         self._until_s = time.monotonic() + within_s
         for session in sorted(sessions, key=self._owed, reverse=True):
             self.leave(session)
-        worker = self._worker or asyncio.ensure_future(self._keep_due())
-        await asyncio.wait([worker], timeout=2 * within_s)
+        await asyncio.wait([asyncio.ensure_future(self._keep_all(within_s))], timeout=2 * within_s)
+
+    async def _keep_all(self, within_s: float) -> None:
+        """Keep at once what waits, as far as there is time for it."""
+        self._until_s = time.monotonic() + within_s
+        self._hurry.set()
+        if self._worker is not None:
+            await asyncio.wait([self._worker])  # it may be in the midst of one
+        await self._keep_due()
 
     def _owed(self, session: Session) -> int:
         return session.footing.owe(session.timeline.worked, 0)
@@ -140,7 +147,8 @@ class Keeper:
 
     async def _keep_in_time(self) -> None:
         while self._due and self._until_s is None:
-            await asyncio.sleep(CALM_S)
+            with suppress(TimeoutError):
+                await asyncio.wait_for(self._hurry.wait(), CALM_S)
             if self._until_s is None and self._due:
                 await self._keep(self._due.pop(next(iter(self._due))))
 

@@ -10,6 +10,7 @@ from service import actions as contract
 from service.narrate import Narrator
 from service.sessions.later import Later
 from service.sessions.manager import SessionManager
+from service.sessions.replaying import replay
 from service.sessions.session import Session, Surroundings
 from service.sessions.utterance import Utterance
 from service.settings import Settings
@@ -65,7 +66,7 @@ async def test_a_replay_writes_the_same_lines(config: Config) -> None:
     await session.change(Utterance(actions=contract.load([{"do": "step", "ticks": 30}])))
     around = Surroundings(store, clock, WORDS, Settings())
     replayed = Session(session.record, Timeline(config), around)
-    replayed.replay(list(await store.entries(session.id)), session.timeline.tick)
+    replay(replayed, WORDS, list(await store.entries(session.id)), session.timeline.tick)
     assert lines(replayed) == lines(session)
     assert any(text.startswith(("Reached", "Crash", "Stuck")) for _, _, text in lines(replayed))
 
