@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import gc
 import socket
 import sys
 from collections.abc import Callable
@@ -16,7 +15,7 @@ from fastapi import FastAPI
 from pydantic import ValidationError
 from starlette.types import Message, Scope
 
-from service import logs
+from service import garbage, logs
 from service.api.heads import StrictHead
 from service.app import create_app
 from service.commands.doctor import doctor
@@ -34,9 +33,6 @@ from service.store import Store, StoreError, open_store
 from service.version import VERSION
 from service.window.command import play
 from sim import planner_names
-
-GARBAGE = 20_000
-"""So many values more than there were are looked through for rings that nobody holds."""
 
 STOP_S = 1
 """How long a stopping service waits for requests under way."""
@@ -217,18 +213,16 @@ async def warmed(app: FastAPI) -> int:
 
 async def _serve(config: uvicorn.Config, store: Store, listener: socket.socket, deadline: Deadline) -> None:
     await warmed(cast(FastAPI, config.app))
-    # Grammar, schemas and routes are 300,000 objects that stay. Looking through them for garbage took
-    # 200 ms and more each time, in the midst of ticks; frozen, they are never looked at again.
-    gc.collect()
-    gc.freeze()
-    # Ticks make and drop thousands of values a second that hold no rings, which need no looking for.
-    gc.set_threshold(GARBAGE, 20, 10)
+    sweep = asyncio.create_task(garbage.begin().run())
     # Before the server starts, so that a database that cannot be opened is one clear line.
     await store.open()
     host, port = listener.getsockname()[:2]
     shown = f"[{host}]" if ":" in host else host
     server = _Server(config, lambda: typer.echo(f"Roadtalk is at http://{shown}:{port}"), deadline)
-    await server.serve(sockets=[listener])
+    try:
+        await server.serve(sockets=[listener])
+    finally:
+        sweep.cancel()
 
 
 class _Server(uvicorn.Server):
