@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import AsyncIterator
-from typing import Any
 
 import httpx
 import pytest
@@ -12,19 +11,12 @@ import pytest
 from service.app import create_app
 from service.settings import Settings
 from service.store import MemoryStore
-from tests.service.fakes import FewSentences, HandClock
+from tests.contract.document import Json, asked, operations
 from tests.service.live import running
 
-Json = dict[str, Any]
-APP = create_app(
-    Settings(database="memory:"), store=MemoryStore(), language=FewSentences(), clock=HandClock()
-)
+APP = asked()
 DOCUMENT: Json = APP.openapi()
-OPERATIONS = [
-    pytest.param(path, method, operation, id=f"{method} {path}")
-    for path, item in DOCUMENT["paths"].items()
-    for method, operation in item.items()
-]
+OPERATIONS = operations(DOCUMENT)
 ENDLESS = "/api/v1/sessions/{session_id}/events/stream"
 READING = [each for each in OPERATIONS if each.values[1] == "get"]
 PAGES = ("/", "/docs", "/docs/start.js", "/openapi.json", "/favicon.svg", "/src/main.js")

@@ -16,21 +16,11 @@ from pydantic import TypeAdapter
 
 from service import problems
 from service.api import bodies, insight, schemas, schemas_advice, schemas_counterfactual, tickets, timeline
-from service.app import create_app
-from service.settings import Settings
-from service.store import MemoryStore
-from tests.service.fakes import FewSentences, HandClock
+from tests.contract.document import Json, asked, operations
 
-Json = dict[str, Any]
-APP = create_app(
-    Settings(database="memory:"), store=MemoryStore(), language=FewSentences(), clock=HandClock()
-)
+APP = asked()
 DOCUMENT: Json = APP.openapi()
-OPERATIONS = [
-    pytest.param(path, method, operation, id=f"{method} {path}")
-    for path, item in DOCUMENT["paths"].items()
-    for method, operation in item.items()
-]
+OPERATIONS = operations(DOCUMENT)
 POSTS = sorted(path for path, item in DOCUMENT["paths"].items() if "post" in item)
 WITH_BODY = ("post", "patch")
 ROUTES = {

@@ -1,0 +1,31 @@
+"""An application to ask, and every call of its document as a case for tests."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from fastapi import FastAPI
+
+from service.app import create_app
+from service.settings import Settings
+from service.store import MemoryStore
+from tests.service.fakes import FewSentences, HandClock
+
+Json = dict[str, Any]
+
+
+def asked() -> FastAPI:
+    """The service in memory, with a clock that is moved by hand."""
+    return create_app(
+        Settings(database="memory:"), store=MemoryStore(), language=FewSentences(), clock=HandClock()
+    )
+
+
+def operations(document: Json) -> list[Any]:
+    """Path, method and what the document says of it, for each call."""
+    return [
+        pytest.param(path, method, operation, id=f"{method} {path}")
+        for path, item in document["paths"].items()
+        for method, operation in item.items()
+    ]
