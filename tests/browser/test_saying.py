@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from playwright.sync_api import Locator, expect
+from playwright.sync_api import Locator, Route, expect
 
 from tests.browser.conftest import Visit
 from tests.browser.visitor import Visitor
@@ -161,6 +161,23 @@ def test_german_is_chosen_and_understood(visit: Visit) -> None:
     exchange = visitor.say("füge fünf Schlaglöcher hinzu")
     assert exchange.get_attribute("data-standing") == "done"
     assert visitor.script.count("pothole") == before + 5
+
+
+def test_an_answer_that_comes_late_takes_no_newer_ones_place(visit: Visit) -> None:
+    visitor = visit()
+    held: list[Route] = []
+    visitor.page.route("**/*language=en*", lambda route: held.append(route))
+    visitor.page.keyboard.press("?")
+    dialog = visitor.page.get_by_role("dialog", name="What can I say?")
+    dialog.get_by_label("I speak").select_option("de")
+    sentences = dialog.get_by_role("region", name="Sentences")
+    expect(sentences).to_contain_text("warum")
+    (english,) = held
+    with visitor.page.expect_event("requestfinished"):
+        english.continue_()
+    visitor.page.evaluate("() => new Promise(requestAnimationFrame)")
+    expect(sentences).to_have_count(1)
+    expect(sentences).to_contain_text("warum")
 
 
 def test_what_is_heard_is_put_in_the_box_and_not_sent(visit: Visit) -> None:

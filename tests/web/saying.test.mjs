@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { foresee, guide, previewWords } from "../../web/src/language.js";
-import { Latest } from "../../web/src/latest.js";
+import { Latest, turns } from "../../web/src/latest.js";
 import { rank } from "../../web/src/panels/palette.js";
 
 /** A clock that is moved by hand, and answers that come when they are told to. */
@@ -44,6 +44,15 @@ function asking() {
     },
   };
 }
+
+test("of questions that overtake one another only the newest is answered", () => {
+  const asking = turns();
+  const first = asking();
+  assert.ok(first());
+  const second = asking();
+  assert.ok(!first());
+  assert.ok(second());
+});
 
 test("only what stands when the typing rests is asked", async () => {
   const { latest, asked, rest } = asking();

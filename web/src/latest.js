@@ -1,5 +1,21 @@
 // @ts-check
-/** Asking while somebody types: after a pause, one question at a time, and only the newest answer is told. */
+/**
+ * Only the newest answer is told: of questions that overtake one another, and of those asked while somebody types
+ * (after a pause, one at a time).
+ */
+
+/**
+ * Turns of asking. Each call begins one and gives back whether it is still the newest: what an older one brings late
+ * belongs to nothing that is seen.
+ * @returns {() => () => boolean}
+ */
+export function turns() {
+  let newest = 0;
+  return () => {
+    const mine = ++newest;
+    return () => mine === newest;
+  };
+}
 
 /**
  * @template Asked, Told

@@ -9,6 +9,7 @@ import { endWords, fetchBeside, nameOfOther, partOf, sumOf, titleOf } from "../c
 import { make, setText } from "../dom.js";
 import { capital, moveName } from "../hits.js";
 import { icon } from "../icons.js";
+import { turns } from "../latest.js";
 import { createLoop } from "../loop.js";
 import { INITIAL } from "../state.js";
 import { wantsStillness } from "../theme.js";
@@ -71,7 +72,7 @@ export function createBeside(host, page) {
   let last = 0;
   let playing = false;
   let timer = 0;
-  let asked = 0;
+  const asking = turns();
   /** @type {Element | null} */ let from = null;
 
   const loop = createLoop({
@@ -88,7 +89,7 @@ export function createBeside(host, page) {
   async function open(other) {
     const { session } = page.state();
     if (session === null) return;
-    const mine = ++asked;
+    const newest = asking();
     if (host.hidden) from = document.activeElement;
     show(true);
     run(false);
@@ -100,10 +101,10 @@ export function createBeside(host, page) {
     close.focus();
     try {
       const answer = await fetchBeside(session, other);
-      if (mine !== asked || host.hidden) return;
+      if (!newest() || host.hidden) return;
       begin(other, answer);
     } catch (error) {
-      if (mine !== asked) return;
+      if (!newest()) return;
       setText(summary, error instanceof Error ? error.message : String(error));
       host.dataset.trouble = "";
     }
@@ -192,7 +193,7 @@ export function createBeside(host, page) {
   }
 
   function leave() {
-    asked += 1;
+    asking();
     run(false);
     found = null;
     show(false);

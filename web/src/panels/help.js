@@ -67,12 +67,15 @@ export function createHelp(button, page) {
 
   function open() {
     if (document.querySelector("dialog[open]")) return;
-    body.replaceChildren(make("p", { class: "help-wait" }, "One moment…"), keys(page), choices(open));
+    const wait = make("p", { class: "help-wait" }, "One moment…");
+    body.replaceChildren(wait, keys(page), choices(open));
     dialog.showModal();
     close.focus();
+    // Each answer takes the place of its own wait: one that was asked for before the language changed, and comes late,
+    // finds its place gone.
     void guide().then(
-      (told) => body.firstElementChild?.replaceWith(sayings(told, page, dialog)),
-      (error) => body.firstElementChild?.replaceWith(make("p", { class: "help-wait", role: "alert" }, `What can be said is not known just now. ${error.message}`)),
+      (told) => wait.replaceWith(sayings(told, page, dialog)),
+      (error) => wait.replaceWith(make("p", { class: "help-wait", role: "alert" }, `What can be said is not known just now. ${error.message}`)),
     );
   }
 

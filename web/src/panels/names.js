@@ -4,6 +4,7 @@
 import { makeDialog } from "../dialog.js";
 import { make, setText } from "../dom.js";
 import { ask, askJson, words } from "../http.js";
+import { turns } from "../latest.js";
 import { hashOf } from "../links.js";
 import { SESSIONS_PATH, sessionPath } from "../protocol.js";
 
@@ -20,6 +21,7 @@ export function momentsDialog(page, looking) {
   const list = make("ul", { class: "rows" });
   const dialog = makeDialog("Saved moments", form, told, list);
   /** @type {string | null} */ let waiting = null;
+  const asking = turns();
 
   form.addEventListener("submit", (event) => {
     event.preventDefault();
@@ -31,13 +33,15 @@ export function momentsDialog(page, looking) {
   async function show() {
     const { session } = page.state();
     if (!session) return;
+    const newest = asking();
     try {
       /** @type {{items: {name: string, tick: number}[]}} */
       const { items } = await askJson(`${sessionPath(session)}/saved`);
+      if (!newest()) return;
       list.replaceChildren(...items.map(rowOf));
       if (items.length === 0) list.append(make("li", { class: "rows-none" }, "Nothing has been saved yet."));
     } catch (error) {
-      tell(words(error), true);
+      if (newest()) tell(words(error), true);
     }
   }
 
@@ -111,14 +115,18 @@ export function sessionsDialog(page) {
   } }, "New session");
   const dialog = makeDialog("Sessions", told, list, make("div", { class: "form-end" }, more, fresh));
   /** @type {string | null} */ let after = null;
+  const asking = turns();
 
   async function show() {
+    const newest = asking();
     try {
       const found = await askJson(`${SESSIONS_PATH}?limit=20${after === null ? "" : `&after=${after}`}`);
+      if (!newest()) return; // opened anew, or asked for twice
       list.append(...found.items.map(rowOf));
       after = found.after;
       more.hidden = !found.more;
     } catch (error) {
+      if (!newest()) return;
       told.dataset.tone = "bad";
       setText(told, words(error));
     }

@@ -4,6 +4,7 @@
 import { perform } from "../acts.js";
 import { make } from "../dom.js";
 import { guide } from "../language.js";
+import { turns } from "../latest.js";
 
 /** @import { Act } from "../acts.js" */
 /** @import { Page } from "../main.js" */
@@ -32,6 +33,7 @@ export function createPalette(dialog, page) {
   /** @type {Entry[]} */ let entries = [];
   /** @type {{entry: Entry, element: HTMLElement}[]} */ let found = [];
   let at = 0;
+  const asking = turns();
 
   /** @type {Act} */
   const opens = { name: "palette", group: "Help", keyName: "Ctrl K", now: () => ({ label: "Everything that can be done", run: open }) };
@@ -59,10 +61,15 @@ export function createPalette(dialog, page) {
     search.value = "";
     dialog.showModal();
     show();
+    const newest = asking();
     void guide().then(({ intents }) => {
+      if (!newest() || !dialog.open) return;
       const sentences = intents.filter(({ available }) => available).flatMap(({ examples }) => examples.slice(0, 3));
       entries = [...actsNow(page), ...sentences.map(({ text }) => ({ label: text, group: "Say", run: () => page.put(text) }))];
-      if (dialog.open) show();
+      const marked = found[at]?.entry.label;
+      show();
+      const again = found.findIndex(({ entry }) => entry.label === marked);
+      if (again > 0) mark(again); // what was chosen meanwhile stays chosen
     }, () => {}); // the acts alone are useful too
   }
 
