@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from typing import Annotated, cast
 
@@ -19,6 +20,10 @@ from service.sessions.words import Words
 from service.settings import Settings
 from service.store import Store
 from service.talk.listener import Listener
+
+_AS_IT_IS = ("", "identity")
+_CHARSET = re.compile(r""";[ \t]*charset[ \t]*=[ \t]*"?([^\s;"]+)""", re.IGNORECASE)
+_LETTERS = ("utf-8", "utf8", "us-ascii")
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,6 +61,17 @@ async def json_only(connection: HTTPConnection) -> None:
     if kind != "application/json":
         said = f"not as {kind[:100]}" if kind else "and say so in Content-Type"
         raise NotJson(f"Send the body as application/json, {said}. With curl: --json '{{}}'.")
+
+
+def check_form(connection: HTTPConnection) -> None:
+    """Refuse a body that says it is packed, or written in other letters than UTF-8. Raises `NotJson`."""
+    packed = connection.headers.get("content-encoding", "").strip().lower()
+    if packed not in _AS_IT_IS:
+        said = f"Send the body as it is, not packed as {packed[:100]}."
+        raise NotJson(said, headers={"Accept-Encoding": "identity"})
+    found = _CHARSET.search(connection.headers.get("content-type", ""))
+    if found is not None and found[1].lower() not in _LETTERS:
+        raise NotJson(f"Send the body in UTF-8, not in {found[1][:100]}.")
 
 
 async def _here(connection: HTTPConnection) -> Context:

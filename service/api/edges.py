@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from starlette.requests import ClientDisconnect
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from service.api.respond import problem_response
@@ -63,7 +64,8 @@ class BodyLimit:
     """Reads a body up to its limit before anyone else does; a larger one is refused unread.
 
     The framework's own limit answers in plain text, which would be the one error here that is no
-    problem document.
+    problem document. Whoever goes away before the whole of it was sent has asked for nothing: what came may
+    be readable by itself, and mean something else.
     """
 
     def __init__(self, app: ASGIApp, most: Callable[[str], int]) -> None:
@@ -78,7 +80,10 @@ class BodyLimit:
             return
         most = self._most(scope["path"])
         said = first_header(scope, b"content-length") or ""
-        body = None if said.isdecimal() and int(said) > most else await _read(receive, most)
+        try:
+            body = None if said.isdecimal() and int(said) > most else await _read(receive, most)
+        except ClientDisconnect:
+            return
         if body is None:
             refusal = TooLarge(f"At most {most} bytes are read here.", headers={"Connection": "close"})
             await problem_response(refusal)(scope, receive, send)
@@ -92,11 +97,13 @@ class BodyLimit:
 
 
 async def _read(receive: Receive, most: int) -> bytes | None:
-    """The whole body, or None once it is more than `most` bytes."""
+    """The whole body, or None once it is more than `most` bytes. Raises `ClientDisconnect` before its end."""
     parts: list[bytes] = []
     size = 0
     while True:
         message = await receive()
+        if message["type"] == "http.disconnect":
+            raise ClientDisconnect
         part = message.get("body", b"")
         parts.append(part)
         size += len(part)

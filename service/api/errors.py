@@ -149,7 +149,10 @@ def _message(detail: Any) -> str:
 def _validation(error: RequestValidationError) -> ProblemError:
     details = error.errors()
     if any(detail["type"] == "json_invalid" for detail in details):
-        return Malformed(f"The body cannot be read as JSON: {details[0]['ctx']['error']}.")
+        said = details[0]["ctx"]["error"]
+        # The reader's own words are of what the bytes became in it.
+        why = "it is not written in UTF-8" if said.startswith("str is not valid UTF-8") else said
+        return Malformed(f"The body cannot be read as JSON: {why}.")
     if details[0]["loc"] == ("body",):  # the whole of it; there is no field to name
         missing = details[0]["type"] == "missing"
         said = "is missing; send a JSON object, {} at least" if missing else _message(details[0])

@@ -1,22 +1,29 @@
-"""The head of a request, read strictly: at most so large, asked under one name, and refused as a problem.
+"""The head of a request, read strictly: at most so large, in one meaning only, and refused as a problem.
 
 The parser below has no limit of its own: a head that never ends would be kept for ever. What it cannot read
 (two lengths, a length beside chunks, line breaks within a header) it refuses by itself; here that is put into
-the shape that every error has. Leaves out bodies: see `edges`.
+the shape that every error has. What stands after a body in chunks is passed over: who may ask, and on which
+terms, was settled by then. How long a request may take to come in is told in `patience`; leaves out bodies:
+see `edges`.
 """
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
-from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol
-
 from service.api.edges import SECURITY_HEADERS
+from service.api.patience import PatientProtocol
 from service.problems import MEDIA_TYPE
 from service.wire.encode import encoded
 
 MOST_BYTES = 65_536
 """Of the address and all headers together."""
+
+_ONCE = frozenset(
+    (b"host", b"content-type", b"content-encoding", b"authorization", b"origin", b"idempotency-key")
+)
+"""Headers that are looked at and are no lists: said twice, they could be taken in two ways."""
+_VERSIONS = ("1.0", "1.1")
 
 
 class Problem(NamedTuple):
@@ -27,27 +34,40 @@ class Problem(NamedTuple):
     detail: str
 
 
-# Neither has a kind of its own: what is asked is not known yet, so no call could document it.
+# None has a kind of its own: what is asked is not known yet, so no call could document it.
 _TOO_LARGE = Problem(
     431,
     "Request Header Fields Too Large",
     f"At most {MOST_BYTES} bytes of address and headers are read here.",
 )
 _UNREADABLE = Problem(400, "Bad Request", "This is not HTTP as it is read here.")
+_NO_HOST = Problem(400, "Bad Request", "The header Host is missing.")
+_TWO_NAMES = Problem(400, "Bad Request", "The address names another host than the header Host.")
+_TOO_SLOW = Problem(
+    408, "Request Timeout", "The request did not come in to its end in time. Nothing was done."
+)
+
+
+def _twice(name: bytes) -> Problem:
+    said = "-".join(part.capitalize() for part in name.decode("ascii").split("-"))
+    return Problem(400, "Bad Request", f"The header {said} is there more than once.")
 
 
 class _RefusedError(Exception):
     """Stops the parser."""
 
 
-class StrictHead(HttpToolsProtocol):
+class StrictHead(PatientProtocol):
     """One connection."""
 
     _in_head = False
     _bytes = 0
     _waiting = 0
     """bytes of a head that is not yet complete"""
-    _hosts = 0
+    _said: frozenset[bytes] = frozenset()
+    """of the headers that may be there once, those that were"""
+    _host = b""
+    _why = _UNREADABLE
 
     def data_received(self, data: bytes) -> None:
         """Some bytes, of a head or a body or both."""
@@ -59,7 +79,7 @@ class StrictHead(HttpToolsProtocol):
 
     def on_message_begin(self) -> None:
         """A head begins."""
-        self._in_head, self._bytes, self._hosts = True, 0, 0
+        self._in_head, self._bytes, self._said, self._why = True, 0, frozenset(), _UNREADABLE
         super().on_message_begin()
 
     def on_url(self, url: bytes) -> None:
@@ -68,26 +88,50 @@ class StrictHead(HttpToolsProtocol):
         super().on_url(url)
 
     def on_header(self, name: bytes, value: bytes) -> None:
-        """One header."""
+        """One header, or what stands after a body as one."""
         self._count(len(name) + len(value))
-        self._hosts += name.lower() == b"host"
+        if not self._in_head:
+            return
+        low = name.lower()
+        if low in _ONCE:
+            if low in self._said:
+                self._stop(_twice(low))
+            self._said |= {low}
+            if low == b"host":
+                self._host = value
         super().on_header(name, value)
 
     def on_headers_complete(self) -> None:
         """It ends."""
         self._in_head = False
-        if self._hosts > 1 or (self._hosts == 0 and self.parser.get_http_version() == "1.1"):
-            raise _RefusedError  # which of the names was meant can be read in two ways
+        version = self.parser.get_http_version()
+        if version not in _VERSIONS:
+            self._stop(_UNREADABLE)
+        if b"host" not in self._said and version == "1.1":
+            self._stop(_NO_HOST)
+        if not self.url.startswith(b"/") and _named(self.url) not in (None, self._host.lower()):
+            self._stop(_TWO_NAMES)
         super().on_headers_complete()
 
     def send_400_response(self, msg: str) -> None:  # noqa: ARG002
         """What cannot be read, or was refused above."""
-        self._refuse(_TOO_LARGE if self._bytes > MOST_BYTES else _UNREADABLE)
+        self._refuse(self._why)
+
+    def out_of_patience(self) -> None:
+        """A part of a request came, and its end did not."""
+        if self._in_head or not self.cycle.response_started:
+            self._refuse(_TOO_SLOW)
+        else:
+            self.transport.close()
 
     def _count(self, size: int) -> None:
         self._bytes += size
         if self._bytes > MOST_BYTES:
-            raise _RefusedError
+            self._stop(_TOO_LARGE)
+
+    def _stop(self, why: Problem) -> None:
+        self._why = why
+        raise _RefusedError
 
     def _refuse(self, problem: Problem) -> None:
         body = encoded({"type": "about:blank", **problem._asdict()})
@@ -100,3 +144,9 @@ class StrictHead(HttpToolsProtocol):
         lines = "".join(f"{name}: {value}\r\n" for name, value in headers.items())
         self.transport.write(f"HTTP/1.1 {problem.status} {problem.title}\r\n{lines}\r\n".encode() + body)
         self.transport.close()
+
+
+def _named(url: bytes) -> bytes | None:
+    """The host that an address names by itself, as proxies are asked; None where it names none."""
+    _, scheme, rest = url.partition(b"://")
+    return rest.partition(b"/")[0].partition(b"?")[0].lower() if scheme else None

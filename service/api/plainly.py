@@ -30,6 +30,7 @@ from service.store import StoreError
 
 _BEFORE = f"{PREFIX}/sessions/"
 _IN_PATH = "/sessions/{session_id}/"
+_ABOUT_BODIES = frozenset((b"content-type", b"content-encoding"))
 
 
 class _Call(NamedTuple):
@@ -104,7 +105,7 @@ def _calls(routes: Iterable[BaseRoute]) -> Iterable[tuple[str, _Call]]:
 
 
 def _says_json(headers: Iterable[tuple[bytes, bytes]]) -> bool:
-    said = [value for name, value in headers if name == b"content-type"]
+    said = [value for name, value in headers if name in _ABOUT_BODIES]
     return said == [b"application/json"]
 
 

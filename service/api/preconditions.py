@@ -42,7 +42,7 @@ OnTerms = Callable[[Callable[[Outcome], Response]], Terms]
 
 def matched(request: Request) -> frozenset[int] | None:
     """The sequences a session may stand at for this request; None for any. Raises `Invalid`."""
-    said = request.headers.get("if-match")
+    said = _listed(request, "if-match")
     if said is None or said.strip(_BLANK) == "*":
         return None
     if not _TAGS.fullmatch(said):
@@ -52,6 +52,12 @@ def matched(request: Request) -> frozenset[int] | None:
     strong = (tag for weak, tag in _TAG.findall(said) if not weak)
     found = (_SEQUENCE.fullmatch(tag) for tag in strong)
     return frozenset(int(each[1]) for each in found if each)
+
+
+def _listed(request: Request, header: str) -> str | None:
+    """A header that is a list: said on several lines, it is one (RFC 9110, 5.3)."""
+    lines = request.headers.getlist(header)
+    return ", ".join(lines) if lines else None
 
 
 def checked(request: Request, sequence: int) -> None:
@@ -121,7 +127,7 @@ def tagged(request: Request, response: Response, sequence: int) -> Response:
     """An answer about a session under its own tag, or a 304 where the caller has it already."""
     digest = hashlib.blake2b(response.body, digest_size=8).hexdigest()
     tag = f"{sequence}-{digest}"
-    said = request.headers.get("if-none-match")
+    said = _listed(request, "if-none-match")
     if said is not None and (said.strip(_BLANK) == "*" or any(tag == own for _, own in _TAG.findall(said))):
         return Response(status_code=304, headers={"ETag": f'"{tag}"'})
     response.headers["ETag"] = f'"{tag}"'

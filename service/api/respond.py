@@ -14,11 +14,14 @@ from fastapi.dependencies.utils import get_flat_params
 from fastapi.params import Query
 from fastapi.routing import APIRoute
 
+from service.api.context import check_form
 from service.api.kept import kept_contract
 from service.api.preconditions import checked_first
 from service.api.queries import check_query
 from service.problems import MEDIA_TYPE, ProblemError
 from service.wire.encode import encoded
+
+_WITH_BODY = ("POST", "PATCH")
 
 
 def json_response(value: Any, status: int = 200, headers: Mapping[str, str] | None = None) -> Response:
@@ -59,6 +62,8 @@ class StrictRoute(APIRoute):
         async def strict(request: Request) -> Response:
             if request.scope["query_string"]:
                 check_query(request.query_params.multi_items(), known)
+            if request.method in _WITH_BODY:
+                check_form(request)
             return await kept_contract(_StrictRequest(request.scope, request.receive), handler)
 
         return strict
