@@ -70,6 +70,11 @@ class Clause:
     leans: bool = False
     """whether it leans on what was said before this sentence"""
 
+    @property
+    def supposes(self) -> str | None:
+        """What it takes for granted beyond its actions."""
+        return self.filled.frame.supposes
+
 
 @dataclass(frozen=True, slots=True)
 class Context:

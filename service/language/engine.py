@@ -28,6 +28,7 @@ from service.language.parse_types import Ambiguous, Choice, Correction, Parse, R
 from service.language.paths import ALLOWS, SEPARATOR
 from service.language.references import Unclear, add_known, add_referents
 from service.language.remembered import Remembered
+from service.language.repairs import Repaired
 from service.language.sentences import Sentences, Unsayable
 from service.language.suggestions import Suggestions
 from service.language.tokens import Token, as_said, normalise, renamed, tokenise
@@ -94,7 +95,23 @@ class Language:
         lattice = self._scanner.scan(tokens, kept)
         lattice.keep_whole(self.data.nouns)
         add_known(lattice, tokens, topic)
+        if not kept and (repaired := Repaired.found(plain, tokens, lattice)) is not None:
+            readings = repaired.readings(lambda each: self.read(each, topic, asking=False))
+            if readings is not None and not lattice.uncovered():
+                return self._put_right(text, repaired.phrase, readings, lattice, asking=asking)
         return _Reading(self, text, plain, tokens, lattice, corrections, topic).parse(asking=asking)
+
+    def _put_right(
+        self, text: str, phrase: str, readings: list[Choice], lattice: Lattice, *, asking: bool
+    ) -> Parse:
+        """What a sentence means in which something was taken back."""
+        if len(readings) == 1:
+            return Understood(text, readings[0].actions)
+        if asking and readings:
+            return Ambiguous(text, self.data.messages["which"], tuple(readings))
+        message = self.data.messages["not_understood"].format(phrases=f'"{phrase}"')
+        suggestions = self.suggestions.nearest(text, _content(lattice))
+        return Refused(text, "not_understood", message, (phrase,), (), suggestions)
 
     def sentence(self, actions: Sequence[Action]) -> str:
         """One sentence that means exactly these actions. Raises `Unsayable`."""
@@ -277,7 +294,8 @@ class _Reading:
             return self._impossible(clauses)
         if self._topic.removed and clauses[0].leans:
             return self._more_of_what(actions) if asking else self._refused([self._plain], ())
-        return Understood(self._text, actions, self._corrections)
+        supposes = next((each.supposes for each in clauses if each.actions and each.supposes), None)
+        return Understood(self._text, actions, self._corrections, supposes)
 
     def _divide(self, start: int, end: int, moods: frozenset[str]) -> Divided:
         """The clauses of tokens `[start, end)`, with these forms in place."""

@@ -25,6 +25,8 @@ class Understood:
     text: str
     actions: tuple[Action, ...]
     corrections: tuple[Correction, ...] = ()
+    supposes: str | None = None
+    """what a question takes for granted beyond its actions: "why did you crash" a `crash`"""
 
 
 @dataclass(frozen=True, slots=True)

@@ -223,12 +223,7 @@ class _Telling:
         return self._sayings.joined([self._name(name) for name in names])
 
     def _name(self, name: str) -> str:
-        kind, _, what = name.partition(":")
-        if kind == "preference" and what:
-            return self._say("wish", wish=self._sayings.say("replies", "preferences", what))
-        if kind == "setting" and what:
-            return self._say("setting", setting=what.replace("_", " "))
-        return self._naming.thing(name)
+        return called(name, self._sayings, self._naming)
 
     def _reason(self, option: Option) -> str:
         return self._sayings.met(option, "then", self._naming)
@@ -241,3 +236,13 @@ class _Telling:
 
     def _say(self, key: str, **parts: object) -> str:
         return self._sayings.say("why", key, **parts)
+
+
+def called(name: str, sayings: Sayings, naming: Naming) -> str:
+    """A thing, a wish or a setting as people call it."""
+    kind, _, what = name.partition(":")
+    if kind == "preference" and what:
+        return sayings.say("why", "wish", wish=sayings.say("replies", "preferences", what))
+    if kind == "setting" and what:
+        return sayings.say("why", "setting", setting=what.replace("_", " "))
+    return naming.thing(name)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from service.narrate.answering import Json, not_so, plain
+from service.narrate.crashes import Crashes
 from service.narrate.explained import Explained
 from service.narrate.sayings import Sayings
 from service.sessions.facts import Asked
 from service.wire.explanation import explanation_json
 from sim.explain import QuestionError, why, why_not
+from sim.explain.crash import led_to_crash
 
 
 class Whys:
@@ -17,10 +19,16 @@ class Whys:
         """`sayings`: the language's."""
         self._sayings = sayings
         self._explained = Explained(sayings)
+        self._crashes = Crashes(sayings)
 
     def answer(self, asked: Asked) -> Json:
-        """See `Answerer.answer`. A question about what is not so is answered too, without causes."""
+        """See `Answerer.answer`. A question about what is not so is answered too, without causes.
+
+        "Why did you do that?" of what ended in a crash is about the crash.
+        """
         ask, timeline = asked.ask, asked.timeline
+        if ask.about == "why" and ask.move is None and self._about_a_crash(asked):
+            return self._crashes.answer(asked)
         try:
             if ask.move is not None and ask.about == "why_not":
                 explanation = why_not(timeline, ask.move, ask.tick)
@@ -30,3 +38,6 @@ class Whys:
             return plain(self._sayings, ask, timeline.run, not_so(self._sayings, error.code, error.facts))
         text = self._explained.text(explanation)
         return plain(self._sayings, ask, timeline.run, text) | explanation_json(explanation)
+
+    def _about_a_crash(self, asked: Asked) -> bool:
+        return asked.supposes == "crash" or led_to_crash(asked.timeline, asked.ask.tick)

@@ -45,6 +45,8 @@ class Asked:
 
     ask: Ask
     timeline: Timeline
+    supposes: str | None = None
+    """what the question was said to be about, beyond its keys: a `crash`"""
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 from service import actions as contract
@@ -24,6 +25,10 @@ def outcome_of(
     words: Words, before: Run, utterance: Utterance, facts: tuple[Fact, ...], sequence: int
 ) -> Outcome:
     """The outcome of an utterance that was said in a state."""
+    if utterance.supposes is not None:
+        facts = tuple(
+            replace(fact, supposes=utterance.supposes) if isinstance(fact, Asked) else fact for fact in facts
+        )
     answers = [words.answer(fact) for fact in facts if isinstance(fact, Answerable)]
     return Outcome(
         utterance=utterance,

@@ -17,6 +17,8 @@ class Utterance:
 
     actions: tuple[Action, ...]
     text: str | None = None
+    supposes: str | None = None
+    """what its questions were said to be about, beyond their keys (`Asked.supposes`)"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -56,11 +56,12 @@ class Heard:
     corrections: tuple[Correction, ...] = ()
     source: Source = "grammar"
     language: str = DEFAULT
+    supposes: str | None = None
 
     @property
     def utterance(self) -> Utterance:
         """Ready to be done."""
-        return Utterance(actions=self.actions, text=self.text)
+        return Utterance(actions=self.actions, text=self.text, supposes=self.supposes)
 
 
 class Listener:
@@ -117,7 +118,7 @@ class Listener:
             parse = heard(self.languages[code].parse, text, self.topic(session, code))
         match parse:
             case Understood():
-                return Heard(text, parse.actions, parse.corrections, language=code)
+                return Heard(text, parse.actions, parse.corrections, language=code, supposes=parse.supposes)
             case AmbiguousParse():
                 choices = [(choice.text, choice.actions) for choice in parse.choices]
                 raise _asked(parse.question, choices, "grammar")

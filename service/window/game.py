@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Coroutine
+from dataclasses import replace
 from typing import Any
 
 import structlog
@@ -140,7 +141,7 @@ class Game:
             rest = tuple(action for action in heard.actions if not isinstance(action, Show | Hide))
             if not rest:
                 return Exchange(text, " ".join(map(self.panels.do, views)))
-            outcome = await self._listener.do(self.session, Utterance(actions=rest, text=text))
+            outcome = await self._listener.do(self.session, replace(heard.utterance, actions=rest))
             return exchanged(text, outcome, *map(self.panels.do, views))
         except ProblemError as problem:
             return refused(text, problem)

@@ -7,6 +7,7 @@ from typing import Any
 from service import actions as contract
 from service.wire.decision import option_json
 from sim.explain import Cause, Counterfactual, Explanation, Future, Stakes
+from sim.explain.crash import Crash, Saving
 from sim.run import Run
 
 Json = dict[str, Any]
@@ -30,6 +31,33 @@ def explanation_json(explanation: Explanation) -> Json:
         "counterfactual": flips[0] if flips else None,
         "stakes": None if explanation.stakes is None else _stakes_json(explanation.stakes),
         "evidence": {"counterfactuals": flips, "reruns": explanation.reruns},
+    }
+
+
+def crash_json(crash: Crash) -> Json:
+    """The explanation of the last tick, and with its evidence what happened and what would have saved it."""
+    told = explanation_json(crash.explanation)
+    told["evidence"]["crash"] = {
+        "tick": crash.end,
+        "how": crash.cause.how,
+        "kind": crash.cause.kind,
+        "ids": crash.cause.ids,
+        "cell": crash.cause.cell,
+        "free": crash.free,
+        "certain": crash.certain,
+        "looked_back": crash.looked_back,
+        "whole": crash.whole,
+        "saving": None if crash.saving is None else _saving_json(crash.saving),
+    }
+    return told
+
+
+def _saving_json(saving: Saving) -> Json:
+    return {
+        "tick": saving.tick,
+        "made": saving.made,
+        "instead": saving.instead,
+        "ticks": saving.ticks,
     }
 
 

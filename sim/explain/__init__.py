@@ -1,7 +1,7 @@
 """Why a decision was taken, proved: every claim is a re-run of perceive → forecast → plan.
 
 `query` finds the decision that is meant, `causes` and `contrast` prove what brought it about,
-`facts` is what they answer. Words come last and elsewhere.
+`crash` the same for how an episode ended, `facts` is what they answer. Words come last and elsewhere.
 """
 
 from sim.explain.facts import Cause, Counterfactual, Explanation, QuestionError, Role, Verified

@@ -15,8 +15,9 @@ spared; whether any smaller part would do is then tried outright.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from itertools import combinations
+from typing import Protocol
 
 from sim.explain.factors import is_factor, removal
 from sim.explain.facts import Cause, Counterfactual, Explanation, Role, Verified
@@ -24,7 +25,7 @@ from sim.explain.rerun import Rerun, wall
 from sim.kinds import Move
 from sim.optimum.thin import spared
 from sim.place import nearest_first
-from sim.plan import Decision
+from sim.plan import Decision, Option
 from sim.run import Run
 from sim.world import World
 
@@ -39,13 +40,12 @@ def explain_why(run: Run, decision: Decision) -> Explanation:
     """Why `decision` was taken in `run`."""
     rerun = Rerun(run, decision)
     fact = decision.move
-    names = [*rerun.factors, *_telling_first(run.world, decision)]
-    enough = _least(names, lambda kept: rerun.keeping(kept) is fact)
-    if any(rerun.without([name]) is fact for name in enough):  # some have a stand-in
-        enough = _of_necessary(rerun, fact, names) or enough
-    enough, minimal = _smallest(rerun, fact, enough)
-    groups = _groups(rerun, fact, names, enough)
-    causes = _ranked(rerun, decision, enough, groups)
+    enough, groups, minimal = hung_on(rerun, fact, [*rerun.factors, *telling_first(run.world, decision)])
+    if decision.held_back:
+        hindered = [option for option in decision.options if option.move is decision.asked]
+    else:
+        hindered = list(decision.preferred)
+    causes = ranked(rerun, fact, run.world, hindered, groups)
     told = dict.fromkeys(cause.group for cause in causes if cause.group)
     flips = [Counterfactual(removal(group, run.config), rerun.without(group), group) for group in told]
     foil = next((option.move for option in decision.preferred if option.cell is not None), None)
@@ -66,6 +66,31 @@ def explain_why(run: Run, decision: Decision) -> Explanation:
     )
 
 
+class Tried(Protocol):
+    """What can be tried without some things, or with nothing but some, and then comes to something."""
+
+    def without(self, names: Iterable[str]) -> object:
+        """What it comes to had these never been there."""
+
+    def keeping(self, names: Iterable[str]) -> object:
+        """What it comes to had nothing but these been there."""
+
+
+def hung_on(
+    tried: Tried, fact: object, names: list[str]
+) -> tuple[list[str], dict[str, tuple[str, ...]], bool]:
+    """What a fact hangs on: a smallest part of `names` that is enough for it, and the group of each.
+
+    Also whether no smaller part would do (all were tried). With all of `names` it comes to the fact, and the
+    more telling ones come first.
+    """
+    enough = _least(names, lambda kept: tried.keeping(kept) is fact)
+    if any(tried.without([name]) is fact for name in enough):  # some have a stand-in
+        enough = _of_necessary(tried, fact, names) or enough
+    enough, minimal = _smallest(tried, fact, enough)
+    return enough, _groups(tried, fact, names, enough), minimal
+
+
 def _had_it_been_blocked(rerun: Rerun, decision: Decision) -> list[Counterfactual]:
     """For a move that nothing brought about: what would have been done had its cell been blocked."""
     if decision.asked is not None or decision.chosen.cell is None or decision.move is Move.STAY:
@@ -74,7 +99,7 @@ def _had_it_been_blocked(rerun: Rerun, decision: Decision) -> list[Counterfactua
     return [Counterfactual(change, rerun.after(change))]
 
 
-def _telling_first(world: World, decision: Decision) -> list[str]:
+def telling_first(world: World, decision: Decision) -> list[str]:
     """Every thing's id: first those that stand in the way, in the order of preference; then the nearest."""
     direct = [name for option in decision.options for name in option.causes]
     cells = nearest_first({*world.movers, *world.hazards}, world)
@@ -82,34 +107,34 @@ def _telling_first(world: World, decision: Decision) -> list[str]:
     return list(dict.fromkeys([*direct, *near]))
 
 
-def _of_necessary(rerun: Rerun, fact: Move, names: list[str]) -> list[str]:
+def _of_necessary(tried: Tried, fact: object, names: list[str]) -> list[str]:
     """A set that is enough and of necessary things alone, or an empty list if there is none."""
-    necessary = [name for name in names if rerun.without([name]) is not fact]
-    if rerun.keeping(necessary) is not fact:
+    necessary = [name for name in names if tried.without([name]) is not fact]
+    if tried.keeping(necessary) is not fact:
         return []
-    return spared(necessary, lambda kept: rerun.keeping(kept) is fact)
+    return spared(necessary, lambda kept: tried.keeping(kept) is fact)
 
 
-def _groups(rerun: Rerun, fact: Move, names: list[str], enough: list[str]) -> dict[str, tuple[str, ...]]:
+def _groups(tried: Tried, fact: object, names: list[str], enough: list[str]) -> dict[str, tuple[str, ...]]:
     """For each cause its group; an empty one for causes that are not necessary after the first few."""
-    necessary = {name for name in enough if rerun.without([name]) is not fact}
+    necessary = {name for name in enough if tried.without([name]) is not fact}
     looked_for = [name for name in enough if name not in necessary][:MAX_GROUPS]
     groups: dict[str, tuple[str, ...]] = {}
     for name in enough:
         if name in necessary:
             groups[name] = (name,)
         else:
-            groups[name] = _group(rerun, fact, name, names, enough) if name in looked_for else ()
+            groups[name] = _group(tried, fact, name, names, enough) if name in looked_for else ()
     return groups
 
 
-def _group(rerun: Rerun, fact: Move, name: str, names: list[str], enough: list[str]) -> tuple[str, ...]:
+def _group(tried: Tried, fact: object, name: str, names: list[str], enough: list[str]) -> tuple[str, ...]:
     """The things that must go with a cause that is not necessary for the move to change.
 
     There are such: without the cause and all that is not one, the others are not enough.
     """
     stand_ins = [other for other in names if other not in enough]
-    return (name, *_least(stand_ins, lambda gone: rerun.without([name, *gone]) is not fact))
+    return (name, *_least(stand_ins, lambda gone: tried.without([name, *gone]) is not fact))
 
 
 def _least(names: list[str], holds: Callable[[Sequence[str]], bool]) -> list[str]:
@@ -124,7 +149,7 @@ def _least(names: list[str], holds: Callable[[Sequence[str]], bool]) -> list[str
     return spared(names[:size], holds)
 
 
-def _smallest(rerun: Rerun, fact: Move, enough: list[str]) -> tuple[list[str], bool]:
+def _smallest(tried: Tried, fact: object, enough: list[str]) -> tuple[list[str], bool]:
     """The smallest part that is enough as well, and whether no part of that can be (all were tried).
 
     Of a set larger than `MAX_TRIED` only single members are known not to be spared.
@@ -132,28 +157,26 @@ def _smallest(rerun: Rerun, fact: Move, enough: list[str]) -> tuple[list[str], b
     if len(enough) > MAX_TRIED:
         return enough, False
     parts = (part for size in range(len(enough)) for part in combinations(enough, size))
-    smaller = next((list(part) for part in parts if rerun.keeping(part) is fact), None)
+    smaller = next((list(part) for part in parts if tried.keeping(part) is fact), None)
     return (enough if smaller is None else smaller), True
 
 
-def _ranked(
-    rerun: Rerun, decision: Decision, enough: list[str], groups: dict[str, tuple[str, ...]]
+def ranked(
+    tried: Tried, fact: object, world: World, hindered: Sequence[Option], groups: dict[str, tuple[str, ...]]
 ) -> tuple[Cause, ...]:
-    """The causes: those that block the most preferred move first, then what sent them there, then wishes."""
-    if decision.held_back:
-        hindered = [option for option in decision.options if option.move is decision.asked]
-    else:
-        hindered = list(decision.preferred)
+    """The causes, by their groups: those that block the first of the hindered moves before the others.
+
+    Then what sent them there, then wishes.
+    """
     causes = []
-    for name in enough:
-        group = groups[name]
+    for name, group in groups.items():
         necessary = group == (name,)
-        each = len(group) > 1 and all(rerun.keeping([other]) is decision.move for other in group)
+        each = len(group) > 1 and all(tried.keeping([other]) is fact for other in group)
         if is_factor(name):
             kind = name.partition(":")[0]
             causes.append(Cause(name, kind, None, Role.WEIGHS, (), necessary, group, each))  # type: ignore[arg-type]
             continue
-        thing = rerun.run.world.find(name)
+        thing = world.find(name)
         if thing is not None:
             blocked = tuple(option.move for option in hindered if name in option.causes)
             role = Role.BLOCKS if blocked else Role.DRIVES

@@ -1,0 +1,225 @@
+"""Why an episode ended in a crash, proved: what it hung on, and what would have saved it.
+
+The causes are a smallest set of things that is *enough* for the crash, found as those of a decision are
+(`causes`): with nothing else on the road the last tick, run again, ends the same way. What would have
+saved it is looked for backwards along the way that was driven: the last tick at which some way still led to
+the goal, the move that was made there, and one that leads there. Where somebody may give way by chance, or
+the road was changed meanwhile, nothing is claimed about earlier ticks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from typing import Final
+
+from sim.explain.causes import hung_on, ranked, telling_first
+from sim.explain.factors import is_factor, removal
+from sim.explain.facts import Counterfactual, Explanation, QuestionError, Verified
+from sim.explain.rerun import Rerun
+from sim.explain.stakes import after_move
+from sim.kinds import Move, Outcome
+from sim.optimum import least_ticks
+from sim.run import Run, advance, decide
+from sim.timeline import SNAPSHOT_TICKS, Timeline
+from sim.world import Cause, World
+
+LOOK_BACK_TICKS: Final = 1_000
+"""How far back a crash that is asked about is looked for."""
+
+SAVED_WITHIN: Final = 64
+"""Ticks before a crash in which a move that would have saved it is looked for."""
+
+
+@dataclass(frozen=True, slots=True)
+class Saving:
+    """A move after which a way led to the goal, at the last tick at which there was one."""
+
+    tick: int
+    made: Move
+    instead: Move
+    ticks: int
+    """from the episode's beginning to the goal, by the quickest way after it"""
+
+
+@dataclass(frozen=True, slots=True)
+class Crash:
+    """A crash, in facts."""
+
+    explanation: Explanation
+    """of the last tick: what the crash hung on, and how it goes without"""
+    cause: Cause
+    """what was hit, how, and where"""
+    end: int
+    """the tick at which it was so"""
+    free: tuple[Move, ...]
+    """moves of the last tick that would have met nothing"""
+    certain: bool
+    """whether anything is known of the ticks before: nobody gives way by chance"""
+    looked_back: int
+    """how many ticks before the crash were looked at for one that would have saved it"""
+    whole: bool
+    """whether that was the whole way from the episode's beginning, on a road nobody changed"""
+    saving: Saving | None
+    """None where no way led to the goal at any of those ticks"""
+
+
+class _LastTick:
+    """The last tick again on roads that differ from its own: whether it ends in a crash."""
+
+    def __init__(self, run: Run, rerun: Rerun) -> None:
+        """`rerun` is that of its decision."""
+        self._run = run
+        self._rerun = rerun
+        self._known: dict[tuple[str, frozenset[str]], bool] = {}
+
+    def without(self, names: Iterable[str]) -> bool:
+        """Whether there is a crash had these never been there, or these wishes never been said."""
+        gone = frozenset(names)
+        key = ("without", gone)
+        if key not in self._known:
+            world = self._run.world.without(frozenset(name for name in gone if not is_factor(name)))
+            self._known[key] = self._crashes(world, self._rerun.without(gone))
+        return self._known[key]
+
+    def keeping(self, names: Iterable[str]) -> bool:
+        """Whether there is a crash had nothing but these been there."""
+        kept = frozenset(names)
+        key = ("keeping", kept)
+        if key not in self._known:
+            world = self._run.world.keeping(frozenset(name for name in kept if not is_factor(name)))
+            self._known[key] = self._crashes(world, self._rerun.keeping(kept))
+        return self._known[key]
+
+    def _crashes(self, world: World, move: Move) -> bool:
+        return after_move(replace(self._run, world=world), move).world.outcome is Outcome.CRASH
+
+
+def why_crashed(timeline: Timeline, tick: int | None = None) -> Crash:
+    """Why the latest crash came about, or the one that the decision of a tick led to.
+
+    Raises `QuestionError`: `no_crash` with the number of episodes that have ended, `no_crash_lately`,
+    `no_such_tick`, and `no_crash_then`.
+    """
+    run = _fatal(timeline) if tick is None else _at(timeline, tick)
+    decision = decide(run)
+    assert decision is not None
+    after = advance(run).run.world
+    assert after.cause is not None
+    certain = run.config.courtesy == 0.0
+    rerun = Rerun(run, decision)
+    explanation = _last_tick(rerun)
+    looked_back, whole, saving = _saving(timeline, run) if certain else (0, False, None)
+    free = tuple(option.move for option in decision.options if option.verdict == "free")
+    return Crash(explanation, after.cause, after.tick, free, certain, looked_back, whole, saving)
+
+
+def led_to_crash(timeline: Timeline, tick: int | None) -> bool:
+    """Whether the decision of a tick ended in a crash, or if none is named, the latest one."""
+    if tick is None:
+        world = timeline.run.world
+        return world.outcome is Outcome.CRASH and (world.ended or 0) > 0
+    return 0 <= tick < timeline.tick and crashed_in(timeline.at(tick))
+
+
+def crashed_in(run: Run) -> bool:
+    """Whether the decision that is taken in this state ends in a crash."""
+    return run.world.outcome is Outcome.RUNNING and advance(run).run.world.outcome is Outcome.CRASH
+
+
+def _at(timeline: Timeline, tick: int) -> Run:
+    """The state before the crash at a tick: that of its decision, or that in which it was so."""
+    for each in (tick, tick - 1):
+        if not 0 <= each < timeline.tick:
+            continue
+        run = timeline.at(each)
+        if crashed_in(run):
+            return run
+    if tick > timeline.tick:
+        raise QuestionError("no_such_tick", tick=tick, now=timeline.tick)
+    raise QuestionError("no_crash_then", tick=tick)
+
+
+def _fatal(timeline: Timeline) -> Run:
+    """The state in which the last decision before the latest crash was taken."""
+    metrics = timeline.run.metrics
+    if not metrics.crashes:
+        raise QuestionError("no_crash", episodes=metrics.episodes)
+    stop, span = timeline.tick, 1
+    oldest = max(0, stop - LOOK_BACK_TICKS)
+    after = timeline.run
+    while stop > oldest:
+        first = max(oldest, stop - span)
+        for run in reversed(list(timeline.between(first, stop))):
+            if after.metrics.crashes > run.metrics.crashes:
+                return run
+            after = run
+        stop, span = first, min(4 * span, SNAPSHOT_TICKS)
+    raise QuestionError("no_crash_lately", ticks=LOOK_BACK_TICKS)
+
+
+def _last_tick(rerun: Rerun) -> Explanation:
+    """What the crash hung on, as the explanation of the last decision."""
+    run, decision = rerun.run, rerun.decision
+    tried = _LastTick(run, rerun)
+    names = [*rerun.factors, *telling_first(run.world, decision)]
+    enough, groups, minimal = hung_on(tried, True, names)
+    made_first = sorted(decision.options, key=lambda option: option.move is not decision.move)
+    causes = ranked(tried, True, run.world, made_first, groups)
+    told = dict.fromkeys(cause.group for cause in causes if cause.group)
+    return Explanation(
+        about="why",
+        moment=run,
+        decision=decision,
+        foil=None,
+        causes=causes,
+        verified=Verified(
+            necessary=all(cause.necessary for cause in causes),
+            sufficient=tried.keeping(enough),
+            minimal=minimal,
+        ),
+        counterfactuals=tuple(
+            Counterfactual(removal(group, run.config), rerun.without(group), group) for group in told
+        ),
+        stakes=None,
+        reruns=rerun.count,
+    )
+
+
+def _saving(timeline: Timeline, fatal: Run) -> tuple[int, bool, Saving | None]:
+    """The last move instead of which another would have led to the goal.
+
+    With how many ticks before the crash were looked at, and whether the episode began with the first of them.
+    """
+    start = fatal.world.episode_start
+    stop, span, looked = fatal.world.tick + 1, 4, 0
+    oldest = max(start, stop - SAVED_WITHIN)
+    while stop > oldest:
+        first = max(oldest, stop - span)
+        for run in reversed(list(timeline.between(first, stop))):
+            if (run.edits, run.config, run.world.episode) != (fatal.edits, fatal.config, fatal.world.episode):
+                return looked, False, None
+            looked += 1
+            saving = _saved(run)
+            if saving is not None:
+                return looked, False, saving
+        stop, span = first, 4 * span
+    return looked, oldest == start, None
+
+
+def _saved(run: Run) -> Saving | None:
+    """A move from which a way leads to the goal, with the quickest, if there is one."""
+    decision = decide(run)
+    if decision is None or least_ticks(run) is None:
+        return None
+    ways = [
+        (ticks, order, option.move)
+        for order, option in enumerate(decision.options)
+        if option.cell is not None and option.move is not decision.move
+        if (ticks := least_ticks(after_move(run, option.move))) is not None
+    ]
+    if not ways:
+        return None
+    ticks, _, move = min(ways)
+    world = run.world
+    return Saving(world.tick, decision.move, move, world.episode_tick + 1 + ticks)
