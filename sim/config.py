@@ -6,6 +6,7 @@ A `Config` that exists is valid: the constructor raises `ConfigError` with *ever
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
+from difflib import get_close_matches
 from typing import Any, Final, get_args
 
 from sim import planner_names
@@ -121,7 +122,7 @@ class Config:
                 parts[name] = tuple(parts[name])
         unknown = sorted(set(parts) - {field.name for field in fields(self)})
         if unknown:
-            raise ConfigError(tuple(Problem(name, "is not a setting of a road") for name in unknown))
+            raise ConfigError(tuple(Problem(name, _unknown(name)) for name in unknown))
         return replace(self, **parts)
 
     @property
@@ -155,7 +156,8 @@ class Config:
             if isinstance(value, bool) or not isinstance(value, allowed):
                 problems.append(Problem(name, f"must be a {'whole ' if name in _WHOLE else ''}number"))
             elif not low <= value <= high:
-                problems.append(Problem(name, f"must be between {low:g} and {high:g}"))
+                most = high if isinstance(high, int) else f"{high:g}"
+                problems.append(Problem(name, f"must be between {low:g} and {most}"))
         return problems
 
     def _word_problems(self) -> list[Problem]:
@@ -190,3 +192,9 @@ class Config:
         largest = max(counts, key=lambda name: counts[name])
         left = max(0, room - drawn - sum(counts.values()) + counts[largest])
         return [Problem(largest, f"too many for this road: there is room for {left}")]
+
+
+def _unknown(name: str) -> str:
+    """That a setting is none, and which may have been meant."""
+    near = get_close_matches(str(name).lower(), [field.name for field in fields(Config)], n=1)
+    return "is not a setting of a road" + (f"; did you mean {near[0]}" if near else "")

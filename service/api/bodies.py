@@ -11,6 +11,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSche
 
 from service.actions import Action, load
 from service.api.config_schema import CONFIG_SCHEMA
+from service.api.letters import Letters, Name, check_letters
 from sim.actions import PlaceableKind, Weather
 
 Tick = Annotated[int, Field(ge=0, le=2**53 - 1, description="Ticks since the session began.")]
@@ -19,7 +20,11 @@ ConfigParts = Annotated[dict[str, Any], WithJsonSchema(CONFIG_SCHEMA)]
 
 def _strictly(values: Any) -> Any:
     """Actions as `service.actions.load` reads them: `"5"` and `true` are no numbers."""
-    return list(load(values)) if isinstance(values, list) else values
+    if not isinstance(values, list):
+        return values
+    actions = list(load(values))
+    check_letters(values)
+    return actions
 
 
 Value = TypeVar("Value")
@@ -40,7 +45,7 @@ class RecordedEntry(Sent):
 
     sequence: int = Field(ge=1)
     tick: Tick
-    text: str | None
+    text: Letters | None
     actions: Strictly[list[Action]] = Field(max_length=MAX_ACTIONS)
     digest: str | None = Field(
         None, max_length=64, description="What the world after it must be; not said by older recordings."
@@ -52,7 +57,7 @@ class Recording(Sent):
 
     format: Literal["roadtalk-recording"]
     version: Literal[1]
-    name: str | None = Field(None, max_length=80)
+    name: Name | None = None
     config: ConfigParts
     entries: list[RecordedEntry] = Field(max_length=10_000)
     tick: Tick = Field(description="Where it ends.")
@@ -62,8 +67,8 @@ class Recording(Sent):
 class NewSession(Sent):
     """How a session begins. Everything may be left out; without a seed one is drawn and told."""
 
-    name: str | None = Field(None, min_length=1, max_length=80)
-    scenario: str | None = Field(None, description="A sentence that describes a road.")
+    name: Name | None = None
+    scenario: Letters | None = Field(None, description="A sentence that describes a road.")
     config: ConfigParts | None = None
     seed: int | None = Field(None, ge=0, le=2**53 - 1)
     planner: str | None = None
@@ -83,7 +88,7 @@ class NewFork(Sent):
     actions: Strictly[list[Action]] | None = Field(
         None, max_length=MAX_ACTIONS, description="Done there first, together or the fork is not made."
     )
-    name: str | None = Field(None, min_length=1, max_length=80)
+    name: Name | None = None
     paused: bool | None = Field(None, description="Default: as this session is.")
 
 
@@ -96,7 +101,7 @@ class RewindTo(Sent):
 class Said(Sent):
     """Something said to a session."""
 
-    text: str = Field(description="At most 500 characters, unless the service is set otherwise.")
+    text: Letters = Field(description="At most 500 characters, unless the service is set otherwise.")
     dry_run: bool = Field(False, description="Say what would be done, and do nothing.")
     language: str = Field("en", max_length=16, description="In which language; `GET /language` names them.")
 
@@ -117,21 +122,21 @@ class StepTicks(Sent):
 class Question(Sent):
     """A question, and nothing but one."""
 
-    question: str
+    question: Letters
     language: str = Field("en", max_length=16, description="In which language; `GET /language` names them.")
 
 
 class Text(Sent):
     """A sentence to be understood."""
 
-    text: str
+    text: Letters
     language: str = Field("en", max_length=16, description="In which language; `GET /language` names them.")
 
 
 class AdviceQuestion(Sent):
     """A hazard ahead, as a sentence or in figures."""
 
-    text: str | None = Field(None, description="As a sentence; then without hazard, distance and speed.")
+    text: Letters | None = Field(None, description="As a sentence; then without hazard, distance and speed.")
     hazard: PlaceableKind | None = None
     distance_m: float | None = Field(None, description="From 0.1 to 1,000.")
     speed_kmh: float | None = Field(None, description="From 1 to 300.")

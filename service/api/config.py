@@ -21,6 +21,7 @@ from service.api.context import Here, TheSession, json_only
 from service.api.errors import documented, invalid
 from service.api.preconditions import TheTerms, made_once
 from service.api.respond import StrictRoute, etag, json_response
+from service.api.slips import meant
 from service.problems import (
     DoesNotFit,
     FieldProblem,
@@ -154,7 +155,7 @@ def _same(now: Any, value: Any) -> bool:
 def _unchangeable(name: str, value: Any, wanted: Mapping[str, Any]) -> str | None:
     """Why a field cannot be made so while the road runs; None if it can, as far as is known here."""
     if name not in _FIELDS:
-        return "is not a setting of a road"
+        return f"is not a setting of a road{meant(name, _FIELDS)}"
     if name == "preferences":
         if not isinstance(value, list | tuple) or not all(isinstance(each, str) for each in value):
             return f"must be a list of any of {', '.join(LISTS[name])}, each once"

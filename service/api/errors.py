@@ -11,6 +11,7 @@ from fastapi.exceptions import RequestValidationError
 from starlette.exceptions import HTTPException
 from starlette.routing import Match
 
+from service.api import slips
 from service.api.edges import SECURITY_HEADERS
 from service.api.examples import problem_example
 from service.api.respond import problem_response
@@ -48,7 +49,7 @@ def respond(request: Request, error: Exception) -> Response:
         case ProblemError():
             return problem_response(error)
         case RequestValidationError():
-            return problem_response(_validation(error))
+            return problem_response(_validation(error, _body_of(request)))
         case HTTPException(status_code=405) if request.method == "OPTIONS":
             return Response(status_code=204, headers={"Allow": _allowed(_methods_of(request))})
         case HTTPException():
@@ -83,29 +84,40 @@ def invalid(errors: Iterable[FieldProblem]) -> Invalid:
     return Invalid(f"{said}{more}.", errors=listed)
 
 
-def field_problems(details: ErrorDetails, sent: Any) -> list[FieldProblem]:
-    """pydantic's errors as fields and messages, one for each field; what was sent is not repeated."""
+def field_problems(details: ErrorDetails, sent: Any, kind: Any = None) -> list[FieldProblem]:
+    """pydantic's errors as fields and messages, one for each field; what was sent is not repeated.
+
+    `kind` is the type that it was to be: with it, a slip in a key is told as one.
+    """
     by_field: dict[str, list[str]] = {}
     for detail in details:
-        by_field.setdefault(_path(detail, sent), []).append(_message(detail))
+        path = _path(detail, sent)
+        message = _message(detail)
+        if kind is not None and path and detail["type"] in _UNKNOWN_KEY:
+            message += slips.meant(path[-1], slips.keys(kind, sent, path[:-1]))
+        by_field.setdefault(".".join(map(str, path)), []).append(message)
     return [FieldProblem(name, " or ".join(dict.fromkeys(messages))) for name, messages in by_field.items()]
 
 
-def _path(detail: Any, sent: Any) -> str:
+_UNKNOWN_KEY = ("extra_forbidden", "unexpected_keyword_argument")
+
+
+def _path(detail: Any, sent: Any) -> list[str | int]:
     """Where in what was sent: pydantic also names the types it tried, which nobody wrote."""
-    kept = []
+    kept: list[str | int] = []
     for part in detail["loc"]:
         inside = isinstance(sent, list) and isinstance(part, int) and part < len(sent)
         if inside or (isinstance(sent, dict) and part in sent):
-            kept.append(str(part))
+            kept.append(part)
             sent = sent[part]
     if detail["type"] == "missing" and detail["loc"]:
         kept.append(str(detail["loc"][-1]))
-    return ".".join(kept)
+    return kept
 
 
 _MESSAGES = {
     "extra_forbidden": "is not a known key",
+    "unexpected_keyword_argument": "is not a known key",
     "missing": "is missing",
     "union_tag_not_found": "has no `do`",
     "union_tag_invalid": "has a {discriminator} that is not known; it can be {expected_tags}",
@@ -140,13 +152,18 @@ _MESSAGES = {
 
 def _message(detail: Any) -> str:
     ours = _MESSAGES.get(detail["type"])
+    told: dict[str, Any] = detail.get("ctx", {})
     if ours is not None:
-        return ours.format(**detail.get("ctx", {}))
+        listed = str(told.get("expected") or told.get("expected_tags") or "")
+        one = told.get("min_length") == 1
+        return (ours[:-1] if one else ours).format(**told) + slips.meant_of(
+            told.get("tag", detail["input"]), listed
+        )
     message = str(detail["msg"])
     return message[:1].lower() + message[1:]
 
 
-def _validation(error: RequestValidationError) -> ProblemError:
+def _validation(error: RequestValidationError, kind: Any) -> ProblemError:
     details = error.errors()
     if any(detail["type"] == "json_invalid" for detail in details):
         said = details[0]["ctx"]["error"]
@@ -161,7 +178,7 @@ def _validation(error: RequestValidationError) -> ProblemError:
     inside = [{**detail, "loc": detail["loc"][1:]} for detail in details]
     in_body = all(detail["loc"][0] == "body" for detail in details)
     sent = error.body if in_body else {detail["loc"][0]: None for detail in inside if detail["loc"]}
-    return invalid(field_problems(inside, sent))
+    return invalid(field_problems(inside, sent, kind if in_body else None))
 
 
 def _http(request: Request, error: HTTPException) -> ProblemError:
@@ -178,6 +195,12 @@ def _http(request: Request, error: HTTPException) -> ProblemError:
         case _:
             near = request.app.state.addresses.near(request.url.path) or "The calls there are stand at /docs."
             return NotFound(f"There is nothing at {where}. {near}")
+
+
+def _body_of(request: Request) -> Any:
+    """The type that a call's body is to be; None where it has none."""
+    body = getattr(request.scope.get("route"), "body_field", None)
+    return None if body is None else body.field_info.annotation
 
 
 def _allowed(offered: Sequence[str]) -> str:

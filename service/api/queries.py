@@ -7,14 +7,13 @@ files and the signs of life stand, anything may be added: browsers, probes and c
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable
-from difflib import get_close_matches
 from typing import Any
 
+from service.api.slips import MOST_CHARS, near
 from service.api.views import PREFIX
 from service.problems import FieldProblem, Invalid
 
 _MOST_TOLD = 10
-_MOST_CHARS = 60
 
 
 def check_query(said: Iterable[tuple[str, str]], known: Collection[str]) -> None:
@@ -23,7 +22,7 @@ def check_query(said: Iterable[tuple[str, str]], known: Collection[str]) -> None
     wrong: dict[str, str] = {}
     for name, _ in said:
         if name not in known:
-            wrong[name[:_MOST_CHARS]] = _unknown(name, known)
+            wrong[name[:MOST_CHARS]] = _unknown(name, known)
         elif name in seen:
             wrong[name] = "is there more than once"
         seen.add(name)
@@ -35,9 +34,9 @@ def check_query(said: Iterable[tuple[str, str]], known: Collection[str]) -> None
 
 
 def _unknown(name: str, known: Collection[str]) -> str:
-    near = get_close_matches(name[:_MOST_CHARS].lower(), known, n=1)
-    if near:
-        return f"is not known here; did you mean {near[0]}"
+    found = near(name, known)
+    if found:
+        return f"is not known here; did you mean {found}"
     if not known:
         return "is not known here, where there are none"
     return f"is not known here, where there are {', '.join(sorted(known))}"

@@ -31,6 +31,7 @@ from service.api import pixels
 from service.api.bodies import MAX_ACTIONS, Sent, Strictly
 from service.api.context import Context, context_of
 from service.api.errors import field_problems, invalid
+from service.api.letters import Letters
 from service.api.metrics import metrics_of
 from service.api.respond import problem_response
 from service.api.speech import result_json
@@ -60,7 +61,7 @@ class Command(Sent):
 
     type: Literal["command"]
     id: Id
-    text: str
+    text: Letters
     dry_run: bool = False
     language: str = Field(DEFAULT, max_length=16)
 
@@ -209,7 +210,7 @@ def _message(text: str | None) -> Message:
     try:
         return _MESSAGE.validate_python(values)
     except ValidationError as error:
-        raise invalid(field_problems(error.errors(), values)) from error
+        raise invalid(field_problems(error.errors(), values, Message)) from error
 
 
 async def _answer(
