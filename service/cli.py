@@ -17,6 +17,7 @@ from starlette.types import Message, Scope
 
 from service import garbage, logs
 from service.api.heads import StrictHead
+from service.api.stream_straight import StraightProtocol
 from service.app import create_app
 from service.commands.doctor import doctor
 from service.commands.listing import sessions
@@ -165,7 +166,7 @@ def server_config(app: FastAPI, settings: Settings) -> uvicorn.Config:
         app,
         loop="auto",
         http=StrictHead,
-        ws="websockets-sansio",
+        ws=StraightProtocol,
         ws_max_size=settings.max_body_bytes,
         ws_per_message_deflate=False,
         access_log=False,

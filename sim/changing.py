@@ -1,4 +1,4 @@
-"""The next value from one that is never changed, as quickly as can be: for the few made at every tick.
+"""Values that are never changed, made as quickly as can be: for the few made at every tick.
 
 `dataclasses.replace` reads every field by name and calls `__init__`, which sets every field of a frozen class
 by name again: a third of a tick's time went there. What is here copies slot by slot. Elsewhere `replace`
@@ -8,7 +8,7 @@ is as good and says more.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import fields
+from dataclasses import MISSING, fields
 from typing import Any, TypeVar
 
 Value = TypeVar("Value")
@@ -20,15 +20,43 @@ def changer(kind: type[Value], *names: str) -> Callable[..., Value]:
     For frozen dataclasses with slots and nothing in `__post_init__`, whose subclasses have no fields more.
     Raises `TypeError` for any other class, and for a name that is no field.
     """
+    sources = {name: name if name in names else f"_old.{name}" for name in _slots(kind, names)}
+    return _written(kind, ("_old", *names), sources, {})
+
+
+def maker(kind: type[Value], *names: str) -> Callable[..., Value]:
+    """A function of the values of the fields `names`, in that order: a new value, all else as by default.
+
+    For the same classes. Raises `TypeError` for any other class, for a name that is no field, and where a
+    field that is not named has no plain default.
+    """
+    slots = _slots(kind, names)
+    defaults = {
+        f"_default_{field.name}": field.default
+        for field in fields(kind)  # type: ignore[arg-type]
+        if field.name not in names
+    }
+    if MISSING in defaults.values():
+        raise TypeError(f"{kind.__name__} needs more than {', '.join(names)}")
+    sources = {name: name if name in names else f"_default_{name}" for name in slots}
+    return _written(kind, names, sources, defaults)
+
+
+def _slots(kind: type[Value], names: tuple[str, ...]) -> list[str]:
     slots = [field.name for field in fields(kind)]  # type: ignore[arg-type]
     if hasattr(kind, "__post_init__") or "__slots__" not in vars(kind) or not set(names) <= set(slots):
-        raise TypeError(f"{kind.__name__} is not copied slot by slot with new {', '.join(names)}")
+        raise TypeError(f"{kind.__name__} is not made slot by slot of {', '.join(names)}")
+    return slots
+
+
+def _written(
+    kind: type[Value], names: tuple[str, ...], sources: dict[str, str], known: dict[str, Any]
+) -> Callable[..., Value]:
     # Written out, as the standard library does it for `__init__`: a loop over the slots takes twice as long.
-    lines = [f"    set_{name}(new, {name if name in names else f'old.{name}'})" for name in slots]
-    body = "\n".join(lines)
-    source = f"def changed(old, {', '.join(names)}):\n    new = made(kind)\n{body}\n    return new\n"
-    known: dict[str, Any] = {f"set_{name}": getattr(kind, name).__set__ for name in slots}
-    known.update(made=object.__new__, kind=kind)
-    exec(source, known)  # made of the names of fields alone
-    changed: Callable[..., Value] = known["changed"]
-    return changed
+    body = "\n".join(f"    _set_{name}(_new, {source})" for name, source in sources.items())
+    text = f"def make({', '.join(names)}):\n    _new = _made(_kind)\n{body}\n    return _new\n"
+    known = {f"_set_{name}": getattr(kind, name).__set__ for name in sources} | known
+    known.update(_made=object.__new__, _kind=kind)
+    exec(text, known)  # made of the names of fields alone
+    make: Callable[..., Value] = known["make"]
+    return make

@@ -5,8 +5,9 @@ from __future__ import annotations
 from sim.changing import changer
 from sim.config import Config
 from sim.courtesy import yielding
-from sim.kinds import Kind, Move
-from sim.rules import followed_board, followed_table, move_movers, pedestrians_walk
+from sim.kinds import Move
+from sim.moving import followed_table_once, move_movers_once
+from sim.rules import followed_board, pedestrians_walk
 from sim.world import World
 
 _moved = changer(World, "tick", "avs", "right", "left", "pedestrians", "movers")
@@ -17,13 +18,13 @@ def commit(world: World, move: Move, config: Config) -> World:
     road = world.road
     disabled = world.disabled
     resting = disabled if pedestrians_walk(world.episode_tick) else disabled | world.pedestrians
-    motion = move_movers(
+    motion = move_movers_once(
         world.right,
         world.left,
         resting,
         world.fixed,
         yielding(world, config),
-        world.board(Kind.AV),
+        world.driven,
         road.left_edge,
         road.right_edge,
     )
@@ -36,6 +37,6 @@ def commit(world: World, move: Move, config: Config) -> World:
         (target, *world.avs[1:]),
         motion.right,
         motion.left,
-        followed_board(world.pedestrians, motion),
-        followed_table(world.movers, motion),
+        followed_board(world.pedestrians, motion) if world.pedestrians else 0,
+        followed_table_once(world.movers, motion),
     )

@@ -12,7 +12,6 @@ from sim.world import Cause, World
 
 def collisions(before: World, after: World) -> tuple[Cause, ...]:
     """Every collision of an autonomous vehicle in the tick from `before` to `after`."""
-    was = {name: cell for cell, name in before.movers.items()}
     found = []
     for number, (start, end) in enumerate(zip(before.avs, after.avs, strict=True)):
         place = after.road.cell(end)
@@ -23,7 +22,7 @@ def collisions(before: World, after: World) -> tuple[Cause, ...]:
             name = after.movers[end]
             found.append(Cause("hit", kind_of(name), (name,), place))
         passed = after.movers.get(start)
-        if start != end and passed is not None and was[passed] == end:
+        if start != end and passed is not None and before.movers.get(end) == passed:
             found.append(Cause("swap", kind_of(passed), (passed,), place))
         for other in range(number):
             met = after.avs[other] == end

@@ -95,7 +95,12 @@ class World:
     @property
     def occupied(self) -> Board:
         """Every cell with anything on it, autonomous vehicles included."""
-        board = self.fixed | self.moving
+        return self.fixed | self.moving | self.driven
+
+    @property
+    def driven(self) -> Board:
+        """The cells of the autonomous vehicles."""
+        board = 0
         for cell in self.avs:
             board |= 1 << cell
         return board
@@ -112,10 +117,7 @@ class World:
             case Kind.PEDESTRIAN:
                 return self.pedestrians
             case Kind.AV:
-                board = 0
-                for cell in self.avs:
-                    board |= 1 << cell
-                return board
+                return self.driven
 
     def count(self, kind: Kind) -> int:
         """How many things of one kind there are."""

@@ -35,6 +35,7 @@ from service.api.letters import Letters
 from service.api.metrics import metrics_of
 from service.api.respond import problem_response
 from service.api.speech import result_json
+from service.api.stream_straight import straight_of
 from service.api.tickets import admitted
 from service.api.views import session_json, told_decision
 from service.problems import CrossSite, Internal, Malformed, ProblemError
@@ -119,9 +120,10 @@ async def stream(socket: WebSocket, session_id: str) -> None:
         await socket.close(4404 if problem.status == 404 else 1013)
         return
     missed = session.watchers.missed(socket.query_params.get("after", ""))
-    watcher = session.watchers.join(missed or ())
+    watcher = session.watchers.join(missed or (), straight_of(socket.scope))
     first = hello(context, session) if missed is None else None
-    # Two tasks for a socket: a reader that answers, and a writer that passes on what is published.
+    # Two tasks for a socket: a reader that answers, and a writer that passes on what is published and was
+    # not taken straight.
     writer = asyncio.create_task(_write(socket, session, watcher, first))
     screen = _Screen(socket, context, session)
     try:

@@ -43,10 +43,19 @@ def stamped(data: bytes, event: str) -> bytes:
 
 
 class Watcher:
-    """One reader's end. `next` waits for the next thing to send."""
+    """One reader's end. `next` waits for the next thing to send.
 
-    def __init__(self, missed: Sequence[Notice] = ()) -> None:
+    A reader may offer to take messages `straight`: whoever waits in `next` with nothing before it is
+    offered each as it comes, and hears of those that were refused in `next`, in their order.
+    """
+
+    __slots__ = ("_gone", "_last_tick", "_missed_from", "_straight", "_waiting", "_wake")
+
+    def __init__(
+        self, missed: Sequence[Notice] = (), straight: Callable[[bytes], bool] | None = None
+    ) -> None:
         """`missed`: what it is told first."""
+        self._straight = straight
         self._waiting: list[Notice] = list(missed)
         self._missed_from: int | None = None
         self._last_tick = 0
@@ -56,6 +65,8 @@ class Watcher:
     def put(self, notice: Notice) -> None:
         """Hand over a message; never waits."""
         self._last_tick = notice.tick
+        if self._straight is not None and self._idle and self._straight(notice.data):
+            return
         if self._missed_from is None:
             if len(self._waiting) < SLOT_MESSAGES:
                 self._waiting.append(notice)
@@ -85,6 +96,11 @@ class Watcher:
             return missed
         notices, self._waiting = self._waiting, []
         return notices
+
+    @property
+    def _idle(self) -> bool:
+        """Whether all before has been passed on and `next` waits: nothing could be overtaken."""
+        return self._wake is not None and not self._wake.done()
 
     def _ready(self) -> None:
         if self._wake is not None and not self._wake.done():
@@ -122,9 +138,9 @@ class Watchers:
     def __len__(self) -> int:
         return len(self._watchers)
 
-    def join(self, missed: Sequence[Notice] = ()) -> Watcher:
+    def join(self, missed: Sequence[Notice] = (), straight: Callable[[bytes], bool] | None = None) -> Watcher:
         """A new watcher; it hears what it missed, and everything published from now on."""
-        watcher = Watcher(missed)
+        watcher = Watcher(missed, straight)
         self._unheard = 0
         self._watchers.add(watcher)
         return watcher

@@ -9,12 +9,25 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import overload
 
+from sim.moving import followed_table_once, move_movers_once
 from sim.perceive import Percept
-from sim.rules import Motion, followed_board, followed_table, move_movers, pedestrians_walk
+from sim.rules import Motion, followed_board, pedestrians_walk
 
 
 class RollOut(Sequence[Motion]):
     """`roll_out[k]` is expected k + 1 ticks from now. Ticks are computed when they are first read."""
+
+    __slots__ = (
+        "_disabled",
+        "_fixed",
+        "_horizon",
+        "_left",
+        "_pedestrians",
+        "_percept",
+        "_right",
+        "_slices",
+        "_tables",
+    )
 
     def __init__(self, percept: Percept, horizon: int) -> None:
         """The next `horizon` ticks (at least one) from what is seen."""
@@ -50,13 +63,13 @@ class RollOut(Sequence[Motion]):
         """Who is expected in which cell, `ahead` + 1 ticks from now."""
         while len(self._tables) <= ahead:
             before = self._tables[-1] if self._tables else self._percept.movers
-            self._tables.append(followed_table(before, self[len(self._tables)]))
+            self._tables.append(followed_table_once(before, self[len(self._tables)]))
         return self._tables[ahead]
 
     def _next(self) -> Motion:
         percept, ahead = self._percept, len(self._slices)
         walking = pedestrians_walk(percept.episode_tick + ahead)
-        motion = move_movers(
+        motion = move_movers_once(
             self._right,
             self._left,
             self._disabled if walking else self._disabled | self._pedestrians,

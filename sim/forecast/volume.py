@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 
+from sim.changing import maker
 from sim.forecast.rollout import RollOut
 from sim.perceive import Percept
 from sim.road import Board, Road
@@ -117,17 +118,32 @@ class Forecast:
         return not self.expect(start, end, ahead)[0].blocks
 
 
+_expected = maker(
+    Forecast,
+    "road",
+    "tick",
+    "episode_tick",
+    "ego",
+    "ego_id",
+    "potholes",
+    "barriers",
+    "disabled",
+    "hazards",
+    "slices",
+)
+
+
 def foretell(percept: Percept, horizon: int) -> Forecast:
     """What to expect of the next `horizon` ticks (at least one)."""
-    return Forecast(
-        road=percept.road,
-        tick=percept.tick,
-        episode_tick=percept.episode_tick,
-        ego=percept.ego,
-        ego_id=percept.ego_id,
-        potholes=percept.potholes,
-        barriers=percept.barriers,
-        disabled=(percept.right | percept.left) & percept.potholes,
-        hazards=percept.hazards,
-        slices=RollOut(percept, horizon),
+    return _expected(
+        percept.road,
+        percept.tick,
+        percept.episode_tick,
+        percept.ego,
+        percept.ego_id,
+        percept.potholes,
+        percept.barriers,
+        (percept.right | percept.left) & percept.potholes,
+        percept.hazards,
+        RollOut(percept, horizon),
     )

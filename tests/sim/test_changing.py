@@ -6,13 +6,13 @@ from dataclasses import FrozenInstanceError, dataclass, fields, replace
 
 import pytest
 
-from sim.changing import changer
+from sim.changing import changer, maker
 from sim.config import Config
-from sim.kinds import Outcome
+from sim.kinds import Kind, Outcome
 from sim.metrics import Metrics
 from sim.road import Road
 from sim.run import Run
-from sim.world import World
+from sim.world import Thing, World
 
 RUN = Run.start(Config(seed=3))
 
@@ -49,3 +49,22 @@ def test_only_plain_slotted_classes_and_their_fields() -> None:
     for kind, name in ((Open, "field"), (Metrics, "nothing"), (Road, "columns")):
         with pytest.raises(TypeError):
             changer(kind, name)
+        with pytest.raises(TypeError):
+            maker(kind, name)
+
+
+def test_a_new_value_is_what_its_class_would_make() -> None:
+    assert maker(Thing, "id", "kind", "cell")("pothole-1", Kind.POTHOLE, (1, 2)) == Thing(
+        "pothole-1", Kind.POTHOLE, (1, 2)
+    )
+    heading = maker(Thing, "heading", "cell", "kind", "id")
+    assert heading("left", (1, 2), Kind.VEHICLE, "vehicle-1") == Thing(
+        "vehicle-1", Kind.VEHICLE, (1, 2), "left"
+    )
+
+
+def test_what_has_no_default_must_be_given() -> None:
+    with pytest.raises(TypeError):
+        maker(Thing, "id", "kind")
+    with pytest.raises(TypeError):
+        maker(Run, "config", "world")  # its metrics are made anew each time

@@ -1,0 +1,34 @@
+"""One tick of all movers, computed once for all who ask about the same tick.
+
+What a planner expects of the next tick is, with perfect sight, what then happens: the same rule asked for the
+same boards twice, and for the same table of ids. Here the latest answers are kept, process-wide: a few
+boards and a table. The rules themselves are in `sim.rules`, which is compiled as well and stays free of this.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import lru_cache
+from typing import Final
+
+from sim.road import Board
+from sim.rules import Motion, followed_table, move_movers
+
+move_movers_once: Final[Callable[[Board, Board, Board, Board, Board, Board, Board, Board], Motion]] = (
+    lru_cache(maxsize=8)(move_movers)
+)
+"""`move_movers`. Equal boards are answered with one and the same motion."""
+
+_followed: tuple[Mapping[int, str], Motion, Mapping[int, str]] | None = None
+
+
+def followed_table_once(table: Mapping[int, str], motion: Motion) -> Mapping[int, str]:
+    """`followed_table`; the very same table and motion are answered with one and the same table."""
+    global _followed
+    # Read and set in one piece each: several threads may be here.
+    latest = _followed
+    if latest is not None and latest[0] is table and latest[1] is motion:
+        return latest[2]
+    after = followed_table(table, motion)
+    _followed = table, motion, after
+    return after
