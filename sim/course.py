@@ -11,10 +11,12 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Final
 
+from sim.changing import maker
 from sim.kinds import Kind, Move, kind_of
 from sim.world import World
 
 _MOVES: Final = tuple(Move)
+_SIGNS: Final = {move: str(place) for place, move in enumerate(_MOVES)}
 
 
 class Sake(StrEnum):
@@ -81,12 +83,12 @@ class Course:
         sakes = self.sakes
         if move is not Move.FORWARD:
             sakes = _counted(sakes, sake(before, after, by_person=by_person, faulty=faulty)[0])
-        return Course(
+        return _gone_on(
             before if self.start is None else self.start,
             edits,
             self.changed or (self.start is not None and edits != self.edits),
             self.certain and certain,
-            self.moves + str(_MOVES.index(move)),
+            self.moves + _SIGNS[move],
             sakes,
             before if ended else None,
         )
@@ -94,6 +96,9 @@ class Course:
     def made(self) -> tuple[Move, ...]:
         """Every move, in order."""
         return tuple(_MOVES[int(sign)] for sign in self.moves)
+
+
+_gone_on = maker(Course, "start", "edits", "changed", "certain", "moves", "sakes", "last")
 
 
 def sake(before: World, after: World, *, by_person: bool, faulty: bool) -> tuple[Sake, tuple[str, ...]]:

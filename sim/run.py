@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from sim.changing import changer
+from sim.changing import changer, maker
 from sim.commit import commit
 from sim.config import Config
 from sim.course import Course
@@ -65,6 +65,7 @@ class Tick:
 
 
 _advanced = changer(Run, "world", "metrics", "queue", "fault", "course")
+_ticked = maker(Tick, "run", "decision", "events")
 
 
 def decide(run: Run) -> Decision | None:
@@ -123,7 +124,7 @@ def advance(run: Run) -> Tick:
         faulty=decision.fault is not None,
         ended=result is not Outcome.RUNNING,
     )
-    return Tick(
+    return _ticked(
         _advanced(run, after, metrics, run.queue[1:], decision.fault, course),
         decision,
         tuple(events),

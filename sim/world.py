@@ -17,6 +17,7 @@ from sim.road import Board, Road, bits
 
 AV_ID = "av-1"
 _OUTCOMES = tuple(Outcome)
+_KINDS = {kind.value: kind for kind in Kind}
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,17 +142,24 @@ class World:
 
     def find(self, name: str) -> Thing | None:
         """The thing with this id, if it is on the road."""
-        kind_word, _, number = name.rpartition("-")
-        if kind_word == Kind.AV:
-            places = (index for order, index in enumerate(self.avs, 1) if str(order) == number)
-            return next((Thing(name, Kind.AV, self.road.cell(index)) for index in places), None)
-        if kind_word not in PLACEABLE:
+        found = self.index_of(name)
+        if found is None:
             return None
-        kind = Kind(kind_word)
-        table = self.movers if kind.moves else self.hazards
-        for index, other in table.items():
+        index, kind = found
+        return Thing(name, kind, self.road.cell(index)) if kind is Kind.AV else self._thing(index, kind)
+
+    def index_of(self, name: str) -> tuple[int, Kind] | None:
+        """The cell index and the kind of the thing with this id, if it is on the road."""
+        kind_word, _, number = name.rpartition("-")
+        kind = _KINDS.get(kind_word)
+        if kind is None:
+            return None
+        if kind is Kind.AV:
+            places = (index for order, index in enumerate(self.avs, 1) if str(order) == number)
+            return next(((index, kind) for index in places), None)
+        for index, other in (self.hazards if kind.fixed else self.movers).items():
             if other == name:
-                return self._thing(index, kind)
+                return index, kind
         return None
 
     def without(self, ids: Collection[str]) -> World:

@@ -6,11 +6,11 @@ belong in the structured part of an answer. Words are data (`naming.yaml`).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
+from functools import lru_cache
 
 from service.narrate.sayings import Sayings
-from sim.kinds import Cell
-from sim.road import Road
+from sim.kinds import Cell, Kind
 from sim.run import Run
 
 
@@ -25,11 +25,8 @@ class Naming:
 
     def thing(self, name: str) -> str:
         """The thing with this id, with its article: "the pothole ahead". An id no longer there is itself."""
-        found = self._world.find(name)
-        if found is None:
-            return name
-        noun = self._sayings.say("naming", "the", found.kind)
-        return self._sayings.say("naming", "thing", noun=noun, place=self._place(found.cell))
+        found = self._world.index_of(name)
+        return name if found is None else _thing(self._sayings, found[1], *self._seen(found[0]))
 
     def things(self, names: Sequence[str]) -> str:
         """Several things, each named: "the pothole ahead and the car on my left"."""
@@ -37,32 +34,47 @@ class Naming:
 
     def place(self, cell: Cell) -> str:
         """A cell as seen from the vehicle: "right ahead", "10 m ahead on my left"."""
-        return self._place(cell)
+        return _place(self._sayings, *self._seen(self._world.road.index(cell)))
 
-    def _place(self, cell: Cell) -> str:
-        column, row = self._seat(self._world.road)
-        across, along = cell[0] - column, row - cell[1]
-        parts = [self._metres(along, beside=across != 0), self._lanes(across)]
-        return self._sayings.say("naming", "apart").join(part for part in parts if part)
+    def kinds_and_places(self, names: Sequence[str]) -> Hashable | None:
+        """All that the names of these things are made of; None if one is not there any more."""
+        found = [self._world.index_of(name) for name in names]
+        return tuple([each and (each[1], self._seen(each[0])) for each in found]) if all(found) else None
 
-    def _lanes(self, across: int) -> str:
-        if across == 0:
-            return ""
-        side = "left" if across < 0 else "right"
-        count = abs(across)
-        return self._sayings.say("naming", side, "one" if count == 1 else "many", nth=self._nth(count))
+    def _seen(self, index: int) -> tuple[int, int, float]:
+        """How far across and along a cell lies from the vehicle, in cells, and how long a cell is."""
+        columns, av = self._world.road.columns, self._world.av
+        return index % columns - av % columns, av // columns - index // columns, self._cell_m
 
-    def _metres(self, along: int, *, beside: bool) -> str:
-        if along == 0:
-            return "" if beside else self._sayings.say("naming", "here")
-        side = "ahead" if along > 0 else "behind"
-        if abs(along) == 1 and not beside:
-            return self._sayings.say("naming", side, "next")
-        return self._sayings.say("naming", side, "metres", metres=f"{abs(along) * self._cell_m:g}")
 
-    def _nth(self, count: int) -> str:
-        words = self._sayings.words("naming", "places")
-        return str(words[count]) if count < len(words) else self._sayings.say("naming", "nth", count=count)
+@lru_cache(maxsize=4_096)
+def _thing(sayings: Sayings, kind: Kind, across: int, along: int, cell_m: float) -> str:
+    noun = sayings.say("naming", "the", kind)
+    return sayings.say("naming", "thing", noun=noun, place=_place(sayings, across, along, cell_m))
 
-    def _seat(self, road: Road) -> Cell:
-        return road.cell(self._world.av)
+
+def _place(sayings: Sayings, across: int, along: int, cell_m: float) -> str:
+    parts = [_metres(sayings, along, cell_m, beside=across != 0), _lanes(sayings, across)]
+    return sayings.say("naming", "apart").join(part for part in parts if part)
+
+
+def _lanes(sayings: Sayings, across: int) -> str:
+    if across == 0:
+        return ""
+    side = "left" if across < 0 else "right"
+    count = abs(across)
+    return sayings.say("naming", side, "one" if count == 1 else "many", nth=_nth(sayings, count))
+
+
+def _metres(sayings: Sayings, along: int, cell_m: float, *, beside: bool) -> str:
+    if along == 0:
+        return "" if beside else sayings.say("naming", "here")
+    side = "ahead" if along > 0 else "behind"
+    if abs(along) == 1 and not beside:
+        return sayings.say("naming", side, "next")
+    return sayings.say("naming", side, "metres", metres=f"{abs(along) * cell_m:g}")
+
+
+def _nth(sayings: Sayings, count: int) -> str:
+    words = sayings.words("naming", "places")
+    return str(words[count]) if count < len(words) else sayings.say("naming", "nth", count=count)

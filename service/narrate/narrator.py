@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +18,9 @@ from sim.kinds import Move
 from sim.plan import Decision, Measure, Option
 from sim.run import Run
 
+REMEMBERED = 4_096
+"""So many sentences are kept for being said again."""
+
 ENDS = (EventType.ARRIVED, EventType.CRASHED, EventType.STUCK)
 
 
@@ -28,6 +33,9 @@ class Narrator:
         self._replies = Replies(sayings)
         self._answers = Answers(sayings)
         self._ends = Ends(sayings)
+        self._first_choice = self._say("first_choice")
+        self._told: dict[Hashable, str] = {}
+        """Sentences said before, by all they are made of: the same few are said again and again."""
 
     @classmethod
     def load(cls, code: str = "en", folder: Path | None = None) -> Narrator:
@@ -47,22 +55,33 @@ class Narrator:
         if chosen is first:
             return self._straight_on(chosen, run, naming)
         if decision.move is not Move.STAY:
-            reason = self._sayings.met(first, "now", naming)
-            return self._say("other", move=self._named(decision.move), reason=reason)
+            return self._other(decision.move, first, naming)
         if chosen.verdict == "free":
             return self._say("no_way")
         return self._say("no_safe_way", reason=self._sayings.met(chosen, "now", naming))
+
+    def _other(self, move: Move, met: Option, naming: Naming) -> str:
+        """Another move than the first, for what that would have met."""
+        things = naming.kinds_and_places(met.causes)
+        key = (move, met.move, met.reason, things)
+        told = None if things is None else self._told.get(key)
+        if told is None:
+            told = self._say("other", move=self._named(move), reason=self._sayings.met(met, "now", naming))
+            if things is not None:
+                if len(self._told) >= REMEMBERED:
+                    self._told.clear()
+                self._told[key] = told
+        return told
 
     def _straight_on(self, chosen: Option, run: Run, naming: Naming) -> str:
         """Straight on, in a word; in a few more where something is passed closely, or the goal is near."""
         if chosen.cell is not None and chosen.cell[1] == 0:
             return self._say("into_the_goal")
         world, road = run.world, run.world.road
-        beside = [road.moved(world.av, move) for move in (Move.FORWARD_LEFT, Move.FORWARD_RIGHT)]
-        movers = [world.movers[index] for index in beside if index is not None and index in world.movers]
+        movers = [world.movers[cell] for cell in _beside(road.columns, world.av) if cell in world.movers]
         if movers:
             return self._say("passing", who=naming.things(movers))
-        return self._say("first_choice")
+        return self._first_choice
 
     def lesson(self, lesson: Lesson) -> str:
         """The reply to a phrase that was taught or forgotten."""
@@ -131,3 +150,12 @@ class Narrator:
 
     def _say(self, key: str, **parts: object) -> str:
         return self._sayings.say("log", "decisions", key, **parts)
+
+
+@lru_cache(maxsize=4_096)
+def _beside(columns: int, av: int) -> tuple[int, ...]:
+    """The cells ahead on either side of a vehicle's own lane."""
+    ahead, column = av - columns, av % columns
+    sides = [ahead - 1] if column else []
+    sides += [ahead + 1] if column < columns - 1 else []
+    return tuple(cell for cell in sides if cell >= 0)

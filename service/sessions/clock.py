@@ -174,17 +174,24 @@ class WheelClock:
 
     def _serve_due(self, began: float) -> bool:
         """Whether all was ticked that is due."""
-        while self._order and self._order[0] * SLOT_S <= self._now():
-            slot = self._order[0]
+        order, due_at, now = self._order, self._due, began
+        while order and order[0] * SLOT_S <= now:
+            slot = order[0]
             tickers = self._slots[slot]
             while tickers:
                 ticker = tickers.pop()
+                due = due_at.get(ticker)
                 # A ticker that was removed, or added anew for another time, is not due here.
-                if self._slot_of(self._due.get(ticker)) == slot:
-                    self._serve_one(ticker, self._due.pop(ticker))
-                if self._now() - began > TURN_S:
+                if due is not None and math.ceil(due / SLOT_S) == slot:
+                    del due_at[ticker]
+                    self._record(now - due)
+                    # Put back first: a ticker that leaves the clock while ticking must find itself on it.
+                    self._put_back(ticker, due, now)
+                    self._tick(ticker)
+                now = self._now()  # once for each: when it ended is when the next one begins
+                if now - began > TURN_S:
                     return False
-            heapq.heappop(self._order)
+            heapq.heappop(order)
             del self._slots[slot]
         return True
 
@@ -195,25 +202,19 @@ class WheelClock:
             if ticker not in self._hurried:
                 continue  # what another did took it off the clock
             del self._hurried[ticker]
-            self._put_back(ticker, now)
+            self._put_back(ticker, now, now)
             self._tick(ticker)
             now = self._now()
             if now - began > HURRY_S:
                 break
         self._hurry_at = now + max(REST_S, now - began)
 
-    def _serve_one(self, ticker: Ticker, due: float) -> None:
-        self._record(self._now() - due)
-        # Put back first: a ticker that leaves the clock while ticking must find itself on it.
-        self._put_back(ticker, due)
-        self._tick(ticker)
-
-    def _put_back(self, ticker: Ticker, due: float) -> None:
+    def _put_back(self, ticker: Ticker, due: float, now: float) -> None:
         period = ticker.period_s
         if period <= SLOT_S:
             self._hurried[ticker] = None
         else:
-            late = self._now() - due
+            late = now - due
             if late >= period:
                 # Whole periods are left out, so that those that were spread stay spread.
                 due += period * int(late / period + 0.5)
@@ -279,7 +280,3 @@ class WheelClock:
         else:
             self._samples[self._next_sample] = lateness_s
         self._next_sample = (self._next_sample + 1) % LATENESS_KEPT
-
-    @staticmethod
-    def _slot_of(due: float | None) -> int | None:
-        return None if due is None else math.ceil(due / SLOT_S)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from functools import lru_cache
+from typing import Any, Final
 
 from service.sessions.log import LogEvent
 from service.sessions.watchers import Missed
@@ -11,13 +12,16 @@ from service.wire.decision import brief_decision_json
 from service.wire.encode import encoded
 from service.wire.state import Json, Standing, metrics_json, state_json
 from sim.edit import Change
-from sim.kinds import Kind
+from sim.kinds import Cell, Kind
 from sim.plan import Decision
 from sim.run import Run
 from sim.world import World
 
 PROTOCOL = 1
 """Raised when a message changes its meaning; new keys do not raise it."""
+
+_SMALL_ROAD: Final = 512
+"""Roads of so many cells have a table of them; so do many sizes of road at once, in a few megabytes."""
 
 
 def hello_message(
@@ -100,17 +104,28 @@ def state_message(standing: Standing, run: Run, missed: Missed | None) -> bytes:
 
 def motion_json(before: World, after: World) -> dict[str, Any]:
     """Where things went and which way they turned, by id; what stood still is left out."""
-    names, olds = [*after.movers.values()], [*before.movers]
+    road, movers = after.road, after.movers
+    names, olds = [*movers.values()], [*before.movers]
     if names != [*before.movers.values()]:  # not two ticks of one road
         was = {name: index for index, name in before.movers.items()}
         olds = [was.get(name, -1) for name in names]
-    columns, right_before, right_after = after.road.columns, before.right, after.right
-    ways = [*zip(olds, after.movers, names, strict=True)]
-    moved = {name: (index % columns, index // columns) for old, index, name in ways if old != index}
-    turned = {
-        name: "right" if right_after >> index & 1 else "left"
-        for old, index, name in ways
-        if old >= 0 and (right_before >> old ^ right_after >> index) & 1
-    }
-    vehicles = {after.id_at(index, Kind.AV): after.road.cell(index) for index in after.avs}
+    small = road.columns * road.rows <= _SMALL_ROAD
+    cells = _cells(road.columns, road.rows) if small else {index: road.cell(index) for index in movers}
+    # As digits, lowest first: looking at one is much quicker than shifting a board.
+    faced_right = bin(before.right | road.all + 1)[:1:-1]
+    faces_right = bin(after.right | road.all + 1)[:1:-1]
+    moved: dict[str, Cell] = {}
+    turned: dict[str, str] = {}
+    for old, index, name in zip(olds, movers, names, strict=True):
+        if old != index:
+            moved[name] = cells[index]
+        if faced_right[old] != faces_right[index] and old >= 0:
+            turned[name] = "right" if faces_right[index] == "1" else "left"
+    vehicles = {after.id_at(index, Kind.AV): road.cell(index) for index in after.avs}
     return {"vehicles": vehicles, "moved": moved, "turned": turned}
+
+
+@lru_cache(maxsize=128)
+def _cells(columns: int, rows: int) -> tuple[Cell, ...]:
+    """Every cell of a road, by its index."""
+    return tuple((index % columns, index // columns) for index in range(columns * rows))

@@ -11,6 +11,7 @@ import math
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Final, Literal, TypeAlias
 
 from service.actions import Action
@@ -80,6 +81,7 @@ def pace_after(pace: Pace, action: Set | Adjust) -> Pace:
     return _within(round(wanted, 9), field)
 
 
+@lru_cache(maxsize=256)  # asked at every tick
 def period_s(pace: Pace, step_seconds: float) -> float:
     """Seconds from one turn of the clock to the next."""
     return MAX_PERIOD_S if pace == MAX else step_seconds / float(pace) * _ticks_a_turn(pace, step_seconds)
@@ -108,6 +110,7 @@ def said(pace: Pace) -> str:
     return "as fast as possible" if pace == MAX else f"{float(pace):g}×"
 
 
+@lru_cache(maxsize=256)
 def _ticks_a_turn(pace: Pace, step_seconds: float) -> int:
     return max(1, math.ceil(SHORTEST_TURN_S * float(pace) / step_seconds - 1e-9))
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from sim.forecast import Verdict
 from sim.plan import Decision, Option
 
 
@@ -37,7 +38,7 @@ def brief_decision_json(decision: Decision) -> dict[str, Any]:
         "blocked": [
             {"move": option.move, "reason": option.reason, "causes": option.causes}
             for option in decision.options
-            if option.reason.blocks
+            if option.reason is not Verdict.FREE
         ],
     }
 

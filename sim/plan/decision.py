@@ -78,7 +78,7 @@ class Decision:
         """How much there is to say: 0 nothing was in the way, 1 a way round, 2 a wait or worse."""
         if self.fault is not None or self.held_back or self.move is Move.STAY:
             return 2
-        return 2 if self.chosen.cost is None else int(self.move is not Move.FORWARD)
+        return 2 if self.chosen.cost is None else 0 if self.move is Move.FORWARD else 1
 
     @property
     def preferred(self) -> tuple[Option, ...]:

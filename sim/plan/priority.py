@@ -14,6 +14,7 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import Final
 
+from sim.changing import maker
 from sim.config import Config
 from sim.forecast import Forecast, Verdict
 from sim.kinds import Move
@@ -29,12 +30,15 @@ ORDER: Final = (
     Move.STAY,
 )
 
+_decided = maker(Decision, "tick", "av", "planner", "move", "options")
+
 
 def options_in_order(forecast: Forecast) -> tuple[Option, ...]:
     """Every move with what it would meet; its cost is its place in the order."""
     # Most moves of most ticks are free: all that are, are found at once, and only the others looked into.
     steps = forecast.steps(1 << forecast.ego)
-    ready = _free_options(forecast.road, forecast.ego)
+    road = forecast.road
+    ready = _free_options(road.columns, road.rows, forecast.ego)
     return tuple([free if there else _met(forecast, free) for there, free in zip(steps, ready, strict=True)])
 
 
@@ -46,8 +50,11 @@ def _met(forecast: Forecast, free: Option) -> Option:
 
 
 @lru_cache(maxsize=4_096)
-def _free_options(road: Road, index: int) -> tuple[Option, ...]:
+def _free_options(columns: int, rows: int, index: int) -> tuple[Option, ...]:
     """Every move from a cell as it is where nothing would be met, in the order of `ORDER` and of `Steps`."""
+    road = Road.of(
+        columns, rows
+    )  # by numbers, since looking up a road by itself takes longer than this saves
     ends = [road.moved(index, move) for move in ORDER]
     cells = [None if end is None else road.cell(end) for end in ends]
     return tuple(
@@ -68,5 +75,7 @@ class PriorityPlanner:
     def decide(self, forecast: Forecast, config: Config) -> Decision:  # noqa: ARG002 - no preferences
         """The move and the six verdicts."""
         options = options_in_order(forecast)
-        move = next((option.move for option in options if option.cost is not None), Move.STAY)
-        return Decision(forecast.tick, forecast.ego_id, self.name, move, options)
+        for option in options:
+            if option.cost is not None:
+                return _decided(forecast.tick, forecast.ego_id, self.name, option.move, options)
+        return _decided(forecast.tick, forecast.ego_id, self.name, Move.STAY, options)
