@@ -14,7 +14,7 @@ from sim.config import Config, ConfigError, Problem
 from sim.forecast import foretell
 from sim.kinds import Kind
 from sim.perceive import perceive
-from sim.randomness import Stream
+from sim.randomness import Stream, fraction, scaled, word_at
 from sim.road import Board, Road, bits, board_of, cells_of
 from sim.search.reach import reach, steps_left
 from sim.world import World
@@ -118,11 +118,17 @@ def _exactly(free: Board, count: int, stream: Stream) -> Board:
 
 def _one_a_row(road: Road, free: Board, probability: float, stream: Stream) -> Board:
     """One thing in each row with that probability, in a free cell of the row."""
-    board = 0
+    board, columns = 0, road.columns
+    whole = (1 << columns) - 1
     for row in range(1, road.rows - 1):
-        draws = stream.narrow(row)
-        if draws.uniform(_PRESENCE) < probability:
-            cells = list(bits(free & road.row(row)))
-            if cells:
-                board |= 1 << cells[draws.below(len(cells), _COLUMN)]
+        # The row's own stream (`narrow`), by its key alone: there are many rows in a tick that begins a road.
+        key = word_at(stream.key, row)
+        if fraction(word_at(key, _PRESENCE)) < probability:
+            start = row * columns
+            room = free >> start & whole
+            if room == whole:
+                board |= 1 << start + scaled(word_at(key, _COLUMN), columns)
+            elif room:
+                cells = cells_of(room)
+                board |= 1 << start + cells[scaled(word_at(key, _COLUMN), len(cells))]
     return board

@@ -11,7 +11,7 @@ from typing import overload
 
 from sim.moving import followed_table_once, move_movers_once
 from sim.perceive import Percept
-from sim.rules import Motion, followed_board, pedestrians_walk
+from sim.rules import Motion, followed_board, move_movers, pedestrians_walk
 
 
 class RollOut(Sequence[Motion]):
@@ -69,7 +69,9 @@ class RollOut(Sequence[Motion]):
     def _next(self) -> Motion:
         percept, ahead = self._percept, len(self._slices)
         walking = pedestrians_walk(percept.episode_tick + ahead)
-        motion = move_movers_once(
+        # Only the first tick is asked for again: when it comes.
+        move = move_movers if ahead else move_movers_once
+        motion = move(
             self._right,
             self._left,
             self._disabled if walking else self._disabled | self._pedestrians,
