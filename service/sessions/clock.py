@@ -258,14 +258,18 @@ class WheelClock:
         if self._loop is None or not (self._order or self._hurried):
             return
         at = self._order[0] * SLOT_S if self._order else math.inf
-        if self._hurried and self._hurry_at < at:
+        exact = bool(self._hurried) and self._hurry_at < at
+        if exact:
             at = self._hurry_at
         if self._timer is not None:
             if self._timer_at <= at:
                 return
             self._timer.cancel()
         self._timer_at = at
-        self._timer = self._loop.call_later(max(0.0, at - self._now()), self._fire)
+        wait_s = max(0.0, at - self._now())
+        # Loops count in whole milliseconds. Waited for in parts of one, a slot was looked at ten times over
+        # before it was due. Slots begin with a millisecond, so this is not late.
+        self._timer = self._loop.call_later(wait_s if exact else math.ceil(wait_s * 1e3) / 1e3, self._fire)
 
     def _fire(self) -> None:
         self._timer = None
