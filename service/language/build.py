@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import combinations
 from typing import Any
 
 from service.language.frames import Filled
@@ -17,7 +18,9 @@ from service.language.noun_phrases import Amount
 from sim.kinds import kind_of
 
 _ABSENT = object()
-_MEASURES = ("number", "length", "speed", "seconds", "fraction", "times")
+_MEASURES = ("number", "length", "speed", "seconds", "fraction", "times", "cells")
+_SETTINGS = frozenset(("weather", "time_of_day", "traffic", "planner", "sensor", "dynamics"))
+"""Of these one value holds; a second in the same breath would be said instead of the first."""
 _EXCLUSIVE = (
     {"cell", "lane"},
     {"cell", "row"},
@@ -49,6 +52,10 @@ def build(filled: Filled, parameters: Parameters) -> list[dict[str, Any]]:
     if not frame.per:
         return [made for template in frame.actions for made in maker.actions(template)]
     turns = filled.of(*frame.per)
+    if frame.last:
+        turns = list({edge.concept: edge for edge in turns}.values())
+    elif any(a.concept == b.concept and a.concept in _SETTINGS for a, b in combinations(turns, 2)):
+        raise CannotBuild("two values for one setting")
     if len(turns) > 1 and maker.where() is not None:
         raise CannotBuild("one place for several things")
     return [maker.action(template, turn) for turn in turns for template in frame.actions]
@@ -111,6 +118,8 @@ class _Maker:
                 return -self._amount()
             case "down_speed":
                 return -self._slot("speed", None)
+            case "share" | "more_part" | "less_part" | "more_percent" | "less_percent":
+                return self._relative(name)
             case "parts":
                 return self.parts()
             case "planners":
@@ -162,10 +171,28 @@ class _Maker:
         if len(amounts) != 1:
             raise CannotBuild("not one amount")
         sense = amounts[0].sense
-        if not self._parameters.fits(str(parameter), sense.concept):
+        if not self._parameters.fits(str(parameter), sense.concept.partition(".")[0]):
             raise CannotBuild(f"{parameter} is no {sense.concept}")
+        if isinstance(sense.value, Amount):
+            return sense.value.count or 0
         value: int | float = round(sense.value / 100, 9) if sense.concept == "fraction" else sense.value
         return value
+
+    def _relative(self, name: str) -> float:
+        """A part of something, as a value of its own or as a change of the value there is.
+
+        A percentage of what is itself a share is no change in proportion: 10 % more is 0.1 more.
+        """
+        parameter = str(self._slot("param", None))
+        is_share = self._parameters.fits(parameter, "fraction")
+        part: float = self._slot("fraction", None) / 100 if "percent" in name else self._slot("part_of", None)
+        if name == "share":
+            if not is_share or self._parameters.fits(parameter, "times"):
+                raise CannotBuild(f"{parameter} is no share")
+            return part
+        if "percent" in name and is_share:
+            raise CannotBuild(f"{parameter} is a share")
+        return round(1 + part if name.startswith("more") else 1 - part, 9)
 
     def _asked_move(self) -> Any:
         """The move a question is about: a direction, or staying; absent when none was named."""

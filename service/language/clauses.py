@@ -15,7 +15,7 @@ from typing import Any, Protocol
 from service.language.frames import Filled
 from service.language.lattice import GLUE, Edge, Lattice
 from service.language.lexicon import Sense
-from service.language.noun_phrases import QUANTITY, Amount, understood_nouns
+from service.language.noun_phrases import COLON, QUANTITY, Amount, understood_nouns
 from service.language.paths import ALLOWS, NEGATION, SEPARATOR, Stretch
 
 MAX_JOINED = 16
@@ -43,6 +43,8 @@ _NEGATED = frozenset({"ing", "negated"})
 
 INTERJECTION = "interjection"
 TAG = "tag"
+CONTRAST = "contrast"
+EVERYTHING = "everything"
 REPEATED = "repeated"
 """What was done before, said again: "again"."""
 
@@ -84,6 +86,7 @@ class Context:
     noun: Edge | None = None
     verbless: bool = True
     negated: bool = False
+    everything: bool = False
     distant: bool = False
     """Whether it comes from an earlier sentence: then only "two more" and the like may lean on it."""
 
@@ -146,7 +149,8 @@ def _past_interjection(lattice: Lattice, start: int, end: int) -> int:
             marks = [
                 e
                 for e in lattice.edges[edge.end]
-                if e.sense.concept == SEPARATOR and (e.sense.value in _MARKS or e.sense.value == _BUT)
+                if (e.sense.concept == SEPARATOR and (e.sense.value in _MARKS or e.sense.value == _BUT))
+                or (e.sense.concept == COLON and e.end == e.start + 1)
             ]
             if marks and _says_something(lattice, marks[0].end, end):
                 return max(mark.end for mark in marks)
@@ -252,6 +256,11 @@ class Divider:
         if part.after == _OR and not context.negated:
             return None
         start, end = part.start, part.end
+        if context.negated and context.verb and self._contrasts(part):
+            instead = replace(context, negated=False)
+            found = self._matcher.match(self._stretch(start, end, instead), verbless=False)
+            if found is not None:
+                return Clause(start, end, *found)
         plain = self._stretch(start, end)
         found = self._matcher.match(plain, verbless=False)
         if found is not None:
@@ -283,6 +292,10 @@ class Divider:
                     return Clause(start, end, *found, leans=context.distant)
         return None
 
+    def _contrasts(self, part: Fragment) -> bool:
+        """Whether a part says what shall be done instead of what shall not: "…, just the cars"."""
+        return any(edge.sense.concept == CONTRAST for edge in self._lattice.edges[part.start])
+
     def _may_lean(self, part: Fragment, context: Context) -> bool:
         """Whether an amount without a noun may be of what was spoken of: not in "a pothole, just one"."""
         if context.distant or part.after == _PAUSE:
@@ -304,11 +317,24 @@ class Divider:
     def _negated(self, part: Fragment, context: Context) -> Clause | None:
         """A fragment that says what not to do: understood, then left out."""
         start, end = part.start, part.end
+        if self._excepts(part, context):
+            return None
         for given in (Context(negated=True), Context(context.verb, context.noun, negated=True)):
             found = self._matcher.match(self._stretch(start, end, given, negation=True), verbless=False)
             if found is not None:
                 return Clause(start, end, found[0], [], negated=True)
         return None
+
+    def _excepts(self, part: Fragment, context: Context) -> bool:
+        """Whether it takes something out of what was said: to leave it out would do more than was meant."""
+        said = list(self._lattice.between(part.start, part.end))
+        if any(edge.concept.startswith("v.") for edge in said):
+            return False
+        kinds = {edge.sense.value.of for edge in said if isinstance(edge.sense.value, Amount)}
+        whole = context.noun is not None and context.noun.concept.endswith(_WHOLE)
+        return context.everything or (
+            whole and context.noun is not None and context.noun.sense.value.of in kinds
+        )
 
     def _stretch(
         self,
@@ -366,7 +392,8 @@ def _context(clause: Clause, before: Context) -> Context:
     )
     amounts = [edge for edge in clause.filled.slots if isinstance(edge.sense.value, Amount)]
     noun = amounts[-1] if amounts else before.noun
-    return Context(verb, noun, frame.verbless or not frame.inherits, clause.negated)
+    everything = any(edge.sense.concept == EVERYTHING for edge in clause.filled.slots)
+    return Context(verb, noun, frame.verbless or not frame.inherits, clause.negated, everything)
 
 
 def _lenient(edge: Edge) -> list[Edge]:

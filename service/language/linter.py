@@ -21,13 +21,13 @@ ENGINE_CONCEPTS = frozenset(
     {GLUE, NAME, NUMBER, UNIT, SECOND, COLON, QUANTITY, ALLOWS, NEGATION, SEPARATOR, SPEAKER}
     | {"interjection", "tag", "name_end", "name_tail", "quotes", "unsupported", "captures"}
     | {"what_if", "if", "then_what", "what_if_tail", "teach", "means"}
-    | {"refers", "taught", "repeated", "repair"}
+    | {"refers", "taught", "repeated", "repair", "contrast"}
 )
 """Concepts the engine itself gives a use."""
 
 AMOUNT_FORMS = frozenset(
     {"counted", "more", "exact", "fewer", "all", "any", "none", "those", "that", "the_one", "the_many"}
-    | {"the_counted", "bare_one", "bare_many", "more_bare", "post", "those_counted", "asked"}
+    | {"the_counted", "bare_one", "bare_many", "more_bare", "more_bare_one", "post", "those_counted", "asked"}
     | {"id", "last", "last_counted"}
 )
 DIMENSIONS = frozenset({"number", "length", "speed", "seconds", "fraction", "times", "real_times"})

@@ -73,6 +73,12 @@ def add_noun_phrases(lattice: Lattice, vague: int) -> None:
             after = _number_after(lattice, phrase)
             if after is not None:
                 lattice.edges[gathered.start].append(after)
+            elif gathered.number is not None and not gathered.said and _follows_noun(lattice, gathered.start):
+                # "potholes 10 vehicles 2": the number may be the noun's before.
+                alone = _joined(_Gathered(at), noun, vague)
+                after = _number_after(lattice, alone)
+                if after is not None:
+                    lattice.edges[at].append(after)
 
 
 def understood_nouns(lattice: Lattice, start: int, end: int, noun: Edge, vague: int) -> list[Edge]:
@@ -156,12 +162,20 @@ def _form(gathered: _Gathered, many: bool, vague: int) -> tuple[str, int | float
     if "a" in said:
         return ("exact" if "exact" in said else "more" if "more" in said else "counted", 1)
     if "more" in said:
-        return ("more_bare", None)
+        return ("more_bare" if many else "more_bare_one", None)
     if "exact" in said:
         return ("odd", None)
     if "the" in said:
         return ("the_many" if many else "the_one", None)
     return ("bare_many" if many else "bare_one", None)
+
+
+def _follows_noun(lattice: Lattice, at: int) -> bool:
+    """Whether a thing stands just before a token."""
+    return at > 0 and any(
+        edge.end == at and isinstance(edge.sense.value, Amount)
+        for edge in lattice.between(max(0, at - 3), at)
+    )
 
 
 def _number_after(lattice: Lattice, phrase: Edge) -> Edge | None:

@@ -335,7 +335,7 @@ class NumberWords:
             and tokens[at].text in self.joins
             and (tail := self._fraction(tokens, at + 1)) is not None
         ):
-            return Found(found.value + tail.value, tail.end)
+            return self._grouped(tokens, Found(found.value + tail.value, tail.end))
         if at < len(tokens) and self._names_parts(tokens[at].text, found.value):
             return Found(found.value * self.fractions[tokens[at].text.removesuffix(self.part_ending)], at + 1)
         return found

@@ -24,6 +24,9 @@ REPAIR = "repair"
 PERHAPS = "perhaps"
 """Value of those that are fillers elsewhere: "sorry"."""
 
+DROPPED = "dropped"
+"""That of words after which stands what shall not be: "instead of"."""
+
 NUMBERS = "numbers"
 """That of words that take back only where a number follows: "no three"."""
 
@@ -74,6 +77,8 @@ class Repaired:
             one = cls(plain, tokens, lattice, edge)
             if edge.sense.value == NUMBERS and not one._begins_with_number():
                 continue
+            if edge.sense.value == DROPPED and one._says_something(one._again, one._tail):
+                return one
             if one._says_something(0, one._end) and one._says_something(one._again, one._tail):
                 return one
         return None
@@ -85,9 +90,23 @@ class Repaired:
 
     def readings(self, read: Read) -> list[Choice] | None:
         """The sentences that may be meant; None where nothing was taken back after all."""
+        if self._edge.sense.value == DROPPED:
+            return self._without(read)
         if (found := self._in_place(read)) or (found := self._instead_of_all(read)):
             return found
         return [] if self._edge.sense.value != PERHAPS or self._alike(read) is not False else None
+
+    def _without(self, read: Read) -> list[Choice]:
+        """That without what shall not be: "use Dijkstra instead of A*", "instead of A* use Dijkstra"."""
+        before = self._written(0, self._end)
+        for end in dict.fromkeys((self._tail, *range(self._again + 1, self._lattice.size + 1))):
+            if not self._kinds(self._again, end):
+                continue
+            text = f"{before} {self._written(end, self._lattice.size)}".strip(" ,;")
+            parsed = read(text)
+            if isinstance(parsed, Understood):
+                return [Choice(text, parsed.actions)]
+        return []
 
     def _in_place(self, read: Read) -> list[Choice]:
         """Those with a part of the same make replaced, in the last request before any other."""
