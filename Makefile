@@ -4,6 +4,8 @@ PYTHON ?= $(shell command -v python3.11 || command -v python3)
 VENV   ?= .venv
 BIN    := $(VENV)/bin
 HOST   ?= 127.0.0.1
+# One more than there are cores: a test that waits for a browser or a process leaves its core to others.
+WORKERS ?= $(shell echo $$(($$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2) + 1)))
 PORT   ?= 8000
 
 .DEFAULT_GOAL := help
@@ -21,8 +23,8 @@ run: $(VENV)/.ready-run ## the service; prints its address
 test: style ## all checks and all tests
 	@told=$$(mktemp); trap 'rm -f "$$told"' EXIT; \
 	$(MAKE) --no-print-directory types >"$$told" 2>&1 & types=$$!; \
-	echo "$(BIN)/python -m pytest -n auto --dist loadgroup"; \
-	$(BIN)/python -m pytest -n auto --dist loadgroup; tests=$$?; \
+	echo "$(BIN)/python -m pytest -n $(WORKERS) --dist loadgroup"; \
+	$(BIN)/python -m pytest -n $(WORKERS) --dist loadgroup; tests=$$?; \
 	wait $$types; types=$$?; cat "$$told"; exit $$((tests || types))
 
 check: style types ## style and types

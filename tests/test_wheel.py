@@ -19,7 +19,7 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Built as `pip install` would, without a network."""
     folder = tmp_path_factory.mktemp("wheel")
     building = [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(folder)]
-    subprocess.run(building, cwd=ROOT, check=True, capture_output=True, timeout=120)
+    subprocess.run(building, cwd=ROOT, check=True, capture_output=True, timeout=300)
     (built,) = folder.glob("*.whl")
     return built
 
@@ -65,5 +65,5 @@ def test_it_runs_from_the_wheel_alone(wheel: Path, tmp_path: Path) -> None:
         "asyncio.run(tables())\n"
     )
     run = [sys.executable, "-c", program, str(tmp_path / "site")]
-    done = subprocess.run(run, cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    done = subprocess.run(run, cwd=tmp_path, capture_output=True, text=True, timeout=300)
     assert (done.returncode, done.stdout) == (0, "True True\n0\n"), done.stderr

@@ -2,6 +2,9 @@
 
 One service and one browser for all of these tests, and no longer: Playwright's event loop must be gone
 before asynchronous tests of other folders run in the same process.
+
+Nothing here depends on how fast the machine is. Roads are made from a seed and stand still, unless a test is
+about a clock that runs; what is waited for may take long.
 """
 
 from __future__ import annotations
@@ -12,11 +15,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, sync_playwright
+from playwright.sync_api import Browser, expect, sync_playwright
 
 from tests.browser.hands import Road, empty_road
 from tests.browser.service_process import ServiceProcess
-from tests.browser.visitor import Visitor
+from tests.browser.visitor import PATIENCE_MS, Visitor
 from tests.browser.walking import began
 
 # Nothing of a browser's own is wanted on the network; the rest is for running as root without a screen.
@@ -32,9 +35,15 @@ QUIET = [
 
 Visit = Callable[..., Visitor]
 
+expect.set_options(timeout=PATIENCE_MS)
+
 
 # The first is the same engine without windows, which takes two thirds of the other's work.
 PROGRAMS = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")
+
+
+# About half of the work.
+BY_HAND = {"test_hands", "test_keeping", "test_time", "test_views", "test_why"}
 
 
 def chromium() -> str | None:
@@ -43,12 +52,18 @@ def chromium() -> str | None:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """One at a time, in one worker: they count frames, and share a machine."""
+    """In two groups, each with a service and a browser of its own: a small machine has two cores."""
     here = Path(__file__).parent
     for item in items:
         if here in item.path.parents:
             item.add_marker(pytest.mark.browser)
-            item.add_marker(pytest.mark.xdist_group("browser"))
+            group = "browser by hand" if item.path.stem in BY_HAND else "browser"
+            item.add_marker(pytest.mark.xdist_group(group))
+
+
+STANDING: dict[str, Any] = {"seed": 9, "paused": True}
+# So long that no episode ends on it while somebody looks.
+RUNNING: dict[str, Any] = {"seed": 9, "config": {"rows": 400}}
 
 
 @pytest.fixture(scope="package")
@@ -73,9 +88,13 @@ def visit(service: ServiceProcess, browser: Browser) -> Iterator[Visit]:
     """Opens pages; at the end none may have logged an error, broken the policy or asked a stranger."""
     visitors: list[Visitor] = []
 
-    def open_page(path: str = "/", *, live: bool = True, **context: Any) -> Visitor:
+    def open_page(
+        path: str | None = None, *, live: bool = True, running: bool = False, **context: Any
+    ) -> Visitor:
         visitor = Visitor(browser, service.url, **context)
         visitors.append(visitor)
+        if path is None:
+            path = f"/#/s/{service.session(**(RUNNING if running else STANDING))}"
         if live:
             return visitor.open(path)
         visitor.page.goto(service.url + path)

@@ -6,7 +6,6 @@ import re
 from collections.abc import Callable
 from typing import Any
 
-import httpx
 from playwright.sync_api import Locator, expect
 
 from tests.browser.service_process import ServiceProcess
@@ -14,12 +13,20 @@ from tests.browser.visitor import Visitor
 
 Cell = list[int]
 
+# Once the road has come to rest: while the vehicle glides, so does the view.
 PLACE_OF = """
 async (cell) => {
   const { viewUnder } = await import("/src/hits.js");
   const { places } = viewUnder(document.querySelector(".road-hands"));
-  const { left, top, width, height } = places.placeOf(cell);
-  return [left + width / 2, top + height / 2];
+  let [at, still] = ["", 0];
+  while (still < 4) {
+    await new Promise(requestAnimationFrame);
+    const { left, top, width, height } = places.placeOf(cell);
+    const now = JSON.stringify([left + width / 2, top + height / 2]);
+    still = now === at ? still + 1 : 0;
+    at = now;
+  }
+  return JSON.parse(at);
 }
 """
 
@@ -71,6 +78,10 @@ class Road:
         x, y = self.page.evaluate(PLACE_OF, cell)
         return x, y
 
+    def step(self, ticks: int = 1) -> None:
+        """Drive on, and wait until that is seen."""
+        self.visitor.step(ticks)
+
     def point(self, cell: Cell) -> None:
         """Let the pointer rest on a cell."""
         x, y = self.at(cell)
@@ -97,8 +108,7 @@ class Road:
 
 def empty_road(visit: Callable[..., Visitor], service: ServiceProcess, **context: Any) -> Road:
     """A road with nothing on it but the vehicle, opened in a page."""
-    made = httpx.post(f"{service.url}/api/v1/sessions", json={"seed": 7, "paused": True})
-    found = Road(visit(f"/#/s/{made.json()['id']}", **context))
+    found = Road(visit(f"/#/s/{service.session(seed=7, paused=True)}", **context))
     found.script.act({"do": "remove", "kind": "everything", "count": "all"})
     expect(found.page.locator("#road .road-canvas").first).to_have_attribute(
         "aria-label", re.compile("nothing on it")

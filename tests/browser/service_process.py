@@ -10,6 +10,8 @@ from typing import Any
 import httpx
 
 ROOT = Path(__file__).parents[2]
+PATIENCE_S = 60
+"""How long an answer may take on a busy machine."""
 
 
 class ServiceProcess:
@@ -38,6 +40,12 @@ class ServiceProcess:
             raise RuntimeError(f"the service did not start; it said {ready!r} and, above, why")
         self._port = int(self.url.rsplit(":", 1)[1])
 
+    def session(self, **wishes: Any) -> str:
+        """A new session's id."""
+        made = httpx.post(f"{self.url}/api/v1/sessions", json=wishes, timeout=PATIENCE_S)
+        identity: str = made.raise_for_status().json()["id"]
+        return identity
+
     def kill(self) -> None:
         """At once, as by a crash."""
         if self._process is None:
@@ -53,7 +61,7 @@ class Script:
     """What a script beside the page can do to the page's session."""
 
     def __init__(self, url: str, session: str) -> None:
-        self._http = httpx.Client(base_url=f"{url}/api/v1/sessions/{session}", timeout=10)
+        self._http = httpx.Client(base_url=f"{url}/api/v1/sessions/{session}", timeout=PATIENCE_S)
 
     def state(self) -> dict[str, Any]:
         """The world now."""

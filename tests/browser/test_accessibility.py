@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import httpx
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import expect
@@ -41,8 +40,7 @@ def test_axe_finds_nothing(visit: Visit, scheme: str, size: dict[str, Any]) -> N
     visitor.say("slow down")
     visitor.say("why did you do that?")
     states["talk"] = violations(visitor)
-    visitor.words.press_sequentially("add fi")
-    expect(visitor.page.locator(".suggestion").first).to_be_visible()
+    expect(visitor.typed("add fi").first).to_be_visible()
     states["completion"] = violations(visitor)
     visitor.page.keyboard.press("Escape")
     visitor.page.keyboard.press("Control+k")
@@ -60,8 +58,9 @@ def test_axe_finds_nothing_at_the_end_of_an_episode(
     service: ServiceProcess, visit: Visit, scheme: str
 ) -> None:
     # A road on which it arrives after 29 ticks; on others it may be stuck for long.
-    made = httpx.post(f"{service.url}/api/v1/sessions", json={"seed": 1, "paused": True}, timeout=10)
-    visitor = visit(f"/#/s/{made.json()['id']}", color_scheme=scheme, reduced_motion="reduce")
+    visitor = visit(
+        f"/#/s/{service.session(seed=1, paused=True)}", color_scheme=scheme, reduced_motion="reduce"
+    )
     while visitor.script.state()["status"] == "running":
         visitor.script.act({"do": "step", "ticks": 1})
         assert visitor.script.state()["tick"] < 60
@@ -70,7 +69,7 @@ def test_axe_finds_nothing_at_the_end_of_an_episode(
 
 
 def test_the_whole_first_minute_without_a_mouse(visit: Visit) -> None:
-    visitor = visit()
+    visitor = visit(running=True)
     page, press = visitor.page, visitor.page.keyboard.press
     focused = "document.activeElement"
     press("Tab")
@@ -78,7 +77,7 @@ def test_the_whole_first_minute_without_a_mouse(visit: Visit) -> None:
     press("Enter")
     expect(visitor.words).to_be_focused()
     page.keyboard.type("add five pot")
-    expect(page.locator(".suggestion").first).to_be_visible()
+    expect(visitor.offered().first).to_be_visible()
     press("Tab")
     press("Enter")
     before = visitor.last_exchange("add five potholes")
@@ -98,6 +97,7 @@ def test_the_whole_first_minute_without_a_mouse(visit: Visit) -> None:
     press("?")
     expect(page.get_by_role("dialog", name="What can I say?")).to_be_visible()
     press("Escape")
+    expect(page.get_by_role("dialog")).to_have_count(0)
     press("Control+k")
     page.keyboard.type("resume")
     press("Enter")

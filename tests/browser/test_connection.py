@@ -22,7 +22,7 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ServiceProcess
 
 
 def test_a_killed_service_leaves_a_stale_page_that_comes_back(service: ServiceProcess, visit: Visit) -> None:
-    visitor = visit()
+    visitor = visit(running=True)
     session = visitor.session
     visitor.say("add five potholes")
     potholes = visitor.script.count("pothole")
@@ -90,10 +90,9 @@ def test_without_the_service_every_part_says_so_and_goes_on_after(
     page = visitor.page
     visitor.pause()
     for _ in range(6):
-        visitor.script.act({"do": "step", "ticks": 1})
+        visitor.step()
     figure = page.locator("[data-figure=tick] .figure-value")
-    tick = visitor.script.state()["tick"]
-    expect(figure).to_have_text(str(tick))
+    tick = visitor.tick()
     rejected = page.locator("#plan .way[data-standing=blocked], #plan .way[data-standing=free]").first
     expect(rejected).to_be_visible()  # the next decision is known
     session = visitor.session

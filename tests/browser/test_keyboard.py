@@ -33,7 +33,7 @@ def test_the_first_minute_by_keyboard(visit: Visit) -> None:
 
 
 def test_space_pauses_arrow_steps_u_undoes(visit: Visit) -> None:
-    visitor = visit()
+    visitor = visit(running=True)
     page, keys = visitor.page, visitor.page.keyboard
     keys.press("Space")
     expect(page.locator(".paused")).to_be_visible()
@@ -57,7 +57,7 @@ def test_space_pauses_arrow_steps_u_undoes(visit: Visit) -> None:
 
 
 def test_step_on_a_running_road_pauses_it_first(visit: Visit) -> None:
-    visitor = visit()
+    visitor = visit(running=True)
     visitor.page.keyboard.press("ArrowRight")
     expect(visitor.page.locator(".paused")).to_be_visible()
     expect(visitor.page.locator(".log-line").filter(has_text="Paused.")).to_have_count(1)
@@ -66,7 +66,7 @@ def test_step_on_a_running_road_pauses_it_first(visit: Visit) -> None:
 
 
 def test_keys_are_letters_while_typing(visit: Visit) -> None:
-    visitor = visit()
+    visitor = visit(running=True)
     visitor.words.focus()
     visitor.page.keyboard.type("u r ? /")
     expect(visitor.words).to_have_value("u r ? /")
@@ -79,7 +79,7 @@ def test_keys_are_letters_while_typing(visit: Visit) -> None:
 
 
 def test_space_on_a_button_presses_it_once(visit: Visit) -> None:
-    visitor = visit()
+    visitor = visit(running=True)
     button = visitor.page.get_by_role("button", name="Pause")
     button.focus()
     visitor.page.keyboard.press("Space")

@@ -53,6 +53,34 @@ SMALL_TARGETS = """
 """
 
 
+RECORD = """
+() => {
+  const road = document.querySelector("#road .road-canvas");
+  const small = new OffscreenCanvas(90, 90);
+  const pen = small.getContext("2d", { willReadFrequently: true });
+  const seen = (window.seen = new Set());
+  function frame() {
+    pen.drawImage(road, 0, 0, 90, 90);
+    seen.add(pen.getImageData(0, 0, 90, 90).data.join());
+    if (window.seen === seen) requestAnimationFrame(frame);
+  }
+  frame();
+}
+"""
+
+
+def pictures_of_a_step(visitor: Visitor) -> int:
+    """How many the road goes through in one tick, the first and the last with them."""
+    visitor.settled()
+    visitor.page.evaluate(RECORD)
+    visitor.step()
+    visitor.settled()
+    number: int = visitor.page.evaluate(
+        "() => { const { size } = window.seen; window.seen = null; return size; }"
+    )
+    return number
+
+
 def talkative(visitor: Visitor) -> None:
     """Have one of each kind of exchange on the page."""
     visitor.say("add five potholse")
@@ -130,17 +158,17 @@ def test_the_policy_allows_nothing_inline_and_nothing_foreign(visit: Visit) -> N
 
 
 def test_little_motion_means_cuts_from_tick_to_tick(visit: Visit) -> None:
-    gliding = visit().watch(2)
-    still = visit(reduced_motion="reduce").watch(2)
-    assert len(set(still["pictures"])) <= 8
-    assert len(set(gliding["pictures"])) > 3 * len(set(still["pictures"]))
+    gliding, still = visit().bare(), visit(reduced_motion="reduce").bare()
+    # What belongs to a tick may come a frame after it, as a ring around what is spoken of.
+    assert pictures_of_a_step(still) <= 4
+    # A machine may be too slow to show much between two ticks once, but not time and again.
+    assert any(pictures_of_a_step(gliding) > 8 for _ in range(10))
 
 
 def test_the_road_changes_with_the_colours_of_the_system(visit: Visit) -> None:
-    visitor = visit(color_scheme="light")
-    visitor.pause()
+    visitor = visit(color_scheme="light").bare()
     light = visitor.settled()
     visitor.page.emulate_media(color_scheme="dark")
-    assert visitor.settled() != light
+    visitor.settled(unlike=light)
     visitor.page.emulate_media(color_scheme="light")
-    assert visitor.settled() == light
+    visitor.settled(like=light)

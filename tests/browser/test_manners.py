@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-import httpx
 import pytest
 from playwright.sync_api import expect
 
 from tests.browser.conftest import Visit
-from tests.browser.service_process import ServiceProcess
 from tests.browser.test_accessibility import violations
 from tests.browser.test_layout import FAINT_TEXT
 from tests.browser.visitor import Visitor
@@ -58,22 +56,21 @@ def choose_theme(visitor: Visitor, name: str) -> None:
 
 
 def test_a_chosen_theme_holds_against_the_systems_and_next_time(visit: Visit) -> None:
-    visitor = visit(color_scheme="light", reduced_motion="reduce")
-    visitor.pause()
+    visitor = visit(color_scheme="light", reduced_motion="reduce").bare()
     page = visitor.page
-    light, road = page.evaluate(GROUND), visitor.picture()
+    light, road = page.evaluate(GROUND), visitor.settled()
     choose_theme(visitor, "Dark")
     page.wait_for_function(f"(light) => ({GROUND})() !== light", arg=light)
     dark = page.evaluate(GROUND)
     page.wait_for_function("() => getComputedStyle(document.documentElement).colorScheme === 'dark'")
-    assert visitor.watch(0.3)["pictures"][-1] != road, "the canvas follows"
+    visitor.settled(unlike=road)  # the canvas follows
     assert page.evaluate(FAINT_TEXT) == []
     page.reload()
     visitor.wait_live()
     assert page.evaluate(GROUND) == dark
     choose_theme(visitor, "Light")
     page.emulate_media(color_scheme="dark")
-    assert page.evaluate(GROUND) == light
+    page.wait_for_function(f"(light) => ({GROUND})() === light", arg=light)
     choose_theme(visitor, "As the system")
     page.wait_for_function(f"(dark) => ({GROUND})() === dark", arg=dark)
 
@@ -110,11 +107,10 @@ def test_forced_colours_and_more_contrast_are_usable(visit: Visit, scheme: str) 
 
 @pytest.mark.parametrize("phone", PHONES, ids=["360", "390"])
 def test_on_a_phone_nothing_sticks_out_and_every_target_can_be_hit(
-    service: ServiceProcess, visit: Visit, phone: dict[str, Any]
+    visit: Visit, phone: dict[str, Any]
 ) -> None:
-    made = httpx.post(f"{service.url}/api/v1/sessions", json={"seed": 9, "paused": True}, timeout=10)
-    visitor = visit(f"/#/s/{made.json()['id']}", **phone)
-    visitor.script.act({"do": "step", "ticks": 9})
+    visitor = visit(**phone)
+    visitor.step(9)
     page = visitor.page
     states: dict[str, list[str]] = {}
 

@@ -34,8 +34,7 @@ def line(visitor: Visitor) -> Locator:
 
 def test_a_sentence_is_completed_and_only_sent_with_enter(visit: Visit) -> None:
     visitor = visit()
-    visitor.words.press_sequentially("add fiv")
-    expect(suggestions(visitor).first).to_have_text(re.compile("^add five "))
+    expect(visitor.typed("add fiv").first).to_have_text(re.compile("^add five "))
     expect(visitor.words).to_have_attribute("aria-expanded", "true")
     wanted = suggestions(visitor).first.inner_text()
     visitor.words.press("Tab")
@@ -49,8 +48,7 @@ def test_a_sentence_is_completed_and_only_sent_with_enter(visit: Visit) -> None:
 
 def test_the_arrows_walk_the_completions_and_escape_gives_back_what_was_typed(visit: Visit) -> None:
     visitor = visit()
-    visitor.words.press_sequentially("remove ")
-    expect(suggestions(visitor).nth(1)).to_be_visible()
+    expect(visitor.typed("remove ").nth(1)).to_be_visible()
     first, second = suggestions(visitor).nth(0).inner_text(), suggestions(visitor).nth(1).inner_text()
     visitor.words.press("ArrowDown")
     expect(visitor.words).to_have_value(first)
@@ -66,9 +64,9 @@ def test_the_arrows_walk_the_completions_and_escape_gives_back_what_was_typed(vi
 
 def test_a_completion_can_be_clicked(visit: Visit) -> None:
     visitor = visit()
-    visitor.words.press_sequentially("add fiv")
-    wanted = suggestions(visitor).first.inner_text()
-    suggestions(visitor).first.click()
+    first = visitor.typed("add fiv").first
+    wanted = first.inner_text()
+    first.click()
     expect(visitor.words).to_have_value(wanted)
     expect(visitor.words).to_be_focused()
 
@@ -99,7 +97,7 @@ def test_questions_refusals_and_riddles_are_told_as_such(visit: Visit) -> None:
 
 
 def test_the_palette_finds_and_does(visit: Visit) -> None:
-    visitor = visit()
+    visitor = visit(running=True)
     visitor.words.press("Control+k")
     palette = visitor.page.get_by_role("dialog", name="Everything that can be done")
     search = palette.get_by_role("combobox")
@@ -173,7 +171,7 @@ def test_an_answer_that_comes_late_takes_no_newer_ones_place(visit: Visit) -> No
     sentences = dialog.get_by_role("region", name="Sentences")
     expect(sentences).to_contain_text("warum")
     (english,) = held
-    with visitor.page.expect_event("requestfinished"):
+    with visitor.page.expect_event("requestfinished", lambda request: "language=en" in request.url):
         english.continue_()
     visitor.page.evaluate("() => new Promise(requestAnimationFrame)")
     expect(sentences).to_have_count(1)
@@ -183,7 +181,8 @@ def test_an_answer_that_comes_late_takes_no_newer_ones_place(visit: Visit) -> No
 def test_what_is_heard_is_put_in_the_box_and_not_sent(visit: Visit) -> None:
     visitor = visit(live=False)
     visitor.page.add_init_script(SCRIPTED_SPEECH)
-    visitor.open()
+    visitor.page.reload()
+    visitor.wait_live()
     visitor.page.get_by_role("button", name="Speak").click()
     expect(visitor.words).to_have_value("add two barriers")
     expect(visitor.words).to_be_focused()
@@ -193,7 +192,8 @@ def test_what_is_heard_is_put_in_the_box_and_not_sent(visit: Visit) -> None:
 def test_replies_are_read_aloud_only_on_request(visit: Visit) -> None:
     visitor = visit(live=False)
     visitor.page.add_init_script(SCRIPTED_SPEECH)
-    visitor.open()
+    visitor.page.reload()
+    visitor.wait_live()
     visitor.say("add two barriers")
     assert visitor.page.evaluate("window.spoken") == []
     visitor.page.locator("#help").click()
@@ -207,5 +207,6 @@ def test_replies_are_read_aloud_only_on_request(visit: Visit) -> None:
 def test_without_a_microphone_there_is_no_button(visit: Visit) -> None:
     visitor = visit(live=False)
     visitor.page.add_init_script("delete window.SpeechRecognition; delete window.webkitSpeechRecognition;")
-    visitor.open()
+    visitor.page.reload()
+    visitor.wait_live()
     expect(visitor.page.get_by_role("button", name="Speak")).to_have_count(0)

@@ -10,6 +10,14 @@ from tests.browser.conftest import Visit
 from tests.browser.visitor import Visitor
 from tests.browser.walking import TICKS, bar, choose, figure, look, slider, world
 
+# And what its button tells at that moment: a slow machine may not look before it has come to the end.
+PLAY = """
+() => {
+  document.body.dispatchEvent(new KeyboardEvent("keydown", { key: " ", bubbles: true, cancelable: true }));
+  return document.querySelector("[data-past=play]").dataset.playing;
+}
+"""
+
 
 def test_dragging_shows_the_past_as_it_was(run: Visitor) -> None:
     box = slider(run).bounding_box()
@@ -74,15 +82,14 @@ def test_arrows_walk_back_and_forth_and_play_goes_on_by_itself(run: Visitor) -> 
     for _ in range(3):
         keys.press("ArrowLeft")
     expect(figure(run)).to_have_text(str(TICKS - 4))
-    keys.press("Space")
-    expect(bar(run).get_by_role("button", name="Play from here")).to_have_attribute("data-playing", "true")
-    expect(bar(run)).to_be_hidden(timeout=8_000)
+    assert run.page.evaluate(PLAY) == "true"
+    expect(bar(run)).to_be_hidden()
     expect(figure(run)).to_have_text(str(TICKS))
     assert run.script.state()["paused"] is True
 
 
 def test_stepping_back_on_a_running_road_stops_it_first(visit: Visit) -> None:
-    visitor = visit()
+    visitor = visit(running=True)
     expect(figure(visitor)).not_to_have_text(re.compile("^[0-2]$"))
     visitor.page.keyboard.press("ArrowLeft")
     expect(bar(visitor)).to_be_visible()
@@ -168,6 +175,7 @@ def test_speed_is_chosen_and_shown(visit: Visit) -> None:
     speed = visitor.page.get_by_role("combobox", name="Playback speed")
     expect(speed).to_have_value("1")
     speed.select_option("4")
+    expect(visitor.page.locator(".exchange").last).to_contain_text("1 → 4")
     expect(speed).to_have_value("4")
     visitor.page.locator("body").click(position={"x": 2, "y": 2})
     visitor.page.keyboard.press("-")
@@ -181,15 +189,16 @@ def test_speed_is_chosen_and_shown(visit: Visit) -> None:
     expect(speed).to_have_value("64")
 
 
-def test_the_past_is_quick_even_in_a_long_run(visit: Visit) -> None:
+def test_the_past_is_asked_for_in_pages_and_ahead_of_time(visit: Visit) -> None:
+    """So that a tick of it is there at once, even in a long run: most of them cost no question."""
     visitor = visit()
-    visitor.pause()
     for _ in range(2):
         visitor.script.act({"do": "step", "ticks": 1000})
-    expect(slider(visitor)).to_have_attribute("aria-valuemax", re.compile("^20"))
+    expect(slider(visitor)).to_have_attribute("aria-valuemax", "2000")
     slider(visitor).focus()
     visitor.page.keyboard.press("Home")
     expect(figure(visitor)).to_have_text("0")
+    visitor.requests.clear()
     times: list[float] = visitor.page.evaluate(
         """async () => {
           const figure = document.querySelector("[data-figure=tick] .figure-value");
@@ -205,7 +214,8 @@ def test_the_past_is_quick_even_in_a_long_run(visit: Visit) -> None:
         }"""
     )
     print(f"a tick of the past: median {times[30]:.0f} ms, worst {times[-1]:.0f} ms")
-    assert times[30] <= 50
+    asked = [url for url in visitor.requests if "/moments" in url]
+    assert 0 < len(asked) <= 8
 
 
 def test_on_a_phone_the_past_can_be_reached_and_left(visit: Visit) -> None:

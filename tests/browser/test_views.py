@@ -28,7 +28,7 @@ def way(visitor: Visitor, name: str) -> Locator:
 
 
 def asked(visitor: Visitor, what: str) -> dict[str, Any]:
-    answer = httpx.get(f"{visitor.url}/api/v1/sessions/{visitor.session}/{what}", timeout=10)
+    answer = httpx.get(f"{visitor.url}/api/v1/sessions/{visitor.session}/{what}", timeout=60)
     values: dict[str, Any] = answer.raise_for_status().json()
     return values
 
@@ -42,25 +42,6 @@ def cleared(visitor: Visitor) -> list[int]:
     )
     cell: list[int] = visitor.script.state()["vehicles"][0]["cell"]
     return cell
-
-
-def until(visitor: Visitor, expression: str, *values: Any) -> None:
-    """Wait for something that no expectation of Playwright's tells."""
-    for _ in range(100):
-        if visitor.page.evaluate(expression, *values):
-            return
-        visitor.watch(0.05)
-    pytest.fail(f"never came true: {expression}")
-
-
-def settled(visitor: Visitor) -> int:
-    """The road's picture once it stands still."""
-    for _ in range(20):
-        pictures = visitor.watch(0.4)["pictures"]
-        if len(set(pictures)) == 1:
-            break
-    picture: int = pictures[-1]
-    return picture
 
 
 def test_everything_is_seen_at_once_on_a_desk(visit: Visit) -> None:
@@ -118,15 +99,15 @@ def test_what_is_enlarged_fills_the_place_of_the_rest_and_comes_back(visit: Visi
     visitor.pause()
     before = part(visitor, "plan").bounding_box()
     visitor.page.get_by_role("button", name="Enlarge the plan").click()
+    visitor.until("document.querySelector('.plan-canvas').clientWidth > 400")
     large = part(visitor, "plan").bounding_box()
     assert before is not None
     assert large is not None
     assert large["width"] > 2.5 * before["width"]
     expect(part(visitor, "talk")).to_be_in_viewport(ratio=1)
     canvas = visitor.page.locator(".plan-canvas")
-    until(visitor, "document.querySelector('.plan-canvas').clientWidth > 400")
     visitor.page.keyboard.press("Escape")
-    until(visitor, "document.querySelector('.plan-canvas').clientWidth < 300")
+    visitor.until("document.querySelector('.plan-canvas').clientWidth < 300")
     assert part(visitor, "plan").bounding_box() == before
     road = part(visitor, "road").bounding_box()
     visitor.page.get_by_role("button", name="Enlarge the road").click()
@@ -171,9 +152,9 @@ def test_the_plan_tells_the_next_move_and_why_not_the_others(visit: Visit) -> No
     expect(visitor.page.locator(".plan-canvas")).to_have_attribute(
         "aria-label", re.compile("Intended: right. 2 of six")
     )
-    plain, tick = settled(visitor), visitor.tick()
+    plain, tick = visitor.settled(), visitor.tick()
     way(visitor, "Forward").focus()
-    assert settled(visitor) != plain, "the barrier is ringed on the road"
+    visitor.settled(unlike=plain)  # the barrier is ringed on the road
     visitor.page.locator("#words").focus()
     visitor.page.get_by_role("button", name="Step").click()
     expect(visitor.page.locator(".caption")).to_contain_text("barrier")
@@ -200,7 +181,7 @@ def test_the_matrix_holds_what_the_road_holds(visit: Visit) -> None:
     blank = canvas.evaluate("(canvas) => canvas.toDataURL()")
     visitor.script.act({"do": "add", "kind": "pothole", "count": 3})
     expect(canvas).to_have_attribute("aria-label", re.compile(r"4 of 240 cells are taken, 3 potholes"))
-    until(visitor, "(before) => document.querySelector('.occupancy-canvas').toDataURL() !== before", blank)
+    visitor.until("(before) => document.querySelector('.occupancy-canvas').toDataURL() !== before", blank)
     assert f"column {column + 1} of row {row}" in (canvas.get_attribute("aria-label") or "")
 
 
@@ -220,8 +201,9 @@ def test_metrics_are_the_service_s_own(visit: Visit) -> None:
     else:
         ticks = "1 tick" if lost == 1 else f"{lost} ticks"
         expect(visitor.page.locator(".chart-told").nth(1)).to_have_text(f"{ticks} lost in {len(judged)}")
-    for chart in visitor.page.locator(".chart-canvas").all():
-        assert chart.evaluate(COLOURS) > 1
+    visitor.until(
+        f"() => [...document.querySelectorAll('.chart-canvas')].every((one) => ({COLOURS})(one) > 1)"
+    )
 
 
 @pytest.mark.parametrize(
@@ -232,13 +214,13 @@ def test_layers_over_the_road_come_and_go_by_sentence(visit: Visit, said: str, u
     visitor.pause()
     column, row = cleared(visitor)
     visitor.script.act({"do": "add", "kind": "pothole", "count": 1, "where": {"cell": [column, row - 4]}})
-    visitor.script.act({"do": "step", "ticks": 2})
-    expect(visitor.page.locator(".panel-note").first).to_have_text(re.compile("next"))
-    plain = settled(visitor)
+    visitor.step(2)
+    expect(visitor.page.locator(".panel-note").first).to_have_text(f"next, at tick {visitor.tick()}")
+    plain = visitor.settled()
     visitor.say(said)
-    assert settled(visitor) != plain
+    visitor.settled(unlike=plain)
     visitor.say(unsaid)
-    assert settled(visitor) == plain
+    visitor.settled(like=plain)
 
 
 def test_layers_over_the_road_come_and_go_by_the_menu(visit: Visit) -> None:
@@ -246,10 +228,10 @@ def test_layers_over_the_road_come_and_go_by_the_menu(visit: Visit) -> None:
     visitor.pause()
     expect(visitor.page.locator(".panel-note").first).to_have_text(re.compile("next"))
     visitor.page.get_by_role("button", name="Views").click()
-    pictures = [settled(visitor)]
+    pictures = [visitor.settled()]
     for name in ("Forecast", "Bounding boxes"):
         visitor.page.get_by_role("menuitemcheckbox", name=name).click()
-        pictures.append(settled(visitor))
+        pictures.append(visitor.settled(unlike=pictures[-1]))
     assert len(set(pictures)) == 3
 
 
@@ -347,8 +329,8 @@ def test_what_was_lost_is_reckoned_anew_when_the_run_becomes_another(visit: Visi
     blocked = settled_chart(visitor, chart)
     visitor.script.act({"do": "undo"})
     assert asked(visitor, f"regret?from={first}&limit=60")["items"][0]["blocked"] == 0
-    until(
-        visitor, "(before) => document.querySelector('[data-chart=blocked]').toDataURL() !== before", blocked
+    visitor.until(
+        "(before) => document.querySelector('[data-chart=blocked]').toDataURL() !== before", blocked
     )
 
 

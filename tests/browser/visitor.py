@@ -9,6 +9,9 @@ from playwright.sync_api import Browser, ConsoleMessage, Locator, Page, Request,
 
 from tests.browser.service_process import Script
 
+PATIENCE_MS = 30_000
+"""How long anything on the page may take: a machine may be slow, or busy with other things."""
+
 WATCH_POLICY = """
 window.policyViolations = [];
 document.addEventListener("securitypolicyviolation", (event) =>
@@ -29,7 +32,7 @@ WATCH_PICTURES = """
     let hash = 0;
     for (const value of data) hash = (Math.imul(hash, 31) + value) | 0;
     pictures.push(hash);
-    if (now - began < durationMs) requestAnimationFrame(frame);
+    if (now - began < durationMs || pictures.length < 4) requestAnimationFrame(frame);
     else done({ frames: pictures.length - 1, seconds: (now - began) / 1000, pictures });
   }
   requestAnimationFrame(frame);
@@ -45,7 +48,7 @@ class Visitor:
         self._context = browser.new_context(**{"viewport": {"width": 1440, "height": 900}, **context})
         self._context.add_init_script(WATCH_POLICY)
         self.page: Page = self._context.new_page()
-        self.page.set_default_timeout(10_000)
+        self.page.set_default_timeout(PATIENCE_MS)
         self.console: list[str] = []
         self.requests: list[str] = []
         self.page.on("console", self._note)
@@ -69,7 +72,7 @@ class Visitor:
 
     def wait_live(self) -> None:
         """Until the stream has said hello."""
-        expect(self.page.locator("#connection")).to_have_attribute("data-phase", "live", timeout=20_000)
+        expect(self.page.locator("#connection")).to_have_attribute("data-phase", "live")
 
     @property
     def session(self) -> str:
@@ -114,18 +117,42 @@ class Visitor:
         seen: dict[str, Any] = self.page.evaluate(WATCH_PICTURES, seconds * 1000)
         return seen
 
-    def picture(self) -> int:
-        """The road's picture as a number."""
-        number: int = self.watch(0.02)["pictures"][-1]
-        return number
+    def settled(self, *, like: int | None = None, unlike: int | None = None) -> int:
+        """The road's picture as a number, once nothing glides and it is like, or unlike, another."""
+        for _ in range(100):
+            pictures = self.watch(0.3)["pictures"]
+            still, picture = len(set(pictures[-len(pictures) // 2 :])) == 1, int(pictures[-1])
+            if still and picture != unlike and like in (None, picture):
+                return picture
+        raise AssertionError("the road does not come to rest as it should")
 
-    def settled(self) -> int:
-        """The road's picture as a number, once nothing glides any more."""
-        for _ in range(20):
-            pictures = self.watch(0.5)["pictures"]
-            if len(pictures) > 3 and len(set(pictures[-len(pictures) // 2 :])) == 1:
-                return int(pictures[-1])
-        raise AssertionError("the road does not come to rest")
+    def until(self, expression: str, *values: Any) -> None:
+        """Wait for something that no expectation of Playwright's tells."""
+        self.page.wait_for_function(expression, arg=values[0] if values else None)
+
+    def typed(self, text: str) -> Locator:
+        """Type without sending; the sentences that are offered, once they are those for this text."""
+        self.words.press_sequentially(text)
+        return self.offered()
+
+    def offered(self) -> Locator:
+        """The sentences offered for what stands in the box."""
+        expect(self.page.locator("#suggestions")).to_have_attribute("aria-busy", "false")
+        return self.page.locator("#suggestions").get_by_role("option")
+
+    def bare(self) -> Visitor:
+        """Without the path on the road, which comes a moment later: for comparing pictures."""
+        expect(self.say("hide the path").locator(".reply")).to_contain_text("hidden")
+        return self
+
+    def shows(self, tick: int) -> None:
+        """Wait until the page shows a tick."""
+        expect(self.page.locator("[data-figure=tick] .figure-value")).to_have_text(str(tick))
+
+    def step(self, ticks: int = 1) -> None:
+        """Drive on, not by hand, and wait until that is seen."""
+        self.script.act({"do": "step", "ticks": ticks})
+        self.shows(self.script.state()["tick"])
 
     def tick(self) -> int:
         """The tick that the page shows."""

@@ -96,7 +96,7 @@ def test_a_session_is_watched_for_some_ticks(process: ServiceProcess, client: Cl
         assert watcher.stdout is not None
         assert watcher.stdout.readline() == "Watching watched: tick 0, paused\n"
         moves = [decision.move for decision in session.step(3).decisions]
-        out, err = watcher.communicate(timeout=20)
+        out, err = watcher.communicate(timeout=120)
     assert (watcher.returncode, err) == (0, "")
     told = [line.split() for line in out.splitlines() if "*" not in line]
     assert [line[:2] for line in told] == [[str(tick), move] for tick, move in enumerate(moves, 1)]
@@ -110,7 +110,7 @@ def test_watching_ends_cleanly_with_the_interrupt_key(process: ServiceProcess, c
         session.say("add five potholes")
         assert "add five potholes: Added 5 potholes" in watcher.stdout.readline()
         watcher.send_signal(signal.SIGINT)
-        out, err = watcher.communicate(timeout=20)
+        out, err = watcher.communicate(timeout=120)
     assert (watcher.returncode, out.strip(), err) == (0, "", "")
 
 

@@ -73,10 +73,13 @@ async def test_head_of_pages_and_of_what_is_not_there(client: httpx.AsyncClient,
 async def test_head_of_what_has_no_end_ends() -> None:
     settings = Settings(database="memory:")
     app = create_app(settings, store=MemoryStore())
-    async with running(app, settings) as service, httpx.AsyncClient(base_url=service.http) as client:
+    async with (
+        running(app, settings) as service,
+        httpx.AsyncClient(base_url=service.http, timeout=60) as client,
+    ):
         made = await client.post("/api/v1/sessions", json={"seed": 7})
         path = f"{made.headers['location']}/events/stream"
-        head = await asyncio.wait_for(client.head(path), 5)
+        head = await asyncio.wait_for(client.head(path), 60)
         assert (head.status_code, head.content) == (200, b"")
         assert head.headers["content-type"].startswith("text/event-stream")
         # The same connection serves what comes next, and nobody was left behind.

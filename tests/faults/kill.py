@@ -32,6 +32,7 @@ from tests.service.postgres import binaries, serving
 
 ROUNDS_OF_A_SESSION = 8
 SNAPSHOT_WORK = 15
+START_S = 120
 TEXTS = ("step {n}", "set potholes to {n}", "step {n}", "set barriers to {n}", "step {n}", "undo", "redo")
 
 
@@ -61,7 +62,7 @@ class Service:
             raise
 
     def _wait(self) -> None:
-        until = time.monotonic() + 30
+        until = time.monotonic() + START_S
         while time.monotonic() < until:
             if self.process.poll() is not None:
                 raise LostError(f"the service did not start again: {self.process.stderr.read().decode()}")  # type: ignore[union-attr]
@@ -70,7 +71,7 @@ class Service:
                     return
             except OSError:
                 time.sleep(0.02)
-        raise LostError("the service did not answer within 30 s")
+        raise LostError(f"the service did not answer within {START_S} s")
 
     def kill(self, by: signal.Signals = signal.SIGKILL) -> None:
         self.process.send_signal(by)
@@ -94,7 +95,7 @@ class Client:
 
     def talk(self, url: str, stop: threading.Event) -> None:
         """Ask until the service is gone."""
-        with httpx.Client(verify=False, base_url=url, timeout=20) as http:
+        with httpx.Client(verify=False, base_url=url, timeout=60) as http:
             try:
                 if self.pending is not None:
                     self.retried += 1
@@ -157,14 +158,16 @@ class Report:
     unfit: int = 0
 
 
-def run(database: str, rounds: int, seed: int = 1, clients: int = 4, most_s: float = 1.0) -> Report:
-    """Kill it so many times. Raises `LostError`."""
+def run(
+    database: str, rounds: int, seed: int = 1, clients: int = 4, most_s: float = 1.0, least: int = 0
+) -> Report:
+    """Kill it so many times, each time after so many answers at the least. Raises `LostError`."""
     dice = random.Random(seed)
     talkers = [Client(random.Random(dice.random())) for _ in range(clients)]
     for each in range(rounds):
         service = Service(database)
         try:
-            _one_round(service, talkers, dice.uniform(0.1, most_s))
+            _one_round(service, talkers, dice.uniform(0.1, most_s), least)
         finally:
             service.kill()
         if each % ROUNDS_OF_A_SESSION == ROUNDS_OF_A_SESSION - 1:
@@ -199,7 +202,8 @@ def _snapshots(http: httpx.Client) -> tuple[int, int]:
     return used, unfit
 
 
-def _one_round(service: Service, talkers: list[Client], for_s: float) -> None:
+def _one_round(service: Service, talkers: list[Client], for_s: float, least: int) -> None:
+    before = sum(talker.acknowledged for talker in talkers)
     with httpx.Client(verify=False, base_url=service.url, timeout=60) as http:
         for talker in talkers:
             if talker.path:
@@ -216,6 +220,9 @@ def _one_round(service: Service, talkers: list[Client], for_s: float) -> None:
     for thread in threads:
         thread.start()
     time.sleep(for_s)
+    until = time.monotonic() + START_S
+    while sum(talker.acknowledged for talker in talkers) < before + least and time.monotonic() < until:
+        time.sleep(0.01)
     service.process.send_signal(signal.SIGKILL)
     stop.set()
     for thread in threads:

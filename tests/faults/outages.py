@@ -97,7 +97,7 @@ def killed_under_load(server: Server, kills: int = KILLS) -> Row:
 
 
 def _load(service: Watched, talk: Talk, stop: threading.Event, answers: Counter[int]) -> None:
-    with httpx.Client(verify=False, base_url=service.url, timeout=30) as http:
+    with httpx.Client(verify=False, base_url=service.url, timeout=60) as http:
         while not stop.is_set():
             body = {"text": f"set potholes to {1 + len(talk.said) % 9}"}
             key = {"Idempotency-Key": uuid4().hex}

@@ -48,7 +48,7 @@ class Watched:
             )
         try:
             self.url = self._address(out)
-            self.http = httpx.Client(verify=False, base_url=self.url, timeout=30)
+            self.http = httpx.Client(verify=False, base_url=self.url, timeout=60)
             self.beats()
         except BaseException:
             self._end(signal.SIGKILL)
@@ -83,5 +83,5 @@ class Watched:
         if hasattr(self, "http"):
             self.http.close()
         self.process.send_signal(how)
-        self.process.wait(30)
+        self.process.wait(60)
         self._folder.cleanup()

@@ -36,7 +36,7 @@ class Running:
 
     async def stop(self) -> None:
         self.server.should_exit = True
-        await asyncio.wait_for(self.task, 10)
+        await asyncio.wait_for(self.task, 60)
 
 
 class _Ready(uvicorn.Server):
@@ -64,7 +64,7 @@ async def running(app: FastAPI, settings: Settings) -> AsyncIterator[Running]:
     listener.bind(("127.0.0.1", 0))
     server = _Ready(server_config(app, settings))
     task = asyncio.create_task(server._serve([listener]))
-    await asyncio.wait_for(server.listening.wait(), 10)
+    await asyncio.wait_for(server.listening.wait(), 60)
     service = Running(listener.getsockname()[1], server, task)
     try:
         yield service

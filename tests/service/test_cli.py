@@ -13,6 +13,7 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from itertools import count
 from pathlib import Path
 
 import httpx
@@ -30,7 +31,7 @@ ENVIRONMENT = {**os.environ, "PYTHONPATH": os.environ.get("PYTHONPATH", str(ROOT
 
 def run(*arguments: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
-        [*COMMAND, *arguments], capture_output=True, text=True, timeout=60, cwd=ROOT, env=ENVIRONMENT
+        [*COMMAND, *arguments], capture_output=True, text=True, timeout=300, cwd=ROOT, env=ENVIRONMENT
     )
 
 
@@ -52,13 +53,13 @@ def serving(database: Path, *, port: int = 0) -> Iterator[tuple[subprocess.Popen
     reader = threading.Thread(target=lambda: [lines.put(line) for line in process.stdout or ()])
     reader.start()
     try:
-        line = lines.get(timeout=60)
+        line = lines.get(timeout=300)
         found = re.fullmatch(r"Roadtalk is at (http://127\.0\.0\.1:\d+)\n", line)
         assert found, line
         yield process, found[1]
     finally:
         process.kill()
-        process.wait(30)
+        process.wait(60)
         reader.join(30)
         process.stdout.close()
         process.stderr.close()
@@ -81,12 +82,12 @@ def test_talking_from_a_terminal(database: Path) -> None:
         first = run("say", "add five potholes", "--url", url)
         assert first.returncode == 0, first.stderr
         assert "→" in first.stdout
-        sessions = httpx.get(f"{url}/api/v1/sessions").json()["items"]
+        sessions = httpx.get(f"{url}/api/v1/sessions", timeout=60).json()["items"]
         assert len(sessions) == 1
 
         again = run("say", "undo", "--url", url, "--session", sessions[0]["id"])
         assert again.returncode == 0, again.stderr
-        assert len(httpx.get(f"{url}/api/v1/sessions").json()["items"]) == 1
+        assert len(httpx.get(f"{url}/api/v1/sessions", timeout=60).json()["items"]) == 1
 
         refused = run("say", "add five potholes and order pizza", "--url", url)
         assert (refused.returncode, refused.stdout) == (1, "")
@@ -98,7 +99,7 @@ def test_talking_from_a_terminal(database: Path) -> None:
         assert "No session" in unknown.stderr
 
         process.send_signal(signal.SIGINT)
-        assert process.wait(15) in (0, 130, -signal.SIGINT)
+        assert process.wait(60) in (0, 130, -signal.SIGINT)
 
 
 def test_nobody_there() -> None:
@@ -138,16 +139,16 @@ def test_a_second_service_on_the_same_file(database: Path) -> None:
 
 
 def test_a_graceful_stop_remembers_the_clock(database: Path) -> None:
-    with serving(database) as (process, url), httpx.Client(base_url=url) as client:
+    with serving(database) as (process, url), httpx.Client(base_url=url, timeout=60) as client:
         made = client.post("/api/v1/sessions", json={"seed": 1, "config": {"step_seconds": 0.02}})
         path = made.headers["location"]
-        deadline_s = time.monotonic() + 30
+        deadline_s = time.monotonic() + 120
         while client.get(f"{path}/state").json()["tick"] < 20:
             assert time.monotonic() < deadline_s
         process.send_signal(signal.SIGTERM)
-        process.wait(15)
+        process.wait(60)
     with serving(database) as (_, url):
-        again = httpx.get(f"{url}{path}").json()
+        again = httpx.get(f"{url}{path}", timeout=60).json()
         assert again["tick"] >= 20
         assert again["paused"]
 
@@ -156,7 +157,7 @@ def test_what_was_acknowledged_survives_a_kill(database: Path) -> None:
     """Killed in the midst of commands, three times: every one that was answered is there, in order."""
     path, acknowledged, digests = None, 0, {}
     for _ in range(3):
-        with serving(database) as (process, url), httpx.Client(base_url=url) as client:
+        with serving(database) as (process, url), httpx.Client(base_url=url, timeout=60) as client:
             if path is None:
                 path = client.post("/api/v1/sessions", json={"seed": 3, "paused": True}).headers["location"]
             session = client.get(path).json()
@@ -165,10 +166,11 @@ def test_what_was_acknowledged_survives_a_kill(database: Path) -> None:
                 assert client.get(f"{path}/state").json()["digest"] == digests[acknowledged]
 
             acknowledged = session["sequence"]
-            killer = threading.Timer(0.6, process.kill)
-            killer.start()
+            killer = threading.Timer(0.01, process.kill)
             try:
-                while True:
+                for answers in count():
+                    if answers == 15:
+                        killer.start()
                     actions = [{"do": "add", "kind": "pothole", "count": 1}, {"do": "step", "ticks": 1}]
                     if acknowledged % 2:
                         actions = [{"do": "undo"}]

@@ -42,7 +42,7 @@ def without(module: str, url: str = "memory:") -> subprocess.CompletedProcess[st
         env=environment,
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=300,
     )
 
 

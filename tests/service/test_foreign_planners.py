@@ -88,7 +88,7 @@ async def test_a_planner_that_hangs_is_taken_over_from(service: Service) -> None
     assert "did not answer within 0.25 s" in refused.json()["detail"]
     assert (await service.client.get(f"{path}/state")).json()["tick"] == 0
     await service.client.post(f"{path}/actions", json={"actions": [{"do": "resume"}]})
-    async with asyncio.timeout(30):
+    async with asyncio.timeout(60):
         while (await service.client.get(f"{path}/state")).json()["tick"] < 6:
             service.clock.tick()
             await asyncio.sleep(0)

@@ -151,7 +151,7 @@ async def sent(port: int, content: bytes) -> Told:
     try:
         writer.write(content)
         await writer.drain()
-        answer = await asyncio.wait_for(reader.read(), 20)
+        answer = await asyncio.wait_for(reader.read(), 60)
     except ConnectionError:
         return Told()
     finally:

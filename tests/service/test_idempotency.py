@@ -162,7 +162,7 @@ def test_after_a_kill_the_answer_is_still_there(tmp_path: Path) -> None:
         keys = [str(uuid.uuid4()) for _ in range(3)]
 
         def asked() -> list[httpx.Response]:
-            with httpx.Client(base_url=process.url, timeout=10) as client:
+            with httpx.Client(base_url=process.url, timeout=60) as client:
                 made = client.post("/api/v1/sessions", json={"paused": True}, headers=keyed(keys[0]))
                 path = made.headers["location"]
                 step = client.post(f"{path}/step", json={"ticks": 4}, headers=keyed(keys[1]))

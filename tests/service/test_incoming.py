@@ -56,7 +56,10 @@ class At:
 async def at() -> AsyncIterator[At]:
     settings = Settings(database="memory:")
     app = create_app(settings, store=MemoryStore(), language=FewSentences(), clock=HandClock())
-    async with running(app, settings) as service, httpx.AsyncClient(base_url=service.http) as client:
+    async with (
+        running(app, settings) as service,
+        httpx.AsyncClient(base_url=service.http, timeout=60) as client,
+    ):
         made = await client.post(SESSIONS, json={"seed": 7, "paused": True})
         yield At(service, made.headers["location"])
 
@@ -69,7 +72,7 @@ async def sent(at: At, content: bytes, *, shut: bool = False) -> tuple[int, http
         await writer.drain()
         if shut:
             writer.write_eof()
-        head = await asyncio.wait_for(reader.readuntil(b"\r\n\r\n"), 20)
+        head = await asyncio.wait_for(reader.readuntil(b"\r\n\r\n"), 60)
         lines = head.decode("latin-1").strip().split("\r\n")
         headers = httpx.Headers([line.split(": ", 1) for line in lines[1:]])
         body = await asyncio.wait_for(reader.readexactly(int(headers.get("content-length", 0))), 20)

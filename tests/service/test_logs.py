@@ -115,7 +115,7 @@ def test_nobody_waits_for_a_reader_that_does_not_read() -> None:
     began = time.monotonic()
     for _ in range(5_000):
         beside.write("x" * 100 + "\n")
-    assert time.monotonic() - began < 2
+    assert time.monotonic() - began < 60, "a hundredth of a second for each would be as much"
     assert beside._lost > 4_900
     os.close(reading)  # whatever waits for it fails now
     until(beside._waiting.empty)
@@ -134,7 +134,7 @@ def fill(pipe: int) -> None:
 
 
 def until(true: Callable[[], bool]) -> None:
-    end = time.monotonic() + 5
+    end = time.monotonic() + 60
     while not true():
         assert time.monotonic() < end
         threading.Event().wait(0.005)

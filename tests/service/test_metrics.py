@@ -160,8 +160,10 @@ async def test_a_timed_store_is_the_same_store() -> None:
 
 def test_counting_is_cheap() -> None:
     lateness = Metrics().lateness
-    began = time.perf_counter()
-    for _ in range(100_000):
-        lateness.observe(0.003)
-    each = (time.perf_counter() - began) / 100_000
-    assert each < 5e-6, "thousands of ticks a second are counted one by one"
+    each = []
+    for _ in range(10):
+        began = time.thread_time()
+        for _ in range(5_000):
+            lateness.observe(0.003)
+        each.append((time.thread_time() - began) / 5_000)
+    assert min(each) < 5e-6, "thousands of ticks a second are counted one by one"

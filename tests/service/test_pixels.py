@@ -115,7 +115,7 @@ async def test_all_who_watch_the_same_share_a_drawing(session: Session) -> None:
         await reels.pass_on(session, wanted, 60, drawing, send)
 
     tasks = [asyncio.create_task(watch(number)) for number in range(20)]
-    await asyncio.wait_for(shown.wait(), 10)
+    await asyncio.wait_for(shown.wait(), 60)
     assert len(reels) == 2
     assert len({id(pictures[0]) for pictures in seen}) == 2, "encoded once"
     for task in tasks:
@@ -140,7 +140,7 @@ async def test_a_stalled_watcher_holds_up_nobody(session: Session) -> None:
             enough.set()
 
     tasks = [asyncio.create_task(reels.pass_on(session, ROAD, 60, drawing, send)) for send in (never, quick)]
-    await asyncio.wait_for(enough.wait(), 10)
+    await asyncio.wait_for(enough.wait(), 60)
     assert len(stalled) == 1
     assert ticks == sorted(ticks)
     for task in tasks:
@@ -164,7 +164,7 @@ async def say(socket: ClientConnection, **message: Any) -> None:
 
 
 async def heard(socket: ClientConnection) -> Any:
-    data = await asyncio.wait_for(socket.recv(), 10)
+    data = await asyncio.wait_for(socket.recv(), 60)
     return data if isinstance(data, bytes) else orjson.loads(data)
 
 
@@ -203,7 +203,7 @@ async def test_closing_ends_the_pictures() -> None:
         await say(socket, type="subscribe", frames="jpeg", side=64)
         await heard(socket)
         await socket.close()
-        async with asyncio.timeout(10):
+        async with asyncio.timeout(60):
             while session.watchers or context.reels:  # noqa: ASYNC110 -- nobody tells of it
                 await asyncio.sleep(0)
 

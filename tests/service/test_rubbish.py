@@ -76,11 +76,11 @@ async def test_garbage_messages_end_their_own_socket_alone(live: Running) -> Non
         socket = await opened(live.http, f"{path}/stream", errors.append)
         for _ in range(40):
             socket.say(message(dice))
-        await asyncio.wait_for(socket.ended.wait(), 10)
+        await asyncio.wait_for(socket.ended.wait(), 60)
         assert socket.code == 1008
         assert sum(told.startswith(b'{"type":"error"') for told in errors) == 20
     beside.say(b'{"type":"ping"}')
-    await asyncio.wait_for(answered.wait(), 10)
+    await asyncio.wait_for(answered.wait(), 60)
     assert await well(live)
 
 
@@ -95,7 +95,7 @@ async def test_a_body_far_too_large_is_cut_off_not_read(live: Running, chunked: 
 async def test_a_message_far_too_large_ends_its_socket(live: Running) -> None:
     socket = await opened(live.http, f"{await made(live)}/stream", lambda _: None)
     socket.say(b'{"type":"ping","x":"' + b"x" * 200_000 + b'"}')
-    await asyncio.wait_for(socket.ended.wait(), 10)
+    await asyncio.wait_for(socket.ended.wait(), 60)
     assert socket.code == 1009
     assert await well(live)
 

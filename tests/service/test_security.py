@@ -218,7 +218,7 @@ async def first(url: str, *messages: object, **more: Any) -> str:
         for message in messages:
             await socket.send(json.dumps(message))
         try:
-            return str(json.loads(await asyncio.wait_for(socket.recv(), 5))["type"])
+            return str(json.loads(await asyncio.wait_for(socket.recv(), 60))["type"])
         except ConnectionClosed as closed:
             return str(closed.rcvd.code if closed.rcvd else None)
 

@@ -129,7 +129,7 @@ async def test_a_change_is_stored_before_it_is_told() -> None:
     session = await service.session()
     watcher = session.watchers.join()
     task = asyncio.create_task(do(session, ADD))
-    await asyncio.wait_for(store.asked.wait(), 5)
+    await asyncio.wait_for(store.asked.wait(), 60)
 
     service.clock.tick()
     assert (session.timeline.tick, potholes(session), session.sequence) == (0, 4, 0), (
@@ -140,9 +140,9 @@ async def test_a_change_is_stored_before_it_is_told() -> None:
     assert not hearing.done()
 
     store.may.set()
-    await asyncio.wait_for(task, 5)
+    await asyncio.wait_for(task, 60)
     assert (session.timeline.tick, potholes(session)) == (1, 5), "and the tick that came due is taken after"
-    heard = await asyncio.wait_for(hearing, 5)
+    heard = await asyncio.wait_for(hearing, 60)
     assert isinstance(heard, list)
     assert [b'"changed"' in notice.data for notice in heard] == [True, False]
 

@@ -49,13 +49,16 @@ async def live() -> AsyncIterator[Live]:
     settings = Settings(database="memory:", max_malformed_messages=3)
     clock = HandClock()
     app = create_app(settings, store=MemoryStore(), language=FewSentences(), clock=clock)
-    async with running(app, settings) as service, httpx.AsyncClient(base_url=service.http) as client:
+    async with (
+        running(app, settings) as service,
+        httpx.AsyncClient(base_url=service.http, timeout=60) as client,
+    ):
         made = await client.post("/api/v1/sessions", json={"seed": 5, "config": {"rows": 10}})
         yield Live(service, clock, client, made.headers["location"], app)
 
 
 async def receive(stream: ClientConnection) -> Json:
-    message: Json = json.loads(await asyncio.wait_for(stream.recv(), 5))
+    message: Json = json.loads(await asyncio.wait_for(stream.recv(), 60))
     return message
 
 
@@ -295,7 +298,7 @@ async def test_a_closed_reader_is_forgotten(live: Live) -> None:
         async with live.open() as stream:
             await receive(stream)
             assert len(session.watchers) == 1
-        async with asyncio.timeout(5):
+        async with asyncio.timeout(60):
             while len(session.watchers):  # noqa: ASYNC110 - the server hears of the close in its own time
                 await asyncio.sleep(0)
 

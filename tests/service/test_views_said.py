@@ -30,7 +30,7 @@ class Watched:
         return await self.client.post(f"{self.path}/commands", json={"text": text, **more})
 
     async def heard(self) -> Json:
-        message: Json = json.loads(await asyncio.wait_for(self.stream.recv(), 5))
+        message: Json = json.loads(await asyncio.wait_for(self.stream.recv(), 60))
         return message
 
     async def look(self, what: str = "") -> Json:
@@ -41,7 +41,10 @@ class Watched:
 async def watched() -> AsyncIterator[Watched]:
     settings = Settings(database="memory:")
     app = create_app(settings, store=MemoryStore(), clock=HandClock())
-    async with running(app, settings) as service, httpx.AsyncClient(base_url=service.http) as client:
+    async with (
+        running(app, settings) as service,
+        httpx.AsyncClient(base_url=service.http, timeout=60) as client,
+    ):
         path = (await client.post("/api/v1/sessions", json={"seed": 5})).headers["location"]
         async with connect(f"{service.ws}{path}/stream") as stream:
             one = Watched(client, path, stream)

@@ -57,5 +57,5 @@ async def test_leaving_and_ending() -> None:
     watchers.leave(leaves)
     assert len(watchers) == 1
     watchers.end()
-    assert isinstance(await asyncio.wait_for(waiting, 5), Gone)
+    assert isinstance(await asyncio.wait_for(waiting, 60), Gone)
     assert len(watchers) == 0

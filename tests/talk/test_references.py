@@ -324,7 +324,7 @@ async def test_a_dialogue_over_the_stream() -> None:
             async def say(text: str) -> Json:
                 await stream.send(json.dumps({"type": "command", "id": text, "text": text}))
                 while True:
-                    message: Json = json.loads(await asyncio.wait_for(stream.recv(), 5))
+                    message: Json = json.loads(await asyncio.wait_for(stream.recv(), 60))
                     if message.get("id") == text:
                         return message
 

@@ -154,3 +154,22 @@ test("time going on lengthens a page that ended at the present", async () => {
   await settle();
   assert.equal(looking.tick, 100);
 });
+
+test("stopped and played again while a tick is on its way, it goes on at its own pace and no faster", async () => {
+  const { service, clock, looking } = stage();
+  void looking.at(36);
+  await service.answer();
+  looking.play();
+  clock.pass(250);
+  looking.stop();
+  looking.play();
+  await service.answer();
+  const from = looking.tick;
+  for (const held of service.held.splice(0)) held();
+  for (let turn = 0; turn < 5; turn += 1) await settle();
+  for (let each = 0; each < 4; each += 1) {
+    clock.pass(250);
+    for (let turn = 0; turn < 5; turn += 1) await settle();
+  }
+  assert.equal(looking.tick, from + 4);
+});

@@ -99,3 +99,58 @@ test("forks made here stand where they were made; another session has a chart of
   run.takeIn("s2", 3, course({ from: 3 }));
   assert.deepEqual([run.chart.now, run.chart.marks().length], [3, 0]);
 });
+
+/** A service that answers when the test lets it: what it knew when it was asked. */
+function heldBack() {
+  const told = { rewritten: 0 };
+  const service = { changes: [], letter: "F", asked: [] };
+  const clock = new FakeClock();
+  const run = new Run({
+    storage: null,
+    changed() {},
+    rewritten: () => (told.rewritten += 1),
+    failed() {},
+    later: clock.later,
+    http(path) {
+      const [, limit] = /limit=(\d+)/.exec(path).map(Number);
+      const body = path.includes("/changes") ? { items: service.changes, more: false } : { from: Number(/from=(\d+)/.exec(path)[1]), now: 20, moves: service.letter.repeat(limit), marks: [], more: false };
+      return new Promise((resolve) => service.asked.push({ path, answer: () => resolve(new Response(JSON.stringify(body))) }));
+    },
+  });
+  const answer = async (which) => {
+    service.asked.splice(service.asked.findIndex(({ path }) => path.includes(which)), 1)[0].answer();
+    for (let turn = 0; turn < 6; turn += 1) await settle();
+  };
+  const commands = () => run.chart.marks().filter(({ kind }) => kind === "command").map(({ text }) => text);
+  return { run, told, service, clock, answer, commands };
+}
+
+test("of two lists of what stands the newer one holds, even when the older one comes last", async () => {
+  const { run, service, answer, commands } = heldBack();
+  run.takeIn("s1", 20, course({ from: 20 }));
+  service.changes = [{ tick: 5, sequence: 1, text: "the newer" }];
+  run.takeIn("s1", 20, course({ from: 20, edition: 2 }));
+  const [older] = service.asked.splice(0, 1);
+  await answer("/changes");
+  assert.deepEqual(commands(), ["the newer"]);
+  older.answer();
+  for (let turn = 0; turn < 6; turn += 1) await settle();
+  assert.deepEqual(commands(), ["the newer"]);
+});
+
+test("a page of the run that was asked for before it became another is asked for again", async () => {
+  const { run, service, clock, answer } = heldBack();
+  run.takeIn("s1", 20, course({ from: 20 }));
+  await answer("/changes");
+  clock.pass(60);
+  assert.match(service.asked[0].path, /timeline\?from=0&limit=20/);
+  service.changes = [{ tick: 5, sequence: 1, text: "taken back" }];
+  service.letter = "L";
+  run.takeIn("s1", 20, course({ from: 20, edition: 2 }));
+  await answer("/changes");
+  await answer("/timeline");
+  assert.equal(run.chart.letter(10), "", "what it was is not what it is");
+  clock.pass(60);
+  await answer("/timeline");
+  assert.equal(run.chart.letter(10), "L");
+});

@@ -30,7 +30,7 @@ def test_the_modules_pass_their_unit_tests() -> None:
         env={**os.environ, "NO_COLOR": "1"},
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=300,
         check=False,
     )
     assert len(files) >= 8
@@ -57,7 +57,7 @@ def test_the_modules_pass_the_type_checker() -> None:
         cwd=ROOT,
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=300,
         check=False,
     )
     assert run.returncode == 0, run.stdout[-6000:]
@@ -75,7 +75,7 @@ def _type_checker() -> list[str] | None:
         cwd=ROOT,
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=300,
         check=False,
     )
     return [npx, "--no-install", "tsc"] if found.stdout.startswith("Version ") else None

@@ -17,7 +17,7 @@ NOWHERE = {
 
 def play(*arguments: str) -> subprocess.CompletedProcess[str]:
     command = [sys.executable, "-m", "service.window", *arguments]
-    return subprocess.run(command, env=NOWHERE, capture_output=True, text=True, timeout=120, check=False)
+    return subprocess.run(command, env=NOWHERE, capture_output=True, text=True, timeout=300, check=False)
 
 
 @pytest.mark.parametrize(

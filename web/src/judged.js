@@ -26,7 +26,7 @@ export class Book {
   /** @type {string | null} */ session = null;
   #asking = false;
   #askedAt = -Infinity;
-  #age = 0;
+  /** Raised when the run becomes another. */ age = 0;
 
   /** @param {{http?: typeof fetch, now?: () => number}} [with_] */
   constructor({ http, now = () => performance.now() } = {}) {
@@ -36,7 +36,7 @@ export class Book {
 
   /** The run has become another from a tick on. @param {number} [tick] */
   forget(tick = 0) {
-    this.#age += 1;
+    this.age += 1;
     this.#askedAt = -Infinity;
     for (const each of this.items.keys()) if (each >= tick) this.items.delete(each);
   }
@@ -68,10 +68,10 @@ export class Book {
     if (running && (tick - from < STRETCH || this.now() - this.#askedAt < APART_MS)) return false;
     this.#asking = true;
     this.#askedAt = this.now();
-    const [age, path] = [this.#age, `${sessionPath(this.session)}/regret?from=${from}&limit=${WINDOW}`];
+    const [age, path] = [this.age, `${sessionPath(this.session)}/regret?from=${from}&limit=${WINDOW}`];
     try {
       const { items, now } = await askJson(path, { http: this.http });
-      if (age !== this.#age) return true; // about a run that is no more: to be asked for again
+      if (age !== this.age) return true; // about a run that is no more: to be asked for again
       const told = new Map(items.map((/** @type {Judged & {tick: number}} */ item) => [item.tick, item]));
       for (let each = from; each < Math.min(from + WINDOW, now); each++) this.items.set(each, told.get(each) ?? null);
       return true;

@@ -11,6 +11,7 @@ import { byId } from "./dom.js";
 import { watchKeys } from "./keys.js";
 import { spoken } from "./language.js";
 import { words } from "./http.js";
+import { turns } from "./latest.js";
 import { openLink, placeInHash } from "./links.js";
 import { createLoop } from "./loop.js";
 import { createPanels } from "./panels/index.js";
@@ -54,6 +55,8 @@ let shown = INITIAL;
 let exchanges = 0;
 /** @type {Connection | null} */
 let connection = null;
+/** Where to go next: a session that was made for an earlier wish, and comes late, is not gone to. */
+const going = turns();
 
 /** @param {Event} event */
 function dispatch(event) {
@@ -121,6 +124,7 @@ function followAddress() {
   const id = sessionInHash(location.hash);
   if (id === null) return startSession();
   if (id === connection?.session) return;
+  going();
   connection?.close();
   dispatch({ type: "session", id });
   connection = new Connection(id, {
@@ -134,24 +138,26 @@ function followAddress() {
 }
 
 async function startSession() {
+  const newest = going();
   try {
     const session = await createSession();
-    location.hash = hashOfSession(session.id);
+    if (newest()) location.hash = hashOfSession(session.id);
   } catch (error) {
-    dispatch({ type: "trouble", text: error instanceof Error ? error.message : String(error) });
+    if (newest()) dispatch({ type: "trouble", text: error instanceof Error ? error.message : String(error) });
   }
 }
 
 /** A session out of the address itself; it takes the link's place, so that going back does not make another. @param {string} link */
 async function openCarried(link) {
+  const newest = going();
   connection?.close();
   connection = null;
   dispatch({ type: "session", id: "" });
   try {
     const { id } = await openLink(link);
-    location.replace(hashOfSession(id));
+    if (newest()) location.replace(hashOfSession(id));
   } catch (error) {
-    dispatch({ type: "trouble", text: `This link does not open. ${words(error)}` });
+    if (newest()) dispatch({ type: "trouble", text: `This link does not open. ${words(error)}` });
   }
 }
 

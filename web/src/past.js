@@ -124,6 +124,7 @@ export class Looking {
   /** @type {Book | null} */ #book = null;
   /** @type {any} */ #timer = null;
   /** @type {any} */ #rest = null;
+  /** @type {object | null} one going on by itself; another begins another */ #going = null;
   /** @type {{book: Book} | null} the question under way */ #asking = null;
   #direction = 1;
   /** @type {(() => void)[]} */ #listeners = [];
@@ -207,6 +208,7 @@ export class Looking {
   play() {
     if (this.playing || this.tick === null) return;
     this.playing = true;
+    this.#going = {};
     this.#told();
     this.#next();
   }
@@ -246,10 +248,12 @@ export class Looking {
 
   #next() {
     const { stepS, pace } = this.page.present();
+    const going = this.#going;
     this.#timer = this.page.later(
       async () => {
         if (this.tick !== null) await this.at(this.tick + 1);
-        if (this.playing) this.#next();
+        // Stopped and begun anew while that tick was on its way, it goes on already.
+        if (this.playing && going === this.#going) this.#next();
       },
       Math.max(16, (stepS * 1000) / pace),
     );

@@ -7,6 +7,7 @@
  */
 
 import { askJson } from "./http.js";
+import { turns } from "./latest.js";
 import { forks } from "./links.js";
 import { sessionPath } from "./protocol.js";
 import { Chart, NO_COURSE } from "./time.js";
@@ -38,6 +39,8 @@ export class Run {
   #pages = 0;
   #asking = false;
   #waiting = false;
+  #revising = turns();
+  /** Raised whenever a part is forgotten: a page that was asked for before tells of a run that is no more. */ #age = 0;
 
   /** @param {Around} around */
   constructor(around) {
@@ -57,11 +60,13 @@ export class Run {
       this.#course = NO_COURSE;
       this.#said = [];
       this.#pages = 0;
+      this.#age += 1;
       this.around.failed(null);
     }
     const old = this.#course;
     if (course === old) return;
     this.#course = course;
+    if (now < this.chart.now) this.#age += 1;
     this.chart.arrive(now);
     const heard = course.from === old.from && course.letters.length >= old.letters.length ? old.letters.length : 0;
     this.chart.write(course.from + heard, course.letters.slice(heard));
@@ -74,16 +79,18 @@ export class Run {
   async revise() {
     const { session } = this;
     if (!session) return;
+    const newest = this.#revising();
     try {
       /** @type {{items: {tick: number, sequence: number, text: string}[], more: boolean}} */
       const { items, more } = await askJson(`${sessionPath(session)}/changes?limit=1000`, { http: this.around.http });
-      if (session !== this.session) return;
+      if (!newest() || session !== this.session) return;
       const said = items.map(({ tick, sequence }) => `${tick} ${sequence}`);
       // Of very many only the newest are told: those before them are taken to stand.
       const known = more ? this.#said.slice(Math.max(0, this.#said.indexOf(said[0]))) : this.#said;
       const from = firstDifference(known, said);
       if (from < this.chart.now) {
         this.chart.forget(from);
+        this.#age += 1;
         this.around.rewritten();
       }
       this.#said = said;
@@ -94,7 +101,7 @@ export class Run {
       this.#later(PAUSE_MS.page);
       this.around.changed();
     } catch (error) {
-      if (session === this.session) this.around.failed(error);
+      if (newest() && session === this.session) this.around.failed(error);
     }
   }
 
@@ -113,11 +120,12 @@ export class Run {
     const gap = this.chart.gap(PAGE_TICKS);
     if (this.#asking || !session || gap === null) return;
     this.#asking = true;
+    const age = this.#age;
     let pause = PAUSE_MS.page;
     try {
       const path = `${sessionPath(session)}/timeline?from=${gap.from}&limit=${gap.limit}`;
       const { from, moves, marks } = await askJson(path, { http: this.around.http });
-      if (session === this.session) {
+      if (age === this.#age) {
         this.chart.write(from, moves);
         this.chart.mark(marks);
         this.#pages += 1;
@@ -126,8 +134,10 @@ export class Run {
         this.around.changed();
       }
     } catch (error) {
-      if (session === this.session) this.around.failed(error);
-      pause = PAUSE_MS.failed;
+      if (age === this.#age) {
+        this.around.failed(error);
+        pause = PAUSE_MS.failed;
+      }
     } finally {
       this.#asking = false;
     }

@@ -129,7 +129,8 @@ export function createBeside(host, page) {
     parting.hidden = part === null || last === 0;
     if (part) parting.style.insetInlineStart = `${((part.at - 1) / last) * 100}%`;
     go(0);
-    play.focus();
+    // Who has gone elsewhere while the two were driven is not called back.
+    if (focused()) play.focus();
     // Moving pictures are not forced on those who do not want them: they get the tick where the two part.
     if (wantsStillness()) go(part?.at ?? last);
     else run(true);
@@ -192,12 +193,16 @@ export function createBeside(host, page) {
     if (on) for (const { canvas } of sides) canvas.repaint?.();
   }
 
+  /** Whether the focus is here, or nowhere else. */
+  const focused = () => document.activeElement === document.body || host.contains(document.activeElement);
+
   function leave() {
     asking();
+    const inside = focused();
     run(false);
     found = null;
     show(false);
-    if (from instanceof HTMLElement && from.isConnected) from.focus({ preventScroll: true });
+    if (inside && from instanceof HTMLElement && from.isConnected) from.focus({ preventScroll: true });
   }
 
   host.addEventListener("keydown", (event) => {

@@ -80,13 +80,14 @@ export function createBubble(host, page) {
     askedAt = performance.now();
     const mine = (asking = new AbortController());
     try {
-      trace = await fetchDecision(state.session, tick, mine.signal);
+      const told = await fetchDecision(state.session, tick, mine.signal);
+      if (mine !== asking) return;
+      trace = told;
     } catch {
       // Undone meanwhile, or a result stood: what the stream has told is all there is.
       if (mine === asking && target?.kind === "decision") hide();
       return;
     }
-    if (mine !== asking) return;
     write();
     place();
   }

@@ -33,11 +33,14 @@ export function createFiles(road, page, looking) {
   /** @param {File | undefined} file */
   async function open(file) {
     if (!file) return;
+    const { session } = page.state();
     page.tell({ text: `Opening “${file.name}”. A long run takes a moment to replay.` });
     try {
       const { id } = await openRecording(recordingIn(await file.text(), file.name));
-      location.hash = hashOf(id);
-      page.tell({ text: `“${file.name}” is open as a session of its own, paused where it ends.` });
+      const go = () => void (location.hash = hashOf(id));
+      const here = page.state().session === session; // else somebody has gone elsewhere meanwhile, and stays there
+      if (here) go();
+      page.tell({ text: `“${file.name}” is open as a session of its own, paused where it ends.`, ...(here ? {} : { offer: { label: "Go there", run: go } }) });
     } catch (error) {
       page.tell({ text: `${words(error)} The session here is as it was.`, tone: "bad" });
     }

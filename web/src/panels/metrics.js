@@ -65,7 +65,7 @@ export function createMetrics(host, page) {
   /** Ask for what is missing, as long as the panel is seen. @param {State} state */
   async function fill(state) {
     if (!state.views.metrics || state.connection.phase !== "live" || document.hidden) return;
-    const asked = tick;
+    const [asked, age] = [tick, book.age];
     try {
       const running = state.past === null && state.world?.paused === false && state.world.status === "running";
       if (!(await book.fill(tick, running))) return;
@@ -76,8 +76,8 @@ export function createMetrics(host, page) {
     tell();
     stale = true;
     page.wake();
-    // What came meanwhile was not asked for.
-    if (tick !== asked && newest) void fill(newest);
+    // What came meanwhile was not asked for, and what was told of a run that is no more is not kept.
+    if ((tick !== asked || book.age !== age) && newest) void fill(newest);
   }
 
   function tell() {

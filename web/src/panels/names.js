@@ -21,6 +21,7 @@ export function momentsDialog(page, looking) {
   const list = make("ul", { class: "rows" });
   const dialog = makeDialog("Saved moments", form, told, list);
   /** @type {string | null} */ let waiting = null;
+  /** @type {string | null} whose moments are listed */ let of = null;
   const asking = turns();
 
   form.addEventListener("submit", (event) => {
@@ -34,6 +35,8 @@ export function momentsDialog(page, looking) {
     const { session } = page.state();
     if (!session) return;
     const newest = asking();
+    if (session !== of) list.replaceChildren(); // those of another session are none here
+    of = session;
     try {
       /** @type {{items: {name: string, tick: number}[]}} */
       const { items } = await askJson(`${sessionPath(session)}/saved`);
@@ -148,13 +151,14 @@ export function sessionsDialog(page) {
 
     function confirm() {
       const keep = make("button", { class: "button small", type: "button", onclick: () => asked.replaceWith(remove) }, "Keep");
-      const sure = make("button", { class: "button small danger", type: "button", "aria-label": `Delete ${called} for good`, onclick: () => void gone() }, "Delete for good");
+      const sure = make("button", { class: "button small danger", type: "button", "aria-label": `Delete ${called} for good`, onclick: () => void gone(sure) }, "Delete for good");
       const asked = make("span", { class: "row-do" }, keep, sure);
       remove.replaceWith(asked);
       keep.focus();
     }
 
-    async function gone() {
+    async function gone(/** @type {HTMLButtonElement} */ sure) {
+      sure.disabled = true; // once is enough
       try {
         await ask(sessionPath(id), { method: "DELETE" });
         row.remove();
@@ -162,6 +166,7 @@ export function sessionsDialog(page) {
         setText(told, `${called} was deleted.`);
         fresh.focus();
       } catch (error) {
+        sure.disabled = false;
         told.dataset.tone = "bad";
         setText(told, `${called} was not deleted. ${words(error)}`);
       }

@@ -81,7 +81,13 @@ export function createPast(host, page, looking) {
     }
     clearTimeout(timer);
     // The address carries the moment that is looked at; it is not a step of the browser's own way back.
-    if (session && address) timer = setTimeout(() => history.replaceState(null, "", hashOf(session, looking.tick)), ADDRESS_MS);
+    if (session && address) timer = setTimeout(() => write(session), ADDRESS_MS);
+  }
+
+  /** Unless the address names another session by now. @param {string} session */
+  function write(session) {
+    const place = placeInHash(location.hash);
+    if (place && "session" in place && place.session === session) history.replaceState(null, "", hashOf(session, looking.tick));
   }
 
   /** Look where the address says, once there is a run to look at. */

@@ -13,7 +13,7 @@ import { make } from "../dom.js";
 
 const HEADER_BYTES = 16;
 const FORMS = ["", "image/jpeg", "image/webp"];
-const PATIENCE_MS = 5_000;
+const PATIENCE_MS = 15_000;
 const FPS = 30;
 const SIDES = { least: 160, most: 1_080, step: 40 };
 
@@ -59,7 +59,7 @@ export function createPixels(host, page) {
       canvas.dataset.tick = String(told.tick);
       canvas.hidden = page.state().past !== null;
     } catch {
-      giveUp("A picture of the service's could not be read.");
+      if (wanted) giveUp("A picture of the service's could not be read.");
     } finally {
       decoding = false;
     }

@@ -74,8 +74,11 @@ export function createShare(host, page, looking) {
     doing(async (session, wanted) => {
       const made = await forkAt(session, wanted, wanted === null ? undefined : true);
       noteFork(localHistory(), { child: made.id, parent: session, tick: made.tick });
+      const open = () => void (location.hash = hashOf(made.id));
+      // Whoever has gone to another session meanwhile is not taken away from there.
+      if (page.state().session !== session) return page.tell({ text: `The other session was forked at tick ${made.tick}.`, offer: { label: "Open", run: open } });
       history.replaceState(null, "", hashOf(session, wanted)); // the browser's way back leads to this moment
-      location.hash = hashOf(made.id);
+      open();
       page.tell({ text: `Forked at tick ${made.tick}. It goes its own way from here.` });
     });
 
@@ -83,8 +86,10 @@ export function createShare(host, page, looking) {
     doing(async (session, wanted) => {
       if (wanted === null) return;
       await askJson(`${sessionPath(session)}/rewind`, { method: "POST", body: { tick: wanted } });
+      const here = () => page.state().session === session;
+      if (!here()) return;
       looking.live();
-      const undo = () => void page.act([{ do: "undo" }], "Undo", true);
+      const undo = () => void (here() ? page.act([{ do: "undo" }], "Undo", true) : page.tell({ text: "That was another session, which stays as it is." }));
       page.tell({ text: `Back at tick ${wanted}. What came after it can be had back by one undo.`, offer: { label: "Undo", run: undo } });
     });
 

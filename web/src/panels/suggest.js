@@ -47,7 +47,7 @@ export function createSuggest(words, page, rest) {
   let typed = "";
   let unfinished = false;
 
-  const latest = new Latest({ pauseMs: PAUSE_MS, ask: (/** @type {string} */ text) => foresee(text, page.state().session ?? ""), tell });
+  const latest = new Latest({ pauseMs: PAUSE_MS, ask: wanted, tell });
 
   words.addEventListener("input", () => {
     typed = words.value;
@@ -55,9 +55,20 @@ export function createSuggest(words, page, rest) {
     // What no longer goes on from what stands there must not be taken by a quick key.
     const fitting = options.map((option) => option.dataset.text ?? "").filter((each) => begins(each, typed));
     if (fitting.length < options.length) show(fitting, typed);
+    busy(true);
     latest.want(typed);
   });
   words.addEventListener("blur", close);
+
+  /** @param {string} text */
+  function wanted(text) {
+    return foresee(text, page.state().session ?? "").finally(() => text === words.value && busy(false));
+  }
+
+  /** Whether what is listed is not yet what goes on from what stands in the box. @param {boolean} on */
+  function busy(on) {
+    list.setAttribute("aria-busy", String(on));
+  }
 
   /** @param {Foreseen} foreseen @param {string} text */
   function tell({ completions, preview }, text) {
@@ -112,6 +123,7 @@ export function createSuggest(words, page, rest) {
 
   function close() {
     latest.drop();
+    busy(false);
     choose(-1);
     options = [];
     unfinished = false;

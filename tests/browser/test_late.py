@@ -1,0 +1,91 @@
+"""Answers that come late: whoever has gone on meanwhile is left where they are."""
+
+from __future__ import annotations
+
+import re
+
+from playwright.sync_api import Route, expect
+
+from tests.browser.conftest import STANDING, Visit
+from tests.browser.service_process import ServiceProcess
+from tests.browser.visitor import Visitor
+
+
+class Held:
+    """Requests to an address that are held back until they are let go."""
+
+    def __init__(self, visitor: Visitor, address: str) -> None:
+        self._visitor = visitor
+        self._address = re.compile(address)
+        self._routes: list[Route] = []
+        visitor.page.route(self._address, self._hold)
+
+    def _hold(self, route: Route) -> None:
+        if route.request.method == "POST":
+            self._routes.append(route)
+        else:
+            route.continue_()
+
+    def let_go(self) -> None:
+        """And wait until what comes of it has been taken in."""
+        page = self._visitor.page
+        with page.expect_event("requestfinished", lambda request: self._address.search(request.url)):
+            self._routes.pop(0).continue_()
+        page.evaluate("() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+    def asked(self) -> None:
+        """Wait until something is held back."""
+        while not self._routes:
+            self._visitor.page.evaluate("() => new Promise(requestAnimationFrame)")
+
+
+def gone_elsewhere(visitor: Visitor, session: str) -> None:
+    visitor.page.evaluate("(id) => { location.hash = `#/s/${id}`; }", session)
+    visitor.until("(id) => location.hash.includes(id)", session)
+    visitor.wait_live()
+
+
+def test_a_new_session_takes_nobody_away_from_where_they_have_gone(
+    visit: Visit, service: ServiceProcess
+) -> None:
+    visitor, other = visit(), service.session(**STANDING)
+    held = Held(visitor, r"/api/v1/sessions$")
+    visitor.page.get_by_role("button", name="New session").click()
+    held.asked()
+    gone_elsewhere(visitor, other)
+    held.let_go()
+    assert visitor.session == other
+
+
+def test_a_fork_takes_nobody_away_either_and_is_offered(visit: Visit, service: ServiceProcess) -> None:
+    visitor, other = visit(), service.session(**STANDING)
+    visitor.step(3)
+    held = Held(visitor, r"/forks$")
+    visitor.page.locator("body").click(position={"x": 2, "y": 2})
+    visitor.page.keyboard.press("f")
+    held.asked()
+    gone_elsewhere(visitor, other)
+    held.let_go()
+    expect(visitor.page.locator(".notice-box")).to_contain_text("was forked at tick 3")
+    assert visitor.session == other
+    visitor.page.locator(".notice-box").get_by_role("button", name="Open").click()
+    expect(visitor.page).not_to_have_url(re.compile(other))
+    visitor.wait_live()
+    visitor.shows(3)
+
+
+def test_a_comparison_that_comes_late_takes_the_focus_from_nobody(visit: Visit) -> None:
+    visitor = visit()
+    visitor.step(3)
+    expect(visitor.page.locator(".panel-note").first).to_have_text("next, at tick 3")
+    held = Held(visitor, r"/counterfactual$")
+    visitor.page.locator(".way[data-standing=free]").first.click()
+    expect(visitor.page.locator("#beside")).to_be_visible()
+    held.asked()
+    visitor.words.focus()
+    visitor.page.keyboard.type("add f")
+    held.let_go()
+    expect(visitor.page.locator("#beside [data-side=changed] .beside-end")).not_to_be_empty()
+    expect(visitor.words).to_be_focused()
+    visitor.page.keyboard.type("our")
+    expect(visitor.words).to_have_value("add four")
