@@ -99,7 +99,9 @@ class Repaired:
     def _without(self, read: Read) -> list[Choice]:
         """That without what shall not be: "use Dijkstra instead of A*", "instead of A* use Dijkstra"."""
         before = self._written(0, self._end)
-        for end in dict.fromkeys((self._tail, *range(self._again + 1, self._lattice.size + 1))):
+        last = self._lattice.size
+        ends = range(self._again + 1, last + 1) if self._tail == last and not before else (self._tail,)
+        for end in ends:
             if not self._kinds(self._again, end):
                 continue
             text = f"{before} {self._written(end, self._lattice.size)}".strip(" ,;")
