@@ -9,6 +9,9 @@ Many that begin together would be due together for ever: where a slot is full, t
 later. Those that tick as often as can be have no deadline. They take turns in a share of the time that is
 theirs all together, however many they are, and after all that is due.
 
+Those that are due together first all tick, then make what they have to tell, then tell it
+(`service.sessions.stages`).
+
 Leaves out what a tick is: a `Ticker` knows that, and how it fails.
 """
 
@@ -45,6 +48,9 @@ REST_S = 0.001
 PATIENCE_S = 0.1
 """After so long they have a turn even where what is due is never done."""
 
+TOGETHER = 32
+"""So many are ticked before what they have to tell is told."""
+
 LATENESS_KEPT = 4_096
 """How many of the latest ticks the lateness figures are taken from."""
 
@@ -61,6 +67,19 @@ class Ticker(Protocol):
 
     def tick_failed(self, error: Exception) -> None:
         """Told when `tick` raised; the ticker is off the clock by then."""
+
+
+class Stages(Protocol):
+    """What a ticker has to tell, where it can be told after others have ticked as well."""
+
+    def hold(self) -> None:
+        """What the next tick has to tell waits for `make` and `send`."""
+
+    def make(self) -> None:
+        """Make what was held ready."""
+
+    def send(self) -> None:
+        """Tell it."""
 
 
 class Clock(Protocol):
@@ -124,6 +143,7 @@ class WheelClock:
         self._due: dict[Ticker, float] = {}
         self._slots: dict[int, list[Ticker]] = {}
         self._order: list[int] = []
+        self._telling: list[tuple[Ticker, Stages]] = []
         self._hurried: dict[Ticker, None] = {}
         self._hurry_at = 0.0
         self._timer: asyncio.Handle | None = None
@@ -169,6 +189,7 @@ class WheelClock:
         """Tick all that is due, for at most `TURN_S`; what is left comes next turn of the loop."""
         began = self._now()
         patience_s = 0.0 if self._serve_due(began) else PATIENCE_S
+        self._tell()
         if self._hurried and self._hurry_at + patience_s <= self._now():
             self._hurry()
 
@@ -187,7 +208,9 @@ class WheelClock:
                     self._record(now - due)
                     # Put back first: a ticker that leaves the clock while ticking must find itself on it.
                     self._put_back(ticker, due, now)
-                    self._tick(ticker)
+                    self._tick(ticker, getattr(ticker, "stages", None))
+                    if len(self._telling) >= TOGETHER:
+                        self._tell()
                 now = self._now()  # once for each: when it ended is when the next one begins
                 if now - began > TURN_S:
                     return False
@@ -220,13 +243,35 @@ class WheelClock:
                 due += period * int(late / period + 0.5)
             self._schedule(ticker, due + period)
 
-    def _tick(self, ticker: Ticker) -> None:
+    def _tick(self, ticker: Ticker, stages: Stages | None = None) -> None:
+        """Tick one; where it has stages, what it has to tell of that waits for `_tell`."""
         try:
+            if stages is not None:
+                stages.hold()
+                self._telling.append((ticker, stages))
             ticker.tick()
         except Exception as error:
-            _LOG.exception("a tick failed", ticker=str(ticker))
-            self.remove(ticker)
-            ticker.tick_failed(error)
+            self._failed(ticker, error)
+
+    def _tell(self) -> None:
+        """Let all tell that have ticked, one stage after the other."""
+        if self._telling:
+            telling, self._telling = self._telling, []
+            for ticker, stages in telling:
+                try:
+                    stages.make()
+                except Exception as error:
+                    self._failed(ticker, error)
+            for ticker, stages in telling:
+                try:
+                    stages.send()
+                except Exception as error:
+                    self._failed(ticker, error)
+
+    def _failed(self, ticker: Ticker, error: Exception) -> None:
+        _LOG.error("a tick failed", ticker=str(ticker), exc_info=error)
+        self.remove(ticker)
+        ticker.tick_failed(error)
 
     def _roomy(self, due: float, period: float) -> float:
         """A time from `due` on, within a period, at which few others are due.

@@ -32,6 +32,7 @@ from service.sessions.messages import changed_message, tick_message
 from service.sessions.pace import NORMAL, Pace, hurried, period_s, turn
 from service.sessions.possible import possible
 from service.sessions.saved import told_where
+from service.sessions.stages import Stages
 from service.sessions.telling import entry_of, long_to_answer, outcome_of
 from service.sessions.terms import ANY_TERMS, Terms
 from service.sessions.utterance import Outcome, Utterance
@@ -89,6 +90,7 @@ class Session:
         self.after_change: Callable[[Session], None] | None = None
         self.log = Log(around.settings.log_events)
         self.watchers = Watchers()
+        self.stages = Stages(self.watchers)
         self._later = Later(self._write_late)
         self._around = around
         self._turn = asyncio.Lock()
@@ -377,7 +379,7 @@ class Session:
                 self.sequence, lambda: self.standing, before, tick.run, decision, narration, lines
             )
 
-        self.watchers.publish(tick.run.world.tick, message)
+        self.stages.tick(tick.run.world.tick, message)
 
     def _publish_changed(
         self,
@@ -390,4 +392,4 @@ class Session:
         def message() -> bytes:
             return changed_message(self.standing, self.run, text, reply, changes, lines, views)
 
-        self.watchers.publish(self.timeline.tick, message)
+        self.stages.now(self.timeline.tick, message)

@@ -151,14 +151,24 @@ class Watchers:
 
     def publish(self, tick: int, encode: Callable[[], bytes]) -> None:
         """Tell all; the message is not even made when nobody watches, nor has lately."""
+        notice = self.made(tick, encode)
+        if notice is not None:
+            self.hand_out(notice)
+
+    def made(self, tick: int, encode: Callable[[], bytes]) -> Notice | None:
+        """The next message, made and kept but not yet told; None where nobody watches, nor has lately."""
         self._last += 1
         if not self._watchers:
             self._unheard += 1
             if self._unheard > SLOT_MESSAGES:
                 self._kept.clear()
-                return
+                return None
         notice = Notice(tick, stamped(encode(), self.event), self._last)
         self._kept.append(notice)
+        return notice
+
+    def hand_out(self, notice: Notice) -> None:
+        """Tell all a message that was made."""
         for watcher in self._watchers:
             watcher.put(notice)
 
