@@ -185,6 +185,7 @@ def create_app(
         addresses.add(at_root.router)
     openapi.install(app)
     pages.install(app)
+    app.router.default = nearby.told_sockets(app.router.default)
     return app
 
 

@@ -17,7 +17,7 @@ from starlette.types import Message, Scope
 
 from service import garbage, logs
 from service.api.heads import StrictHead
-from service.api.stream_straight import StraightProtocol
+from service.api.sockets import StrictSocket
 from service.app import create_app
 from service.commands.doctor import doctor
 from service.commands.listing import sessions
@@ -166,10 +166,11 @@ def server_config(app: FastAPI, settings: Settings) -> uvicorn.Config:
         app,
         loop="auto",
         http=StrictHead,
-        ws=StraightProtocol,
+        ws=StrictSocket,
         ws_max_size=settings.max_body_bytes,
         ws_per_message_deflate=False,
         access_log=False,
+        log_config=None,
         log_level="warning",
         # Off unless asked for: else every program on this machine could say that it is somebody else.
         proxy_headers=bool(settings.trusted_proxies),
@@ -213,7 +214,8 @@ async def warmed(app: FastAPI) -> int:
 
 
 async def _serve(config: uvicorn.Config, store: Store, listener: socket.socket, deadline: Deadline) -> None:
-    await warmed(cast(FastAPI, config.app))
+    # In a task of its own, as requests are: else all that is logged later would bear its id.
+    await asyncio.create_task(warmed(cast(FastAPI, config.app)))
     sweep = asyncio.create_task(garbage.begin().run())
     # Before the server starts, so that a database that cannot be opened is one clear line.
     await store.open()

@@ -60,6 +60,21 @@ def configure(settings: Settings, to: TextIO | None = None) -> None:
         logger_factory=structlog.WriteLoggerFactory(lines),
         cache_logger_on_first_use=True,
     )
+    # The server's and all libraries' own lines go the same way, in the same form.
+    everybody = logging.getLogger()
+    if not any(isinstance(each, Passing) for each in everybody.handlers):
+        everybody.addHandler(Passing())
+
+
+class Passing(logging.Handler):
+    """Hands on what others log as their own line."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """One line of theirs."""
+        told = record.exc_info or None
+        structlog.get_logger(record.name).log(
+            record.levelno, record.getMessage(), logger=record.name, exc_info=told
+        )
 
 
 def _renderer(form: Literal["console", "json"], colours: bool) -> Any:

@@ -119,7 +119,7 @@ _MESSAGES = {
     "extra_forbidden": "is not a known key",
     "unexpected_keyword_argument": "is not a known key",
     "missing": "is missing",
-    "union_tag_not_found": "has no `do`",
+    "union_tag_not_found": "has no {discriminator}",
     "union_tag_invalid": "has a {discriminator} that is not known; it can be {expected_tags}",
     "greater_than": "must be more than {gt}",
     "greater_than_equal": "must be at least {ge}",
@@ -153,6 +153,8 @@ _MESSAGES = {
 def _message(detail: Any) -> str:
     ours = _MESSAGES.get(detail["type"])
     told: dict[str, Any] = detail.get("ctx", {})
+    if detail["type"] == "union_tag_not_found":
+        told = {"discriminator": str(told["discriminator"]).replace("'", "`")}
     if ours is not None:
         listed = str(told.get("expected") or told.get("expected_tags") or "")
         one = told.get("min_length") == 1

@@ -134,16 +134,22 @@ class StrictHead(PatientProtocol):
         raise _RefusedError
 
     def _refuse(self, problem: Problem) -> None:
-        body = encoded({"type": "about:blank", **problem._asdict()})
-        headers = {
-            **SECURITY_HEADERS,
-            "Content-Type": MEDIA_TYPE,
-            "Content-Length": str(len(body)),
-            "Connection": "close",
-        }
-        lines = "".join(f"{name}: {value}\r\n" for name, value in headers.items())
-        self.transport.write(f"HTTP/1.1 {problem.status} {problem.title}\r\n{lines}\r\n".encode() + body)
+        self.transport.write(answered(problem))
         self.transport.close()
+
+
+def answered(problem: Problem, **more: str) -> bytes:
+    """A problem as bytes on a line that is closed after it."""
+    body = encoded({"type": "about:blank", **problem._asdict()})
+    headers = {
+        **SECURITY_HEADERS,
+        **{name.replace("_", "-"): value for name, value in more.items()},
+        "Content-Type": MEDIA_TYPE,
+        "Content-Length": str(len(body)),
+        "Connection": "close",
+    }
+    lines = "".join(f"{name}: {value}\r\n" for name, value in headers.items())
+    return f"HTTP/1.1 {problem.status} {problem.title}\r\n{lines}\r\n".encode() + body
 
 
 def _named(url: bytes) -> bytes | None:

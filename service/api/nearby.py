@@ -6,8 +6,12 @@ from difflib import get_close_matches
 
 from fastapi import APIRouter
 from starlette.routing import Route, WebSocketRoute
+from starlette.types import ASGIApp, Receive, Scope, Send
+from starlette.websockets import WebSocket
 
+from service.api.respond import problem_response
 from service.api.views import PREFIX
+from service.problems import NotFound
 
 _MOST_CHARS = 120
 """Longer addresses are no slips."""
@@ -47,3 +51,16 @@ def _as_template(path: str) -> tuple[str, str]:
     before, found, rest = path.partition(_IN_SESSION)
     session, slash, after = rest.partition("/")
     return (f"{before}{found}{{session_id}}{slash}{after}", session) if session else (path, "")
+
+
+def told_sockets(elsewhere: ASGIApp) -> ASGIApp:
+    """What stands where no route does: sockets are told so, which a router would leave at a bare 403."""
+
+    async def nowhere(scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] != "websocket":
+            await elsewhere(scope, receive, send)
+            return
+        said = f"There is no WebSocket at {scope['path']}; a session's is at {PREFIX}/sessions/{{id}}/stream."
+        await WebSocket(scope, receive, send).send_denial_response(problem_response(NotFound(said)))
+
+    return nowhere

@@ -9,8 +9,8 @@ A reader that comes back after a loss says `?after=<event>`, the `event` of the 
 sent only what it missed, if that is still kept. Otherwise, as to anyone, `hello` brings the whole state and
 the latest lines of the log, numbered.
 
-Codes it closes with: 1000 the session was deleted, 1008 too many malformed messages, 1009 a
-message too large (by the server itself), 1012 the service stops, 4404 no such session.
+Codes it closes with: 1000 the session was deleted, 1008 too many malformed messages or a slip in the address,
+1009 a message too large (by the server itself), 1012 the service stops, 4404 no such session.
 """
 
 from __future__ import annotations
@@ -33,12 +33,13 @@ from service.api.context import Context, context_of
 from service.api.errors import field_problems, invalid
 from service.api.letters import Letters
 from service.api.metrics import metrics_of
+from service.api.queries import check_query
 from service.api.respond import problem_response
 from service.api.speech import result_json
 from service.api.stream_straight import straight_of
 from service.api.tickets import admitted
 from service.api.views import session_json, told_decision
-from service.problems import CrossSite, Internal, Malformed, ProblemError
+from service.problems import CrossSite, Internal, Invalid, Malformed, ProblemError
 from service.security.guard import client_of, guard_of
 from service.sessions.messages import hello_message, state_message
 from service.sessions.session import Session
@@ -51,6 +52,9 @@ _LOG = structlog.get_logger(__name__)
 
 HELLO_EVENTS = 100
 """Lines of the log that a new reader is given."""
+
+_ASKED = frozenset(("after",))
+_CODES = {404: 4404, 422: 1008}
 
 router = APIRouter()
 
@@ -114,10 +118,12 @@ async def stream(socket: WebSocket, session_id: str) -> None:
         return
     context = context_of(socket)
     try:
+        check_query(socket.query_params.multi_items(), _ASKED)
         session = await context.manager.get(session_id)
     except ProblemError as problem:
-        await _send(socket, _error(problem))
-        await socket.close(4404 if problem.status == 404 else 1013)
+        with suppress(WebSocketDisconnect):
+            await _send(socket, _error(problem))
+            await socket.close(_CODES.get(problem.status, 1013))
         return
     missed = session.watchers.missed(socket.query_params.get("after", ""))
     watcher = session.watchers.join(missed or (), straight_of(socket.scope))
@@ -128,6 +134,8 @@ async def stream(socket: WebSocket, session_id: str) -> None:
     screen = _Screen(socket, context, session)
     try:
         await _read(socket, context, session, screen)
+    except WebSocketDisconnect:
+        pass  # it went before it could be answered; what it asked for is done
     finally:
         session.watchers.leave(watcher)
         screen.dark()
@@ -198,7 +206,8 @@ async def _read(socket: WebSocket, context: Context, session: Session, screen: _
             await _send(socket, _error(problem))
         else:
             await _send(socket, await _answer(socket, context, session, message, screen))
-    await socket.close(1008, "too many malformed messages")
+    with suppress(RuntimeError):
+        await socket.close(1008, "too many malformed messages")
 
 
 def _message(text: str | None) -> Message:
@@ -212,7 +221,10 @@ def _message(text: str | None) -> Message:
     try:
         return _MESSAGE.validate_python(values)
     except ValidationError as error:
-        raise invalid(field_problems(error.errors(), values, Message)) from error
+        told = field_problems(error.errors(), values, Message)
+        if not told[0].field:
+            raise Invalid(f"The message {told[0].message}.", errors=told) from error
+        raise invalid(told) from error
 
 
 async def _answer(
@@ -274,5 +286,8 @@ def _error(problem: ProblemError) -> bytes:
 
 
 async def _send(socket: WebSocket, data: bytes) -> None:
-    """One text message, already encoded."""
-    await socket.send({"type": "websocket.send", "text": data.decode()})
+    """One text message, already encoded. Raises `WebSocketDisconnect` where nobody is there any more."""
+    try:
+        await socket.send({"type": "websocket.send", "text": data.decode()})
+    except RuntimeError as gone:  # the other of the two tasks was told first
+        raise WebSocketDisconnect(1006) from gone

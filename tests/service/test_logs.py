@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import logging
 import os
 import threading
 import time
@@ -32,6 +33,9 @@ def as_before() -> Iterator[None]:
     before = structlog.get_config()
     yield
     structlog.configure(**before)
+    everybody = logging.getLogger()
+    for handler in [each for each in everybody.handlers if isinstance(each, logs.Passing)]:
+        everybody.removeHandler(handler)
 
 
 def lines(form: Literal["console", "json"], **settings: Any) -> tuple[Any, io.StringIO]:
@@ -48,6 +52,20 @@ def test_json_is_one_object_a_line() -> None:
     assert (one["event"], one["level"], one["session"], one["count"]) == ("one", "info", "x\ny", 3)
     assert one["timestamp"].endswith("Z")
     assert "odd" in two["error"]
+
+
+def test_what_the_server_and_libraries_log_has_the_same_form() -> None:
+    _, to = lines("json", api_key=SecretStr(KEY))
+    _, to = lines("json", api_key=SecretStr(KEY))
+    logging.getLogger("uvicorn.error").warning("Odd: %s of %s", 3, KEY)
+    try:
+        raise ValueError("broken")
+    except ValueError:
+        logging.getLogger("asyncio").exception("A task failed")
+    odd, failed = (json.loads(line) for line in to.getvalue().splitlines())
+    assert (odd["event"], odd["level"], odd["logger"]) == ("Odd: 3 of [hidden]", "warning", "uvicorn.error")
+    assert (failed["event"], failed["level"]) == ("A task failed", "error")
+    assert "ValueError: broken" in failed["exception"]
 
 
 @pytest.mark.parametrize("form", ["console", "json"])
