@@ -345,6 +345,9 @@ def _clock_jump(path: Path, clock: Path, library: str, name: str, jump: str) -> 
         "FAKETIME_TIMESTAMP_FILE": str(clock),
         "FAKETIME_CACHE_DURATION": "1",
         "FAKETIME_DONT_FAKE_MONOTONIC": "1",
+        # Else it takes Python's own lock to wait until a moment of the wall clock, which has always passed:
+        # threads that wait for it then run in circles, jump or no jump, and hold the loop up themselves.
+        "FAKETIME_FORCE_MONOTONIC_FIX": "0",
     }
     service = Watched(url(path), environment=fake)
     try:
