@@ -22,7 +22,8 @@ from sim.run import Run, Tick, advance, decide
 SNAPSHOT_TICKS = 128
 """Work between two snapshots, in ticks of the simplest planner; twice that each time there are too many."""
 
-MAX_SNAPSHOTS = 256
+MAX_SNAPSHOTS = 512
+"""Of some kilobytes each. A fork of a log of 50,000 ticks is to take 20 ms."""
 
 ACTION_WORK = 4
 """What an action of the log costs, in such ticks."""

@@ -47,17 +47,17 @@ def way_to(timeline: Timeline, tick: int) -> Timeline:
 def way_of(session_id: str, mixed: Collection[int], timeline: Timeline, tick: int) -> Way:
     """The way of a session to a past tick; `mixed` are the changes that the log has a part of only."""
     own = way_to(timeline, tick)
-    numbers = {entry.sequence for entry in own.entries}
-    last = own.entries[-1].sequence if own.entries else 0
-    written = numbers.intersection(mixed)
+    numbers = [entry.sequence for entry in own.entries]
+    last = numbers[-1] if numbers else 0
+    written = {each for each in numbers if each in mixed} if mixed else set()
     parts = [entry for entry in own.entries if entry.sequence in written] if written else []
     instead = [
         {"sequence": record.sequence, "tick": record.tick, "actions": record.actions}
         for record in _records(parts)
     ]
-    common = standing(numbers - written, last)
+    common = standing((each for each in numbers if each not in written) if written else numbers, last)
     branch = Branch(parent=session_id, sequence=last, tick=tick, standing=common, instead=instead)
-    return Way(own, branch, len(numbers) - len(written) + len(instead))
+    return Way(own, branch, int(common, 16).bit_count() + len(instead))
 
 
 def is_mixed(actions: Sequence[Action]) -> bool:
