@@ -14,7 +14,7 @@ import queue
 import secrets
 import sys
 import threading
-from collections.abc import Collection, MutableMapping
+from collections.abc import Awaitable, Collection, MutableMapping
 from contextlib import suppress
 from typing import Any, Literal, TextIO
 
@@ -175,23 +175,22 @@ class RequestIds:
     def __init__(self, app: ASGIApp) -> None:
         self._app = app
 
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+    def __call__(self, scope: Scope, receive: Receive, send: Send) -> Awaitable[None]:
         """One connection."""
         if scope["type"] not in ("http", "websocket"):
-            await self._app(scope, receive, send)
-            return
+            return self._app(scope, receive, send)
         # Always our own: one that the caller may choose could be anyone's, or anything.
         request_id = secrets.token_hex(8)
 
-        async def named(message: Message) -> None:
+        def named(message: Message) -> Awaitable[None]:
             if message["type"] in ("http.response.start", "websocket.http.response.start"):
                 others = [each for each in message["headers"] if each[0] != _ENCODED]
                 message["headers"] = [*others, (_ENCODED, request_id.encode())]
-            await send(message)
+            return send(message)
 
         # Left bound: a request is a task of its own, and an error is logged outside of every middleware.
         bind_contextvars(request=request_id)
-        await self._app(scope, receive, named)
+        return self._app(scope, receive, named)
 
 
 def request_header() -> dict[str, str]:

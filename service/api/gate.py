@@ -5,6 +5,7 @@ Open to all are the page, its documentation and the signs of life; they tell not
 
 from __future__ import annotations
 
+from collections.abc import Awaitable
 from typing import Any
 
 import orjson
@@ -29,24 +30,20 @@ class Gate:
         self._app = app
         self._guard = guard
 
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+    def __call__(self, scope: Scope, receive: Receive, send: Send) -> Awaitable[None]:
         """One connection."""
         if scope["type"] not in ("http", "websocket"):
-            await self._app(scope, receive, send)
-            return
+            return self._app(scope, receive, send)
         try:
             self._check(scope)
         except ProblemError as refusal:
             response = problem_response(refusal)
             if scope["type"] == "websocket":
-                await WebSocket(scope, receive, send).send_denial_response(response)
-            else:
-                await response(scope, receive, send)
-            return
+                return WebSocket(scope, receive, send).send_denial_response(response)
+            return response(scope, receive, send)
         if scope["type"] == "http" and self._guard.quotas.kept and scope["path"].startswith(_SESSIONS):
-            await self._counted(scope, receive, send)
-        else:
-            await self._app(scope, receive, send)
+            return self._counted(scope, receive, send)
+        return self._app(scope, receive, send)
 
     def _check(self, scope: Scope) -> None:
         host = first_header(scope, b"host")

@@ -8,6 +8,7 @@ goes the long way, which answers the same in the same bytes and headers.
 
 from __future__ import annotations
 
+from collections.abc import Awaitable
 from dataclasses import dataclass
 from weakref import WeakKeyDictionary
 
@@ -46,18 +47,20 @@ class Glance:
         self._manager = manager
         self._seen: WeakKeyDictionary[Session, _Seen] = WeakKeyDictionary()
 
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+    def __call__(self, scope: Scope, receive: Receive, send: Send) -> Awaitable[None]:
         """One connection."""
         session_id = _asked(scope)
-        if session_id is not None:
-            try:
-                session = await self._manager.get(session_id)
-            except ProblemError:
-                pass  # the long way says so
-            else:
-                await self._answer(scope, session)(scope, receive, send)
-                return
-        await self._app(scope, receive, send)
+        if session_id is None:
+            return self._app(scope, receive, send)
+        return self._look(session_id, scope, receive, send)
+
+    async def _look(self, session_id: str, scope: Scope, receive: Receive, send: Send) -> None:
+        try:
+            session = await self._manager.get(session_id)
+        except ProblemError:
+            await self._app(scope, receive, send)  # the long way says so
+        else:
+            await self._answer(scope, session)(scope, receive, send)
 
     def _answer(self, scope: Scope, session: Session) -> Response:
         run, standing = session.run, session.standing

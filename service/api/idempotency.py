@@ -31,6 +31,9 @@ HEADER = "Idempotency-Key"
 REPLAYED = "Idempotency-Replayed"
 """Says of an answer that it was given before."""
 
+UNDER_KEY = "roadtalk.once"
+"""Where a request's scope has its `Once`."""
+
 KEPT_S = 24 * 3_600
 FORGET_EVERY_S = 3_600
 
@@ -146,7 +149,7 @@ async def once(request: Request, answers: Answers, handler: Handler) -> Response
                 raise KeyReused
             return Response(found.body, found.status, {**found.headers, REPLAYED: "true"})
         under_key = Once(key, asked, answers)
-        request.state.once = under_key
+        request.scope[UNDER_KEY] = under_key
         response = await handler(request)
         if not under_key.given and response.status_code < 300:
             await answers.keep(under_key.keeping(response))

@@ -11,7 +11,7 @@ import inspect
 import time
 from bisect import bisect_left
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Awaitable, Callable, Iterator, Mapping, Sequence
 from itertools import accumulate
 from typing import Any, Literal, cast
 
@@ -162,28 +162,27 @@ class Counted:
         self._app = app
         self._metrics = metrics
 
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+    def __call__(self, scope: Scope, receive: Receive, send: Send) -> Awaitable[None]:
         """One connection."""
         if scope["type"] != "http":
-            await self._app(scope, receive, send)
-            return
+            return self._app(scope, receive, send)
         refused = False
 
-        async def counting(message: Message) -> None:
+        def counting(message: Message) -> Awaitable[None]:
             nonlocal refused
             if message["type"] == "http.response.start":
                 refused = message["status"] >= 400 and _is_problem(message["headers"])
             elif refused and message["type"] == "http.response.body":
                 refused = False
                 self._metrics.refusals[_kind(message.get("body", b""))] += 1
-            await send(message)
+            return send(message)
 
         is_command = scope["method"] == "POST" and scope["path"].endswith(_COMMANDS)
-        if not is_command:
-            await self._app(scope, receive, counting)
-            return
+        return (self._timed if is_command else self._app)(scope, receive, counting)
+
+    async def _timed(self, scope: Scope, receive: Receive, send: Send) -> None:
         with self._metrics.command("rest"):
-            await self._app(scope, receive, counting)
+            await self._app(scope, receive, send)
 
 
 def _is_problem(headers: Sequence[tuple[bytes, bytes]]) -> bool:

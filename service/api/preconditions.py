@@ -19,7 +19,7 @@ from typing import Annotated, Any, ParamSpec, TypeVar
 
 from fastapi import Depends, Request, Response
 
-from service.api.idempotency import Once
+from service.api.idempotency import UNDER_KEY, Once
 from service.problems import FieldProblem, Invalid
 from service.sessions.terms import Terms
 from service.sessions.utterance import Outcome
@@ -110,7 +110,7 @@ def made_once(told: Callable[[Told], Response]) -> Callable[[Told], Response]:
 
 def kept_answer(request: Request, told: Callable[[Told], Response]) -> Callable[[Told], KeptAnswer] | None:
     """What is to be kept with what a request does, if it came under a key."""
-    once: Once | None = getattr(request.state, "once", None)
+    once: Once | None = request.scope.get(UNDER_KEY)
     return None if once is None else lambda of: once.keeping(told(of))
 
 

@@ -26,7 +26,7 @@ from service.sessions.recording import recording_json
 from service.sessions.session import Session, Surroundings
 from service.sessions.utterance import Utterance
 from service.settings import Settings
-from service.store import EntryRecord, MemoryStore, StoreError
+from service.store import EntryRecord, KeptAnswer, MemoryStore, StoreError
 from sim.config import Config
 from sim.kinds import Kind
 from tests.service.fakes import HandClock
@@ -163,13 +163,22 @@ async def test_what_is_not_stored_is_not_done() -> None:
 
 
 async def test_a_change_is_finished_even_when_its_caller_goes() -> None:
-    service = Service()
+    written = asyncio.Event()
+
+    class Slow(MemoryStore):
+        async def append(self, session_id: str, entry: EntryRecord, *answer: KeptAnswer | None) -> None:
+            await written.wait()
+            await super().append(session_id, entry, *answer)
+
+    service = Service(Slow())
     session = await service.session()
     task = asyncio.create_task(do(session, ADD))
     await asyncio.sleep(0)
     task.cancel()
     with pytest.raises(asyncio.CancelledError):
         await task
+    assert session.sequence == 0, "it is not kept yet"
+    written.set()
     await do(session, {"do": "ask", "about": "status"})
     assert len(await service.store.entries(session.id)) == session.sequence == potholes(session) - 4
 
