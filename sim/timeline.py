@@ -36,6 +36,9 @@ _SIMPLE_PLANNERS = frozenset(("priority", "dwa"))
 RECENT_RUNS = 8
 """States kept as they were, for questions about what has just been done."""
 
+RECENT_CHANGES = 4
+"""States before the latest changes: taken back from snapshots, those took half of a long replay."""
+
 
 class PlannerSilentError(Exception):
     """A planner from another package did not answer in time."""
@@ -78,6 +81,8 @@ class Timeline:
         """all the work that was done on it, in ticks of the simplest planner: about what a replay takes"""
         self._snapshots: tuple[Snapshot, ...] = (Snapshot(0, self.run, 0),)
         self._recent: deque[Run] = deque(maxlen=RECENT_RUNS)
+        self._before: tuple[Snapshot, ...] = ()
+        """before the latest changes"""
 
     @classmethod
     def made(
@@ -95,6 +100,7 @@ class Timeline:
         new.config, new.run, new.entries = config, run, entries
         new._snapshots, new._gap, new._work, new.worked = tuple(snapshots), gap, work, worked
         new._recent = deque(maxlen=RECENT_RUNS)
+        new._before = ()
         return new
 
     def parts(self) -> tuple[Config, Run, Chain[Entry], tuple[Snapshot, ...], int, int, int]:
@@ -117,6 +123,7 @@ class Timeline:
         twin.worked = self.worked
         twin._snapshots = self._snapshots
         twin._recent = self._recent.copy()
+        twin._before = self._before
         return twin
 
     def advance(self) -> Tick:
@@ -140,6 +147,8 @@ class Timeline:
             applied = apply(run, action)
             run = applied.run
             done.append(applied)
+        before = Snapshot(self.tick, self.run, len(self.entries))
+        self._before = (*self._before[1 - RECENT_CHANGES :], before)
         self.run = run
         self.entries = self.entries.plus([Entry(sequence, self.tick, action) for action in actions])
         self._worked(ACTION_WORK * len(actions), len(self.entries))
@@ -175,7 +184,9 @@ class Timeline:
         self.worked += self.work_to(tick)
         self.run = run
         self.entries = self.entries.first(self._said_by(tick))
-        self._snapshots = tuple(shot for shot in self._snapshots if shot.tick <= tick)
+        self._snapshots, self._before = (
+            tuple(shot for shot in shots if shot.tick <= tick) for shots in (self._snapshots, self._before)
+        )
         self._work = 0
         self._recent.clear()
 
@@ -240,8 +251,9 @@ class Timeline:
         alike = start
         while alike < min(len(entries), len(self.entries)) and entries[alike] == self.entries[alike]:
             alike += 1  # an entry at this very tick may be among what stays
-        self._snapshots = tuple(
-            shot for shot in self._snapshots if shot.tick <= since and shot.entries <= alike
+        self._snapshots, self._before = (
+            tuple(shot for shot in shots if shot.tick <= since and shot.entries <= alike)
+            for shots in (self._snapshots, self._before)
         )
 
     def _said_by(self, tick: int) -> int:
@@ -249,7 +261,11 @@ class Timeline:
         return bisect_right(self.entries, tick, key=lambda entry: entry.tick)
 
     def _nearest_shot(self, tick: int) -> Snapshot:
-        return self._snapshots[bisect_right(self._snapshots, tick, key=lambda shot: shot.tick) - 1]
+        nearest = self._snapshots[bisect_right(self._snapshots, tick, key=lambda shot: shot.tick) - 1]
+        for shot in reversed(self._before):
+            if shot.tick <= tick:
+                return max(nearest, shot, key=lambda each: (each.tick, each.entries))
+        return nearest
 
     def _nearest(self, tick: int) -> tuple[Run, int]:
         shot = self._nearest_shot(tick)

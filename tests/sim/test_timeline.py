@@ -12,7 +12,7 @@ from sim.actions import Add, Drive, Remove, Reset, Scenario, SetCount, SetMode, 
 from sim.config import Config
 from sim.edit import EditError
 from sim.kinds import Kind, Mode, Move
-from sim.run import Run, decide
+from sim.run import Run, Tick, advance, decide
 from sim.timeline import MAX_SNAPSHOTS, RECENT_RUNS, SNAPSHOT_TICKS, Entry, Timeline
 
 CONFIG = Config(columns=6, rows=10, seed=21, potholes=4, pedestrians=2)
@@ -215,6 +215,43 @@ def test_the_last_few_states_are_kept_and_forgotten_when_the_past_changes() -> N
     assert [timeline.at(tick) for tick in range(timeline.tick)] == [never.at(t) for t in range(timeline.tick)]
 
 
+@pytest.fixture
+def ran(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """The ticks that are run from here on, by where they begin."""
+    ticks: list[int] = []
+
+    def counted(run: Run) -> Tick:
+        ticks.append(run.world.tick)
+        return advance(run)
+
+    monkeypatch.setattr("sim.timeline.advance", counted)
+    return ticks
+
+
+def test_taking_back_what_was_said_last_runs_only_the_ticks_since_then(ran: list[int]) -> None:
+    potholes = [Add(kind="pothole", count=1)]
+    timeline, _ = played([(90, potholes), (20, potholes), (3, potholes), (4, [])])
+    ran.clear()
+    first = undone(timeline)
+    assert ran == [113, 114, 115, 116]
+    ran.clear()
+    undone(timeline)
+    assert ran == list(range(110, 117))
+    ran.clear()
+    redone(timeline, first)
+    assert ran == list(range(110, 117))
+    assert timeline.run == played([(90, potholes), (23, potholes), (4, [])])[0].run
+
+
+def test_a_later_state_is_not_looked_for_from_an_older_change(ran: list[int]) -> None:
+    ticks = 4 * SNAPSHOT_TICKS
+    timeline, seen = played([(5, [Add(kind="pothole", count=1)]), (ticks, [])])
+    ran.clear()
+    tick = ticks - RECENT_RUNS
+    assert timeline.at(tick) == seen[tick]
+    assert len(ran) <= SNAPSHOT_TICKS
+
+
 def test_snapshots_thin_out_and_the_past_stays_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
     """The same with fewer of them, so that the bound is passed several times in little time."""
     monkeypatch.setattr("sim.timeline.MAX_SNAPSHOTS", 5)
@@ -238,11 +275,13 @@ def test_snapshots_thin_out_and_the_past_stays_the_same(monkeypatch: pytest.Monk
     assert timeline.at(40) == never.at(40)
 
 
-def test_a_long_session_keeps_a_bounded_number_of_states() -> None:
+def test_a_long_session_keeps_a_bounded_number_of_states(monkeypatch: pytest.MonkeyPatch) -> None:
     """Past the real bound, on a road so small that it takes a second."""
+    gap = SNAPSHOT_TICKS // 2
+    monkeypatch.setattr("sim.timeline.SNAPSHOT_TICKS", gap)
     config = Config(columns=3, rows=4, vehicles=0, potholes=0, reset_delay_s=0, seed=1)
     timeline = Timeline(config)
-    ticks = MAX_SNAPSHOTS * SNAPSHOT_TICKS + 100
+    ticks = MAX_SNAPSHOTS * gap + 100
     marks = {}
     for tick in range(ticks):
         if tick % 4111 == 0:
