@@ -6,10 +6,12 @@ Machines differ and share, so speed is for the benchmarks.
 from __future__ import annotations
 
 import os
-from collections.abc import Generator, Iterator
+from collections.abc import Callable, Generator, Iterator
 from functools import cache
+from operator import itemgetter
 from typing import TypeVar
 
+import fastapi.routing
 import pytest
 from hypothesis import settings
 
@@ -57,6 +59,33 @@ def words_read_once() -> Iterator[None]:
             patch.setattr(read, "load", cache(read.load))
         patch.setattr(languages, "Guide", cache(languages.Guide))
         yield
+
+
+@pytest.fixture(scope="session", autouse=True)
+def answers_described_once() -> Iterator[None]:
+    """Each application would make a schema of every answer anew with its first request: all alike."""
+    make = getattr(fastapi.routing, "create_model_field", None)
+    with pytest.MonkeyPatch.context() as patch:
+        if make is not None:
+            patch.setattr(fastapi.routing, "create_model_field", _kept(make))
+        yield
+
+
+def _kept(make: Callable[..., object]) -> Callable[..., object]:
+    """The same field for the same name, type and whatever else it is made from."""
+    kept: dict[object, object] = {}
+
+    def field(**parts: object) -> object:
+        try:
+            key = tuple(sorted(parts.items(), key=itemgetter(0)))
+            hash(key)
+        except TypeError:
+            return make(**parts)
+        if key not in kept:
+            kept[key] = make(**parts)
+        return kept[key]
+
+    return field
 
 
 @pytest.fixture(scope="session")
