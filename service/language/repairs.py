@@ -100,7 +100,7 @@ class Repaired:
         """That without what shall not be: "use Dijkstra instead of A*", "instead of A* use Dijkstra"."""
         before = self._written(0, self._end)
         last = self._lattice.size
-        ends = range(self._again + 1, last + 1) if self._tail == last and not before else (self._tail,)
+        ends = range(last, self._again, -1) if self._tail == last else (self._tail,)
         for end in ends:
             if not self._kinds(self._again, end):
                 continue
@@ -130,7 +130,7 @@ class Repaired:
                 if isinstance(parsed, Understood) and all(c.actions != parsed.actions for c in found):
                     found.append(Choice(text, parsed.actions))
             if found or alike:
-                return found or alike
+                return _as_many(found, as_said) or alike
         return []
 
     def _instead_of_all(self, read: Read) -> list[Choice]:
@@ -205,6 +205,12 @@ class Repaired:
 
     def _written(self, start: int, end: int) -> str:
         return self._plain[self._tokens[start].start : self._tokens[end - 1].end] if start < end else ""
+
+
+def _as_many(found: list[Choice], as_said: object) -> list[Choice]:
+    """Those that are as many requests as were said before, if there are such; else all."""
+    many = len(as_said.actions) if isinstance(as_said, Understood) else 0
+    return [choice for choice in found if len(choice.actions) == many] or found
 
 
 def _family(concept: str) -> str:

@@ -12,12 +12,12 @@ from hypothesis import strategies as st
 from service.actions import dump
 from service.language import Ambiguous, Language, Refused, Understood
 from service.language.data import read_yaml
-from service.language.evaluate import same
+from service.language.evaluate import evaluate, render, same
 from service.language.numbers import NumberWords
 from service.language.tokens import Contractions, normalise, tokenise
 from service.language.topic import Topic
 from service.resources import prompts_folder
-from tests.language.beside import meaning
+from tests.language.beside import HERE, meaning
 
 FOLDER = prompts_folder() / "language" / "de"
 NUMBERS = NumberWords.from_data(read_yaml(FOLDER / "numbers.yaml"))
@@ -47,6 +47,12 @@ def sayings() -> Iterator[str]:
 
 def test_the_data_have_no_defects(german: Language) -> None:
     assert german.check() == []
+
+
+def test_fresh_sentences_are_never_misread(german: Language) -> None:
+    report = evaluate(german, HERE / "de" / "fresh.jsonl")
+    assert report.total("wrong") == 0, render(report)
+    assert report.total("exact") >= 0.95 * report.total(), render(report)
 
 
 def test_every_frames_file_has_its_sentences() -> None:

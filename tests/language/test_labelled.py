@@ -23,6 +23,7 @@ from tests.language.beside import HERE
         ("fresh_d.jsonl", 0.98),
         ("fresh_e.jsonl", 0.97),
         ("fresh_f.jsonl", 0.99),
+        ("fresh_g.jsonl", 0.94),
     ],
 )
 def test_no_wrong_action_and_nearly_all_exact(language: Language, file: str, least_exact: float) -> None:
