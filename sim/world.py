@@ -10,13 +10,14 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
 from hashlib import blake2b
-from struct import pack
+from struct import Struct, pack
 
 from sim.kinds import PLACEABLE, Cell, Kind, Outcome
 from sim.road import Board, Road, bits
 
 AV_ID = "av-1"
-_OUTCOMES = tuple(Outcome)
+_OUTCOMES = {outcome: number for number, outcome in enumerate(Outcome)}
+_HEAD = Struct("<IIQQQqBH").pack
 _KINDS = {kind.value: kind for kind in Kind}
 
 
@@ -173,22 +174,24 @@ class World:
     def digest(self) -> str:
         """128 bits that are equal exactly when the states are (ids aside), as hexadecimal."""
         size = (self.road.columns * self.road.rows + 7) // 8
-        head = pack(
-            "<IIQQQqBH",
+        head = _HEAD(
             self.road.columns,
             self.road.rows,
             self.tick,
             self.episode,
             self.episode_start,
             -1 if self.ended is None else self.ended,
-            _OUTCOMES.index(self.outcome),
+            _OUTCOMES[self.outcome],
             len(self.avs),
         )
-        boards = (self.potholes, self.barriers, self.right, self.left, self.pedestrians)
         parts = (
             head,
             pack(f"<{len(self.avs)}I", *self.avs),
-            *(board.to_bytes(size, "little") for board in boards),
+            self.potholes.to_bytes(size, "little"),
+            self.barriers.to_bytes(size, "little"),
+            self.right.to_bytes(size, "little"),
+            self.left.to_bytes(size, "little"),
+            self.pedestrians.to_bytes(size, "little"),
         )
         return blake2b(b"".join(parts), digest_size=16).hexdigest()
 

@@ -119,7 +119,9 @@ def motion_json(before: World, after: World) -> dict[str, Any]:
     for old, index, name in zip(olds, movers, names, strict=True):
         if old != index:
             moved[name] = cells[index]
-        if faced_right[old] != faces_right[index] and old >= 0:
+            if old < 0:
+                continue  # it has come, and turned nowhere
+        if faced_right[old] != faces_right[index]:
             turned[name] = "right" if faces_right[index] == "1" else "left"
     vehicles = {after.id_at(index, Kind.AV): road.cell(index) for index in after.avs}
     return {"vehicles": vehicles, "moved": moved, "turned": turned}
