@@ -9,11 +9,12 @@ from rich import box
 from rich.table import Table
 
 from service.client import SessionSummary
-from service.commands.terminal import URL, ApiKey, Url, console, plain, service_at
+from service.commands.terminal import URL, ApiKey, AsJson, Url, console, echo_json, plain, service_at
 
 
 def sessions(
     limit: Annotated[int, typer.Option(min=1, max=200, help="How many, the newest first.")] = 20,
+    as_json: AsJson = False,
     url: Url = URL,
     api_key: ApiKey = None,
 ) -> None:
@@ -23,6 +24,10 @@ def sessions(
     """
     with service_at(url, api_key) as client:
         page = client.list(limit=limit)
+    if as_json:
+        for item in page.items:
+            echo_json(item.raw)
+        return
     if not page.items:
         typer.echo('There are no sessions yet. Make one with: roadtalk say "where are you?"')
         return

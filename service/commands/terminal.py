@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from typing import Annotated, NoReturn
+from typing import Annotated, Any, NoReturn
 
 import typer
 from rich.console import Console
@@ -24,6 +25,10 @@ ApiKey = Annotated[
     ),
 ]
 SessionId = Annotated[str | None, typer.Option(help="A session's id; default: the newest, or a new one.")]
+
+AsJson = Annotated[
+    bool, typer.Option("--json", help="Print what the service answered: a JSON object on each line.")
+]
 
 URL = DEFAULT_URL
 
@@ -50,6 +55,11 @@ def session_of(client: Client, session_id: str | None) -> Session:
         return client.session(session_id)
     page = client.list(limit=1)
     return client.session(page.items[0].id) if page.items else client.create()
+
+
+def echo_json(value: Mapping[str, Any]) -> None:
+    """A line for programs; all but ASCII is escaped, so nothing in it drives a terminal."""
+    typer.echo(json.dumps(value))
 
 
 def console() -> Console:

@@ -8,13 +8,24 @@ from typing import Annotated
 import typer
 
 from service.client.messages import Changed, Gone, Hello, Message, Standing, Tick
-from service.commands.terminal import URL, ApiKey, SessionId, Url, plain, service_at, session_of
+from service.commands.terminal import (
+    URL,
+    ApiKey,
+    AsJson,
+    SessionId,
+    Url,
+    echo_json,
+    plain,
+    service_at,
+    session_of,
+)
 
 
 def watch(
     session: SessionId = None,
     ticks: Annotated[int | None, typer.Option(min=1, help="End after so many ticks.")] = None,
     quiet: Annotated[bool, typer.Option("--quiet", help="Only what happens, not every move.")] = False,
+    as_json: AsJson = False,
     url: Url = URL,
     api_key: ApiKey = None,
 ) -> None:
@@ -28,8 +39,11 @@ def watch(
     try:
         with service_at(url, api_key) as client:
             for message in session_of(client, session).watch():
-                for line in lines(message, quiet=quiet):
-                    typer.echo(plain(line))
+                if as_json:
+                    echo_json(message.raw)
+                else:
+                    for line in lines(message, quiet=quiet):
+                        typer.echo(plain(line))
                 seen += isinstance(message, Tick)
                 if seen == ticks:
                     return
