@@ -9,17 +9,19 @@ from typing import Any
 
 import httpx
 
+from tests.ports import lasting_port
+
 ROOT = Path(__file__).parents[2]
 PATIENCE_S = 60
 """How long an answer may take on a busy machine."""
 
 
 class ServiceProcess:
-    """`roadtalk serve` on a free port, and after the first start always on that port."""
+    """`roadtalk serve` on a free port, and always on that port."""
 
     def __init__(self, database: Path) -> None:
         self._database = database
-        self._port = 0
+        self._port = lasting_port()
         self._process: subprocess.Popen[str] | None = None
         self.url = ""
 
@@ -38,7 +40,6 @@ class ServiceProcess:
         if not self.url.startswith("http://"):
             self.kill()
             raise RuntimeError(f"the service did not start; it said {ready!r} and, above, why")
-        self._port = int(self.url.rsplit(":", 1)[1])
 
     def session(self, **wishes: Any) -> str:
         """A new session's id."""
