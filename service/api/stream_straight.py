@@ -59,14 +59,8 @@ class StraightProtocol(WebSocketsSansIOProtocol):
         await super().run_asgi()
 
     def _straight(self, text: bytes) -> bool:
-        if (
-            self.conn.state is not OPEN
-            or not self.handshake_complete
-            or self.close_sent
-            or self.disconnected
-            or not self.writable.is_set()
-            or self.transport.is_closing()
-        ):
+        # Open is only what was accepted, and what neither side has begun to close.
+        if self.conn.state is not OPEN or not self.writable.is_set() or self.transport.is_closing():
             return False
         self.transport.write(framed(text))
         return True

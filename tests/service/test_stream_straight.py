@@ -9,8 +9,10 @@ import httpx
 import pytest
 from websockets.asyncio.client import connect
 from websockets.frames import Frame, Opcode
+from websockets.protocol import State
+from websockets.server import ServerProtocol
 
-from service.api.stream_straight import framed, straight_of
+from service.api.stream_straight import StraightProtocol, framed, straight_of
 from service.app import create_app
 from service.sessions.watchers import SLOT_MESSAGES, Missed, Watcher, Watchers
 from service.settings import Settings
@@ -127,3 +129,38 @@ async def test_a_real_socket_is_written_to_straight_and_in_order() -> None:
             assert ticks == straight == [1, 2, 3, 4, 5]
             numbers = [int(message["event"].partition(".")[2]) for message in heard]
             assert numbers == [*range(numbers[0], numbers[0] + 6)]
+
+
+class Written:
+    """A transport that writes down what it is given."""
+
+    def __init__(self) -> None:
+        self.closing = False
+        self.frames: list[bytes] = []
+
+    def is_closing(self) -> bool:
+        return self.closing
+
+    def write(self, data: bytes) -> None:
+        self.frames.append(data)
+
+
+async def test_nothing_is_written_to_who_is_full_or_going() -> None:
+    protocol = StraightProtocol.__new__(StraightProtocol)
+    transport = Written()
+    protocol.transport = transport  # type: ignore[assignment]
+    protocol.conn = ServerProtocol()
+    protocol.writable = asyncio.Event()
+    protocol.writable.set()
+    assert not protocol._straight(b"not accepted yet")
+    protocol.conn.state = State.OPEN
+    assert protocol._straight(b"now")
+    protocol.pause_writing()
+    assert not protocol._straight(b"full")
+    protocol.resume_writing()
+    transport.closing = True
+    assert not protocol._straight(b"lost")
+    transport.closing = False
+    protocol.conn.send_close(1012)
+    assert not protocol._straight(b"closing")
+    assert transport.frames == [framed(b"now")]
