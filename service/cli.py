@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import os
 import socket
 import sys
 from collections.abc import Callable
@@ -31,6 +32,7 @@ from service.security.guard import exposed
 from service.settings import Settings
 from service.stopping import Deadline
 from service.store import Store, StoreError, open_store
+from service.strays import strays
 from service.version import VERSION
 from service.window.command import play
 from sim import planner_names
@@ -88,6 +90,8 @@ def serve(
         said = wrong["msg"].removeprefix("Value error, ")
         _fail(f"The setting {wrong['loc'][0]} is not valid: {said}.")
     logs.configure(settings)
+    for stray in strays(os.environ):
+        typer.echo(stray, err=True)
     reason = exposed(settings)
     if reason is not None:
         _fail(reason)

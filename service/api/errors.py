@@ -138,6 +138,7 @@ _MESSAGES = {
     "string_too_long": "must have at most {max_length} characters",
     "too_short": "must have at least {min_length} items",
     "too_long": "must have at most {max_length} items",
+    "string_pattern_mismatch": "must be `after` of the page before",
     "literal_error": "must be {expected}",
     "enum": "must be {expected}",
     "list_type": "must be a list",

@@ -6,6 +6,7 @@ files and the signs of life stand, anything may be added: browsers, probes and c
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Collection, Iterable
 from typing import Any
 
@@ -14,6 +15,7 @@ from service.api.views import PREFIX
 from service.problems import FieldProblem, Invalid
 
 _MOST_TOLD = 10
+_WHOLE = re.compile("-?[0-9]+")
 
 
 def check_query(said: Iterable[tuple[str, str]], known: Collection[str]) -> None:
@@ -31,6 +33,17 @@ def check_query(said: Iterable[tuple[str, str]], known: Collection[str]) -> None
         listed = "; ".join(f"{each.field or 'a nameless one'} {each.message}" for each in told[:3])
         more = f", and {len(wrong) - 3} more" if len(wrong) > 3 else ""
         raise Invalid(f"Of the parameters in the URL: {listed}{more}.", errors=told)
+
+
+def check_numbers(said: Iterable[tuple[str, str]], whole: Collection[str]) -> None:
+    """Raise `Invalid` for what is to be a whole number and is not written as one.
+
+    Python would take `1_0`, `+5` and ` 7` as well, which nobody means.
+    """
+    wrong = [name for name, value in said if name in whole and not _WHOLE.fullmatch(value)]
+    if wrong:
+        told = [FieldProblem(name, "must be a whole number") for name in dict.fromkeys(wrong)]
+        raise Invalid(f"{'; '.join(f'{each.field}: {each.message}' for each in told)}.", errors=told)
 
 
 def _unknown(name: str, known: Collection[str]) -> str:

@@ -229,3 +229,26 @@ async def test_white_space_is_what_http_says_it_is(
         headers=[(b"content-type", b"application/json"), (b"if-match", tag)],
     )
     assert (answer.status_code, answer.json()["errors"][0]["field"]) == (422, "If-Match")
+
+
+@pytest.mark.parametrize("number", ["1.0", "1_0", "+1", "%201", "1e0", "0x1", "\u0663", "", "true"])
+@pytest.mark.parametrize(
+    "part", ["state?tick=", "decisions?after=", "decisions?limit=", "film?from=", "decisions/"]
+)
+async def test_a_whole_number_is_written_as_one(
+    client: httpx.AsyncClient, identity: str, part: str, number: str
+) -> None:
+    answer = await client.get(f"/api/v1/sessions/{identity}/{part}{number}")
+    if part == "decisions/" and number == "":
+        assert answer.status_code == 404
+        return
+    assert answer.status_code == 422
+    (error,) = answer.json()["errors"]
+    assert error["field"] in part or (part, error["field"]) == ("decisions/", "tick")
+    assert error["message"] == "must be a whole number"
+
+
+@pytest.mark.parametrize("path", ["/api/v1/sessions", "/api/v1/saved"])
+async def test_a_cursor_that_is_none_is_told_what_it_is(client: httpx.AsyncClient, path: str) -> None:
+    answer = await client.get(f"{path}?after=x")
+    assert answer.json()["detail"] == "after: must be `after` of the page before."

@@ -6,6 +6,7 @@ import pytest
 from pydantic import ValidationError
 
 from service.settings import Settings
+from service.strays import strays
 
 
 def test_every_setting_is_described_and_has_a_default() -> None:
@@ -24,3 +25,17 @@ def test_the_environment_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("ROADTALK_PORT", "many")
     with pytest.raises(ValidationError):
         Settings()
+
+
+def test_a_slip_in_a_settings_name_is_told() -> None:
+    environment = {
+        "ROADTALK_MAX_SESIONS": "5",
+        "ROADTALK_PORT": "1",
+        "roadtalk_host": "x",
+        "ROADTALK_ZZZ": "",
+        "PORT": "1",
+    }
+    assert strays(environment) == [
+        "ROADTALK_MAX_SESIONS is no setting; did you mean ROADTALK_MAX_SESSIONS?",
+        "ROADTALK_ZZZ is no setting.",
+    ]

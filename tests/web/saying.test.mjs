@@ -106,6 +106,18 @@ test("what has been typed is asked about in its session, safely written", async 
   await assert.rejects(foresee("x", "s", async () => new Response("", { status: 503 })), /503/);
 });
 
+test("what is longer than the service reads is not asked about, and told", async () => {
+  let asked = 0;
+  const http = async () => (asked++, Response.json({ completions: [], preview: null }));
+  assert.equal((await foresee("x".repeat(500), "s", http)).preview, null);
+  assert.equal((await foresee("\u{1f697}".repeat(500), "s", http)).preview, null);
+  assert.equal(asked, 2);
+  const { completions, preview } = await foresee("x".repeat(501), "s", http);
+  assert.equal(asked, 2);
+  assert.deepEqual(completions, []);
+  assert.equal(previewWords(preview), "Too long: at most 500 letters are read");
+});
+
 const preview = (part) => ({ standing: "does", actions: [], changes: [], detail: null, unparsed: [], ...part });
 const change = (path, before, after) => ({ path, before, after });
 

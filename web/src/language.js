@@ -19,6 +19,13 @@ import { plain, valueWords } from "./words.js";
 /** @typedef {{intent: string, available: boolean, why_not: string | null, examples: {text: string}[]}} Intent */
 /** @typedef {{language: string, languages: string[], intents: Intent[], taught: {phrase: string, sentence: string}[]}} Guide */
 
+const MOST_CHARS = 500;
+/** @type {Foreseen} Of what is longer than the service reads, which need not be asked. */
+const TOO_LONG = {
+  completions: [],
+  preview: { standing: "refused", actions: [], changes: [], detail: `Too long: at most ${MOST_CHARS} letters are read`, unparsed: [] },
+};
+
 /** The language that is spoken here, as a code. */
 export const spoken = () => preference("language", "en");
 
@@ -29,7 +36,8 @@ export const spoken = () => preference("language", "en");
  * @param {typeof fetch} [http]
  * @returns {Promise<Foreseen>}
  */
-export function foresee(text, session, http = fetch) {
+export async function foresee(text, session, http = fetch) {
+  if ([...text].length > MOST_CHARS) return TOO_LONG;
   return asked({ prefix: text, session, language: spoken() }, http);
 }
 
