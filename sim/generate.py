@@ -108,6 +108,8 @@ def named(kind: Kind, cells: Iterable[int], last: dict[Kind, int]) -> dict[int, 
 
 def lowest_ranked(free: Board, count: int, stream: Stream) -> list[int]:
     """`count` cells of a board, at random: those of lowest rank in the stream."""
+    if not count:
+        return []  # as on most roads: nobody has to be ranked for that
     ranks = stream.words(free.bit_length())
     return sorted(cells_of(free), key=ranks.__getitem__)[:count]
 

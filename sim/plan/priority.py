@@ -39,6 +39,8 @@ def options_in_order(forecast: Forecast) -> tuple[Option, ...]:
     steps = forecast.steps(1 << forecast.ego)
     road = forecast.road
     ready = _free_options(road.columns, road.rows, forecast.ego)
+    if all(steps):
+        return ready
     return tuple([free if there else _met(forecast, free) for there, free in zip(steps, ready, strict=True)])
 
 
