@@ -237,12 +237,17 @@ class SessionManager:
         return await self._around.store.entries(session.id)
 
     async def delete(self, session_id: str, terms: Terms = ANY_TERMS) -> None:
-        """End a session and forget it. Raises `UnknownSession` or `Stale`."""
-        if terms.sequences is None:
+        """End a session and forget it, after what is being done to it. Raises `UnknownSession` or `Stale`."""
+        live = self._live.get(session_id)
+        if live is None and terms.sequences is not None:
+            live = await self.get(session_id)
+        if live is None:
             found = await self._around.store.delete(session_id)
         else:
-            async with (await self.get(session_id)).held(terms):
+            async with live.held(terms):
                 found = await self._around.store.delete(session_id)
+                if found:
+                    live.retire()  # before those that wait have their turn
         if not found:
             raise UnknownSession
         self._kept -= 1
