@@ -30,7 +30,7 @@ from service.llm import MissingExtraError
 from service.llm.prompts import PromptError
 from service.security.guard import exposed
 from service.settings import Settings
-from service.stopping import Deadline
+from service.stopping import Deadline, stop_when_hung_up
 from service.store import Store, StoreError, open_store
 from service.strays import strays
 from service.version import VERSION
@@ -97,6 +97,7 @@ def serve(
         _fail(reason)
     listener = _listener(settings.host, settings.port)
     deadline = Deadline()
+    stop_when_hung_up()
     try:
         store = open_store(settings.database)
         config = server_config(create_app(settings, store=store), settings)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import os
+import signal
 import threading
 from collections.abc import Coroutine
 from typing import Any
@@ -59,3 +60,13 @@ async def within(seconds: float, closing: Coroutine[Any, Any, None]) -> bool:
     task.cancel()
     _LOG.error("the stop was not waited for", seconds=seconds)
     return False
+
+
+def stop_when_hung_up() -> None:
+    """Let a terminal that is closed (SIGHUP) stop the service as SIGTERM does; `nohup` is heeded.
+
+    Python would end on the spot: nothing acknowledged is lost, but nobody is told.
+    """
+    hangup = getattr(signal, "SIGHUP", None)
+    if hangup is not None and signal.getsignal(hangup) is signal.SIG_DFL:
+        signal.signal(hangup, lambda *_: signal.raise_signal(signal.SIGTERM))

@@ -17,7 +17,7 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 
-from service.stopping import within
+from service.stopping import stop_when_hung_up, within
 from tests.service.postgres import Server
 
 ROOT = Path(__file__).parents[2]
@@ -129,3 +129,20 @@ def test_it_says_in_one_line_why_it_does_not_start(
     assert done.stdout == ""
     assert said in done.stderr
     assert len(done.stderr.strip().splitlines()) == 1
+
+
+@pytest.mark.parametrize(("before", "heard"), [(signal.SIG_DFL, [signal.SIGTERM]), (signal.SIG_IGN, [])])
+def test_a_terminal_that_is_closed_stops_it_as_well(
+    before: signal.Handlers, heard: list[signal.Signals]
+) -> None:
+    told: list[int] = []
+    kept = {each: signal.getsignal(each) for each in (signal.SIGHUP, signal.SIGTERM)}
+    try:
+        signal.signal(signal.SIGTERM, lambda number, _: told.append(number))
+        signal.signal(signal.SIGHUP, before)
+        stop_when_hung_up()
+        signal.raise_signal(signal.SIGHUP)
+    finally:
+        for each, handler in kept.items():
+            signal.signal(each, handler)
+    assert told == heard
