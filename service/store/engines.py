@@ -90,7 +90,11 @@ class Sqlite:
 
     def engine(self) -> AsyncEngine:
         """One connection and no overflow: callers queue for it, so writes never meet."""
-        return _one_connection(self._url, _prepare_sqlite)
+        # A rollback after each transaction, ended or not, is one more way to the driver's thread and back: as
+        # long as all else but the disk.
+        engine = _one_connection(self._url, _prepare_sqlite, pool_reset_on_return=None)
+        event.listen(engine.sync_engine, "reset", _end_left_open)
+        return engine
 
 
 def _permitted(path: Path) -> None:
@@ -156,6 +160,12 @@ def _prepare_sqlite(connection: Any, _record: Any) -> None:
     for pragma in _PRAGMAS:
         cursor.execute(pragma)
     cursor.close()
+
+
+def _end_left_open(connection: Any, _record: Any, state: Any) -> None:
+    """Take back what nobody has ended, so that the next one does not keep it."""
+    if state.asyncio_safe and connection.driver_connection.in_transaction:
+        connection.rollback()
 
 
 def _prepare_postgres(connection: Any, _record: Any) -> None:
