@@ -28,7 +28,7 @@ _LOG = structlog.get_logger(__name__)
 CALM_S = 0.25
 """How long is waited before each: what came just before has others to serve."""
 
-WRITTEN = 4
+WRITTEN = 2
 """One work for so many entries: writing a long log takes as long as that."""
 
 THINGS = 100
