@@ -267,7 +267,7 @@ class Divider:
             return Clause(start, end, *found, negated=found[0].frame.leaves_out)
         if NEGATION in plain.concepts:
             return self._negated(part, context)
-        if part.after == _BUT:
+        if part.after == _BUT or (context.verb and self._says_again(part)):
             return None
         if context.verb:
             leaning = self._stretch(start, end, context)
@@ -291,6 +291,15 @@ class Divider:
                 if found is not None:
                     return Clause(start, end, *found, leans=context.distant)
         return None
+
+    def _says_again(self, part: Fragment) -> bool:
+        """Whether a part only says how many were meant: "a cone, just one" is not two."""
+        if part.after != _PAUSE or not self._contrasts(part):
+            return False
+        return not any(
+            isinstance(edge.sense.value, Amount) or edge.concept in _PLACED
+            for edge in self._lattice.between(part.start, part.end)
+        )
 
     def _contrasts(self, part: Fragment) -> bool:
         """Whether a part says what shall be done instead of what shall not: "…, just the cars"."""

@@ -224,4 +224,10 @@ def _family(concept: str) -> str:
 
 def _groups(actions: Sequence[Action]) -> set[object]:
     """What the actions are about."""
-    return {next((group for group in _ALIKE if action.do in group), action.do) for action in actions}
+    return {
+        (
+            next((group for group in _ALIKE if action.do in group), action.do),
+            getattr(action, "parameter", None),
+        )
+        for action in actions
+    }
