@@ -32,6 +32,9 @@ _SMALL_HEAD: Final = Struct(">BB").pack
 _MEDIUM_HEAD: Final = Struct(">BBH").pack
 _LARGE_HEAD: Final = Struct(">BBQ").pack
 
+# What is asked of the server's protocol beyond its documented face. A version that has it no more gets no offer.
+_LOOKED_AT: Final = ("conn", "writable", "transport")
+
 
 def framed(text: bytes) -> bytes:
     """A text message as the one frame that a server sends (RFC 6455): whole, and not masked."""
@@ -54,8 +57,9 @@ class StraightProtocol(WebSocketsSansIOProtocol):
 
     async def run_asgi(self) -> None:
         """See the server's: the application for one connection."""
-        extensions: dict[str, object] = self.scope["extensions"]  # type: ignore[assignment]
-        extensions[EXTENSION] = self._straight
+        if all(hasattr(self, name) for name in _LOOKED_AT):
+            extensions: dict[str, object] = self.scope["extensions"]  # type: ignore[assignment]
+            extensions[EXTENSION] = self._straight
         await super().run_asgi()
 
     def _straight(self, text: bytes) -> bool:
