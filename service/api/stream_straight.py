@@ -32,7 +32,7 @@ _SMALL_HEAD: Final = Struct(">BB").pack
 _MEDIUM_HEAD: Final = Struct(">BBH").pack
 _LARGE_HEAD: Final = Struct(">BBQ").pack
 
-# What is asked of the server's protocol beyond its documented face. A version that has it no more gets no offer.
+# What is asked of the server's protocol beyond its documented face; a version without it gets no offer.
 _LOOKED_AT: Final = ("conn", "writable", "transport")
 
 
