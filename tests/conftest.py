@@ -9,14 +9,18 @@ import os
 from collections.abc import Callable, Generator, Iterator
 from functools import cache
 from operator import itemgetter
+from pathlib import Path
 from typing import TypeVar
 
 import fastapi.routing
 import pytest
 from hypothesis import settings
 
+from service.language import engine
+from service.language.data import LanguageData
 from service.llm.claims import Claims
 from service.narrate import Narrator
+from service.resources import prompts_folder
 from service.talk import languages
 from service.talk.languages import Languages
 from tests.leaving_out import EVEN_IN_CI
@@ -51,24 +55,40 @@ def _not_in_ci(report: Report) -> Report:
     return report
 
 
-@pytest.fixture(scope="session", autouse=True)
-def words_read_once() -> Iterator[None]:
+_UNCHANGING = pytest.MonkeyPatch()
+
+
+def pytest_configure() -> None:
+    """Before the first test is even imported, for many read grammars and documents then."""
+    _words_read_once()
+    _answers_described_once()
+
+
+def pytest_unconfigure() -> None:
+    """All as it was."""
+    _UNCHANGING.undo()
+
+
+def _words_read_once() -> None:
     """Grammars and sayings never change, and reading them is most of what making an application takes."""
-    with pytest.MonkeyPatch.context() as patch:
-        for read in (Languages, Narrator, Claims):
-            patch.setattr(read, "load", cache(read.load))
-        patch.setattr(languages, "Guide", cache(languages.Guide))
-        yield
+    _UNCHANGING.setattr(engine, "read_language", _kept_if_ours(engine.read_language))
+    for read in (Languages, Narrator, Claims):
+        _UNCHANGING.setattr(read, "load", cache(read.load))
+    _UNCHANGING.setattr(languages, "Guide", cache(languages.Guide))
 
 
-@pytest.fixture(scope="session", autouse=True)
-def answers_described_once() -> Iterator[None]:
+def _kept_if_ours(read: Callable[[Path], LanguageData]) -> Callable[[Path], LanguageData]:
+    """The project's own languages read once; copies, which tests change, every time."""
+    once = cache(read)
+    ours = prompts_folder()
+    return lambda folder: (once if folder.is_relative_to(ours) else read)(folder)
+
+
+def _answers_described_once() -> None:
     """Each application would make a schema of every answer anew with its first request: all alike."""
     make = getattr(fastapi.routing, "create_model_field", None)
-    with pytest.MonkeyPatch.context() as patch:
-        if make is not None:
-            patch.setattr(fastapi.routing, "create_model_field", _kept(make))
-        yield
+    if make is not None:
+        _UNCHANGING.setattr(fastapi.routing, "create_model_field", _kept(make))
 
 
 def _kept(make: Callable[..., object]) -> Callable[..., object]:

@@ -8,15 +8,13 @@ from typing import Any
 
 import pytest
 
-from service.app import create_app
 from service.client import AsyncClient, BlockedMove, calls, runs
 from service.client.calls import Call
 from service.client.following import Following
-from service.settings import Settings
-from service.store import MemoryStore
+from tests.contract.document import document
 
 Json = dict[str, Any]
-DOCUMENT: Json = create_app(Settings(database="memory:"), store=MemoryStore()).openapi()
+DOCUMENT = document()
 OPERATIONS = {
     (method.upper(), path): operation
     for path, item in DOCUMENT["paths"].items()

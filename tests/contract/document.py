@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import Any
 
 import pytest
@@ -20,6 +21,12 @@ def asked() -> FastAPI:
     return create_app(
         Settings(database="memory:"), store=MemoryStore(), language=FewSentences(), clock=HandClock()
     )
+
+
+@cache
+def document() -> Json:
+    """The service's own document; alike in every application, and made once since that takes a second."""
+    return asked().openapi()
 
 
 def operations(document: Json) -> list[Any]:

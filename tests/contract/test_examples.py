@@ -12,11 +12,12 @@ from jsonschema import Draft202012Validator
 from service.app import create_app
 from service.settings import Settings
 from service.store import MemoryStore
+from tests.contract.document import document
 from tests.service.fakes import HandClock
 
 Json = dict[str, Any]
 APP = create_app(Settings(database="memory:"), store=MemoryStore(), clock=HandClock())
-DOCUMENT: Json = APP.openapi()
+DOCUMENT = document()
 OPERATIONS = [
     (path, method, operation)
     for path, item in DOCUMENT["paths"].items()

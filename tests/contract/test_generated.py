@@ -11,12 +11,13 @@ from typing import Any
 import pytest
 
 from tests.contract import generated
+from tests.contract.document import document
 from tests.contract.running import Report, Tally, Tool, serving
 from tests.contract.whole import Part, Whole
 
 pytest.importorskip("schemathesis")
 
-DOCUMENT = generated.openapi()
+DOCUMENT = document()
 CALLS = {f"{method.upper()} {path}" for path, item in DOCUMENT["paths"].items() for method in item}
 
 

@@ -11,11 +11,11 @@ import pytest
 from service.app import create_app
 from service.settings import Settings
 from service.store import MemoryStore
-from tests.contract.document import Json, asked, operations
+from tests.contract.document import Json, asked, document, operations
 from tests.service.live import running
 
 APP = asked()
-DOCUMENT: Json = APP.openapi()
+DOCUMENT = document()
 OPERATIONS = operations(DOCUMENT)
 ENDLESS = "/api/v1/sessions/{session_id}/events/stream"
 READING = [each for each in OPERATIONS if each.values[1] == "get"]

@@ -16,10 +16,10 @@ from pydantic import TypeAdapter
 
 from service import problems
 from service.api import bodies, insight, schemas, schemas_advice, schemas_counterfactual, tickets, timeline
-from tests.contract.document import Json, asked, operations
+from tests.contract.document import Json, asked, document, operations
 
 APP = asked()
-DOCUMENT: Json = APP.openapi()
+DOCUMENT = document()
 OPERATIONS = operations(DOCUMENT)
 POSTS = sorted(path for path, item in DOCUMENT["paths"].items() if "post" in item)
 WITH_BODY = ("post", "patch")

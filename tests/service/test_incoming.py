@@ -190,7 +190,12 @@ async def test_a_request_without_a_version_is_refused(at: At) -> None:
 @pytest.mark.parametrize(
     ("lines", "body", "status", "said"),
     [
-        (["Content-Encoding: gzip"], gzip.compress(FIVE, mtime=0), 415, "Send the body as it is, not packed as gzip."),
+        (
+            ["Content-Encoding: gzip"],
+            gzip.compress(FIVE, mtime=0),
+            415,
+            "Send the body as it is, not packed as gzip.",
+        ),
         (["Content-Encoding: gzip"], FIVE, 415, "Send the body as it is, not packed as gzip."),
         (["Content-Encoding: identity"], FIVE, 200, None),
         ([], gzip.compress(FIVE, mtime=0), 400, NOT_UTF8),
