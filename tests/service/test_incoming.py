@@ -25,6 +25,7 @@ from tests.service.live import Running, running
 
 SESSIONS = "/api/v1/sessions"
 FIVE = b'{"text":"add five potholes"}'
+PACKED = "Send the body as it is, not packed as gzip."
 NOT_UTF8 = "The body cannot be read as JSON: it is not written in UTF-8."
 
 
@@ -193,9 +194,9 @@ async def test_a_request_without_a_version_is_refused(at: At) -> None:
             ["Content-Encoding: gzip"],
             gzip.compress(FIVE, mtime=0),
             415,
-            "Send the body as it is, not packed as gzip.",
+            PACKED,
         ),
-        (["Content-Encoding: gzip"], FIVE, 415, "Send the body as it is, not packed as gzip."),
+        (["Content-Encoding: gzip"], FIVE, 415, PACKED),
         (["Content-Encoding: identity"], FIVE, 200, None),
         ([], gzip.compress(FIVE, mtime=0), 400, NOT_UTF8),
         ([], '{"text":"stra\u00dfe"}'.encode("latin-1"), 400, NOT_UTF8),
