@@ -23,7 +23,6 @@ from service.sessions.clock import Clock
 from service.sessions.conversation import Conversation
 from service.sessions.draft import Draft, check_ticks
 from service.sessions.facts import Fact, happened_in, views_of
-from service.sessions.finishing import apart, finished
 from service.sessions.footing import Footing
 from service.sessions.forking import Way, is_mixed
 from service.sessions.history import History
@@ -242,7 +241,10 @@ class Session:
         """
         if isinstance(utterance, Utterance):
             check_ticks(utterance.actions, self._around.settings.max_step_ticks)
-        return await finished(self._change(utterance, dry_run, terms), self._tasks)
+        task = asyncio.ensure_future(self._change(utterance, dry_run, terms))
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+        return await asyncio.shield(task)
 
     async def _change(
         self,
@@ -281,11 +283,9 @@ class Session:
     async def _perform(self, draft: Draft, utterance: Utterance) -> tuple[Fact, ...]:
         try:
             if draft.work_ticks(utterance.actions) > THREAD_TICKS:
-                await apart()
                 return await to_thread.run_sync(draft.perform, self.sequence + 1, utterance.actions)
             return draft.perform(self.sequence + 1, utterance.actions)
         except UnknownName as problem:
-            await apart()
             raise await told_where(self._around.store, problem, utterance.actions) from None
 
     async def _told(self, utterance: Utterance, facts: tuple[Fact, ...], sequence: int) -> Outcome:
@@ -293,7 +293,6 @@ class Session:
         told = partial(outcome_of, self._around.words, self.run, utterance, facts, sequence)
         if not long_to_answer(self.run.config.planner, facts):
             return told()
-        await apart()
         return await to_thread.run_sync(told)
 
     async def _save(self, outcome: Outcome, draft: Draft, terms: Terms) -> None:
@@ -304,7 +303,6 @@ class Session:
         try:
             if draft.timeline.tick < self.timeline.tick:
                 # First: where time once stood must never be run on to from a log that has gone back.
-                await apart()
                 await self._around.store.save_ticks({self.id: draft.timeline.tick})
             await self._around.store.append(self.id, entry, *kept)
         except StoreError as error:
