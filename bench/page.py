@@ -27,7 +27,7 @@ from playwright.sync_api import Browser, CDPSession, Page, sync_playwright
 from bench.serving import machine
 from tests.browser.conftest import QUIET, chromium
 from tests.browser.service_process import ServiceProcess
-from tests.browser.visitor import WATCH_PICTURES
+from tests.browser.visitor import WATCH_PICTURES, until
 
 RESULTS = Path(__file__).parent / "PAGE.md"
 DESK = {"width": 1440, "height": 900}
@@ -212,7 +212,7 @@ def command(at: Place) -> list[Figure]:
             words.fill("undo" if turn % 2 else "add a pothole ahead")
             page.wait_for_timeout(250)  # as a person: what it will do is shown before Enter
             words.press("Enter")
-            page.wait_for_function("(many) => took.length > many", arg=turn)
+            until(page, "(many) => took.length > many", turn)
         took = sorted(page.evaluate("() => took"))
     return [
         Figure("from Enter to the change shown, p50 of 50", median(took), "ms", 50),
@@ -225,7 +225,7 @@ def load(at: Place) -> list[Figure]:
     took = []
     for _ in range(5):
         with at.page("/", FIRST_FRAME) as (page, _):
-            page.wait_for_function("() => window.firstFrame > 0")
+            until(page, "() => window.firstFrame > 0")
             took.append(page.evaluate("() => window.firstFrame"))
     return [
         Figure("first load to first live frame, p50 of 5", median(took), "ms", 1_000),

@@ -6,6 +6,7 @@ Machines differ and share, so speed is for the benchmarks.
 from __future__ import annotations
 
 import os
+import signal
 from collections.abc import Callable, Generator, Iterator
 from functools import cache
 from operator import itemgetter
@@ -62,6 +63,9 @@ def pytest_configure() -> None:
     """Before the first test is even imported, for many read grammars and documents then."""
     _words_read_once()
     _answers_described_once()
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        # A shell has what it starts in the background ignore Ctrl-C, and so would the programs under test.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def pytest_unconfigure() -> None:

@@ -4,7 +4,8 @@ The server below waits without end once a first byte has come. A request that is
 however long its answer takes, and neither is a socket or a stream of events.
 
 Whoever has said all and shuts its own half of the line (`nc -N`) is answered: the server below takes that for
-having gone away, and what was asked would be done and not acknowledged.
+having gone away, and what was asked would be done and not acknowledged. One who has really gone looks just
+the same, so what changes nothing (a film takes a while) is kept up for a moment only.
 """
 
 from __future__ import annotations
@@ -12,16 +13,21 @@ from __future__ import annotations
 import asyncio
 from typing import Any
 
-from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol
+from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol, RequestResponseCycle
 
 WHOLE_S = 60.0
 """Seconds for a request from its first byte to its end, and for a new line to its first request."""
+
+
+HALF_SHUT_S = 2.0
+"""Seconds that an answer is still made for who only reads and has shut its own half."""
 
 
 class PatientProtocol(HttpToolsProtocol):
     """One connection."""
 
     patience_s = WHOLE_S
+    half_shut_s = HALF_SHUT_S
     _deadline: asyncio.TimerHandle | None = None
     _in_request = False
     _is_socket = False
@@ -66,7 +72,13 @@ class PatientProtocol(HttpToolsProtocol):
         if self._in_request or not self._owed() or self.cycle.response_started:
             return False
         self.cycle.keep_alive = False  # after which the line is closed
+        if self.cycle.scope["method"] in ("GET", "HEAD"):
+            self.loop.call_later(self.half_shut_s, self._taken_as_gone, self.cycle)
         return True
+
+    def _taken_as_gone(self, cycle: RequestResponseCycle) -> None:
+        if not cycle.response_started:
+            self.transport.close()
 
     def out_of_patience(self) -> None:
         """A request came in part, and its end did not come."""

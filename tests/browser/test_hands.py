@@ -9,6 +9,7 @@ from playwright.sync_api import expect
 from tests.browser.conftest import Visit
 from tests.browser.hands import Road, empty_road
 from tests.browser.service_process import ServiceProcess
+from tests.browser.visitor import until
 
 # At one moment: keys are taken together when they are pressed within some milliseconds.
 TWO_KEYS = """
@@ -226,7 +227,7 @@ def test_a_tap_tells_and_a_finger_on_free_road_still_scrolls(visit: Visit, servi
     client = road.page.context.new_cdp_session(road.page)
     gesture = {"x": x, "y": y, "yDistance": -200, "gestureSourceType": "touch"}
     client.send("Input.synthesizeScrollGesture", gesture)
-    road.page.wait_for_function("scrollY > 100")
+    until(road.page, "scrollY > 100")
 
 
 def test_a_finger_drags_a_thing(visit: Visit, service: ServiceProcess) -> None:

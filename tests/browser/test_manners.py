@@ -10,7 +10,7 @@ from playwright.sync_api import expect
 from tests.browser.conftest import Visit
 from tests.browser.test_accessibility import violations
 from tests.browser.test_layout import FAINT_TEXT
-from tests.browser.visitor import Visitor
+from tests.browser.visitor import Visitor, until
 
 PHONES: list[dict[str, Any]] = [
     {"viewport": {"width": 360, "height": 740}, "has_touch": True, "is_mobile": True},
@@ -60,9 +60,9 @@ def test_a_chosen_theme_holds_against_the_systems_and_next_time(visit: Visit) ->
     page = visitor.page
     light, road = page.evaluate(GROUND), visitor.settled()
     choose_theme(visitor, "Dark")
-    page.wait_for_function(f"(light) => ({GROUND})() !== light", arg=light)
+    until(page, f"(light) => ({GROUND})() !== light", light)
     dark = page.evaluate(GROUND)
-    page.wait_for_function("() => getComputedStyle(document.documentElement).colorScheme === 'dark'")
+    until(page, "() => getComputedStyle(document.documentElement).colorScheme === 'dark'")
     visitor.settled(unlike=road)  # the canvas follows
     assert page.evaluate(FAINT_TEXT) == []
     page.reload()
@@ -70,9 +70,9 @@ def test_a_chosen_theme_holds_against_the_systems_and_next_time(visit: Visit) ->
     assert page.evaluate(GROUND) == dark
     choose_theme(visitor, "Light")
     page.emulate_media(color_scheme="dark")
-    page.wait_for_function(f"(light) => ({GROUND})() === light", arg=light)
+    until(page, f"(light) => ({GROUND})() === light", light)
     choose_theme(visitor, "As the system")
-    page.wait_for_function(f"(dark) => ({GROUND})() === dark", arg=dark)
+    until(page, f"(dark) => ({GROUND})() === dark", dark)
 
 
 def test_a_dark_choice_is_dark_before_anything_runs(visit: Visit) -> None:
@@ -81,7 +81,7 @@ def test_a_dark_choice_is_dark_before_anything_runs(visit: Visit) -> None:
     page = visitor.page
     page.route("**/src/main.js", lambda route: route.abort())
     page.reload()
-    page.wait_for_function("() => getComputedStyle(document.documentElement).colorScheme === 'dark'")
+    until(page, "() => getComputedStyle(document.documentElement).colorScheme === 'dark'")
     assert page.evaluate(GROUND) == "rgb(14, 16, 20)"
     visitor.console.clear()
 

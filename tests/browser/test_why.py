@@ -9,6 +9,7 @@ from playwright.sync_api import expect
 from tests.browser.conftest import Visit
 from tests.browser.hands import Road, empty_road
 from tests.browser.service_process import ServiceProcess
+from tests.browser.visitor import until
 
 # Why: the bubble
 
@@ -83,10 +84,11 @@ def test_the_bubble_goes_with_what_moves(road: Road) -> None:
     before, place = lanes.inner_text(), road.bubble.bounding_box()
     road.step()
     expect(lanes).not_to_have_text(before)
-    road.page.wait_for_function(
+    until(
+        road.page,
         "([x, y]) => { const at = document.querySelector('#bubble').getBoundingClientRect();"
         " return Math.abs(at.x - x) + Math.abs(at.y - y) > 20; }",
-        arg=[place["x"], place["y"]] if place else [0, 0],
+        [place["x"], place["y"]] if place else [0, 0],
     )
     expect(road.bubble).to_contain_text("Car")
 
@@ -161,11 +163,12 @@ def test_the_two_play_in_step_and_stop_when_told(road: Road) -> None:
     tick = road.beside.locator(".beside-tick")
     expect(tick).to_have_text(re.compile(r"tick ([2-9]|\d\d)$"))
     # Both at one moment: a tick later, the one behind is where the other was.
-    road.page.wait_for_function(
+    until(
+        road.page,
         """() => {
           const label = (side) => document.querySelector(`#beside [data-side=${side}] canvas`).ariaLabel;
           return label("real") !== label("changed");
-        }"""
+        }""",
     )
     road.page.keyboard.press("Space")
     expect(road.beside.get_by_role("button", name="Play both")).to_be_visible()

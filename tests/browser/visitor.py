@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import time
 from typing import Any
 
 from playwright.sync_api import Browser, ConsoleMessage, Locator, Page, Request, expect
@@ -38,6 +39,19 @@ WATCH_PICTURES = """
   requestAnimationFrame(frame);
 })
 """
+
+
+def until(page: Page, expression: str, *values: Any) -> None:
+    """Wait until an expression holds, looked at frame by frame.
+
+    Playwright's own `wait_for_function` would have the page read code from text, which the page's policy
+    forbids: it works only where all holds at once.
+    """
+    given = values[0] if values else None
+    end = time.monotonic() + PATIENCE_MS / 1000
+    while not page.evaluate(expression, given):
+        assert time.monotonic() < end, f"it did not come to pass that {expression}"
+        page.evaluate("() => new Promise(requestAnimationFrame)")
 
 
 class Visitor:
@@ -128,7 +142,7 @@ class Visitor:
 
     def until(self, expression: str, *values: Any) -> None:
         """Wait for something that no expectation of Playwright's tells."""
-        self.page.wait_for_function(expression, arg=values[0] if values else None)
+        until(self.page, expression, *values)
 
     def typed(self, text: str) -> Locator:
         """Type without sending; the sentences that are offered, once they are those for this text."""

@@ -11,6 +11,7 @@ import pytest
 from PIL import Image, ImageSequence
 
 from service.api import film as route
+from service.api.patience import PatientProtocol
 from service.app import create_app
 from service.settings import Settings
 from service.store import MemoryStore
@@ -172,6 +173,10 @@ async def test_a_film_ends_when_whoever_asked_has_gone(monkeypatch: pytest.Monke
         def counted() -> Any:
             frames.append(1)
             loop.call_soon_threadsafe(begun.set)
+            if (
+                begun.is_set()
+            ):  # from here on the loop has its turn at each frame, however quickly they are drawn
+                asyncio.run_coroutine_threadsafe(asyncio.sleep(0), loop).result(60)
             return turn()
 
         try:
@@ -180,6 +185,7 @@ async def test_a_film_ends_when_whoever_asked_has_gone(monkeypatch: pytest.Monke
             loop.call_soon_threadsafe(ended.set)
 
     monkeypatch.setattr(route, "film", watched)
+    monkeypatch.setattr(PatientProtocol, "half_shut_s", 0.0)
     settings = Settings(database="memory:")
     app = create_app(settings, store=MemoryStore(), language=FewSentences(), clock=HandClock())
     async with running(app, settings) as live:
