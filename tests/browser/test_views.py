@@ -311,9 +311,12 @@ def test_a_phone_has_all_views_one_below_the_other(visit: Visit) -> None:
     assert box is not None
     assert min(box["width"], box["height"]) >= 44
     visitor.page.get_by_role("button", name="Enlarge the occupancy").tap()
-    box = part(visitor, "occupancy").bounding_box()
-    assert box is not None
-    assert (box["x"], box["y"], box["width"]) == (0, 0, 390)
+    large = part(visitor, "occupancy").element_handle()
+    visitor.until(  # once the page has scrolled to it
+        "(it) => { const at = it.getBoundingClientRect();"
+        " return at.x === 0 && at.y === 0 && at.width === 390; }",
+        large,
+    )
 
 
 def test_what_was_lost_is_reckoned_anew_when_the_run_becomes_another(visit: Visit) -> None:
