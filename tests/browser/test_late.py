@@ -4,39 +4,12 @@ from __future__ import annotations
 
 import re
 
-from playwright.sync_api import Route, expect
+from playwright.sync_api import expect
 
 from tests.browser.conftest import STANDING, Visit
+from tests.browser.held import Held
 from tests.browser.service_process import ServiceProcess
 from tests.browser.visitor import Visitor
-
-
-class Held:
-    """Requests to an address that are held back until they are let go."""
-
-    def __init__(self, visitor: Visitor, address: str) -> None:
-        self._visitor = visitor
-        self._address = re.compile(address)
-        self._routes: list[Route] = []
-        visitor.page.route(self._address, self._hold)
-
-    def _hold(self, route: Route) -> None:
-        if route.request.method == "POST":
-            self._routes.append(route)
-        else:
-            route.continue_()
-
-    def let_go(self) -> None:
-        """And wait until what comes of it has been taken in."""
-        page = self._visitor.page
-        with page.expect_event("requestfinished", lambda request: self._address.search(request.url)):
-            self._routes.pop(0).continue_()
-        page.evaluate("() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
-
-    def asked(self) -> None:
-        """Wait until something is held back."""
-        while not self._routes:
-            self._visitor.page.evaluate("() => new Promise(requestAnimationFrame)")
 
 
 def gone_elsewhere(visitor: Visitor, session: str) -> None:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 
-from playwright.sync_api import Locator, Route, expect
+from playwright.sync_api import Locator, expect
 
 from tests.browser.conftest import Visit
+from tests.browser.held import Held
 from tests.browser.visitor import Visitor
 
 SCRIPTED_SPEECH = """
@@ -163,17 +164,14 @@ def test_german_is_chosen_and_understood(visit: Visit) -> None:
 
 def test_an_answer_that_comes_late_takes_no_newer_ones_place(visit: Visit) -> None:
     visitor = visit()
-    held: list[Route] = []
-    visitor.page.route("**/*language=en*", lambda route: held.append(route))
+    held = Held(visitor, "language=en", method="GET")
     visitor.page.keyboard.press("?")
+    held.asked()
     dialog = visitor.page.get_by_role("dialog", name="What can I say?")
     dialog.get_by_label("I speak").select_option("de")
     sentences = dialog.get_by_role("region", name="Sentences")
     expect(sentences).to_contain_text("warum")
-    (english,) = held
-    with visitor.page.expect_event("requestfinished", lambda request: "language=en" in request.url):
-        english.continue_()
-    visitor.page.evaluate("() => new Promise(requestAnimationFrame)")
+    held.let_go()
     expect(sentences).to_have_count(1)
     expect(sentences).to_contain_text("warum")
 
