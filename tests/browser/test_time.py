@@ -175,7 +175,7 @@ def test_speed_is_chosen_and_shown(visit: Visit) -> None:
     speed = visitor.page.get_by_role("combobox", name="Playback speed")
     expect(speed).to_have_value("1")
     speed.select_option("4")
-    expect(visitor.page.locator(".exchange").last).to_contain_text("1 → 4")
+    expect(visitor.page.locator(".exchange").last).to_contain_text("1× → 4×")
     expect(speed).to_have_value("4")
     visitor.page.locator("body").click(position={"x": 2, "y": 2})
     visitor.page.keyboard.press("-")

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { clock, markWords, percent, plain, reasonWords, valueWords } from "../../web/src/words.js";
+import { changeWords, clock, markWords, percent, plain, reasonWords, valueWords } from "../../web/src/words.js";
 
 const marked = (sentence, words) =>
   markWords(sentence, words)
@@ -38,5 +38,20 @@ test("figures and names", () => {
   assert.equal(plain("success_rate"), "success rate");
   assert.equal(reasonWords("mover_enters"), "something moves in");
   assert.equal(reasonWords("too_risky"), "too risky");
-  assert.deepEqual([4, 0.15, true, null, "forward_left"].map(valueWords), ["4", "0.15", "on", "none", "forward left"]);
+  assert.deepEqual([4, 0.15, true, null, "forward_left"].map(valueWords), ["4", "0.15", "on", "not set", "forward left"]);
+});
+
+test("changes are told in words, lists and names of the wire's own too", () => {
+  const said = (path, before, after) => Object.values(changeWords({ path, before, after })).join(" | ");
+  assert.equal(said("potholes", 2, 7), "potholes | 2 | 7");
+  assert.equal(said("queue", [], ["right", "forward_left"]), "next moves | none | right, forward left");
+  assert.equal(said("mode", "auto", "manual"), "driver | itself | you");
+  assert.equal(said("playback_speed", 1, "max"), "playback speed | 1× | max");
+  assert.equal(said("config.planner", "priority", "astar"), "planner | priority | A*");
+  assert.equal(said("config.preferences", ["avoid_potholes", "smooth_ride"], []), "preferences | avoid potholes, smooth ride | none");
+  assert.equal(said("config.traffic", null, "none"), "traffic | not set | none");
+  assert.equal(said("config.spawn_probability", 0.68, 0.9), "spawn probability | 0.68 | 0.9");
+  assert.equal(said("config.solvable", false, true), "solvable | off | on");
+  assert.equal(said("config.rows", 30, 400), "length | 30 rows | 400 rows");
+  assert.equal(said("config.of_tomorrow", ["a_b"], null), "of tomorrow | a b | not set");
 });

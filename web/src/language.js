@@ -3,7 +3,7 @@
 
 import { preference } from "./prefs.js";
 import { GUIDE_PATH } from "./protocol.js";
-import { plain, valueWords } from "./words.js";
+import { changeWords } from "./words.js";
 
 /** @import { Action, Change } from "./protocol.js" */
 
@@ -68,16 +68,18 @@ export function previewWords(preview) {
     return unparsed.length > 0 ? `Not understood so far: “${unparsed.join(" ")}”` : "";
   }
   if (standing !== "does") return detail ?? "";
-  const told = changes.filter(({ path }) => !path.startsWith("config."));
+  // A setting that changes alone is all there is to tell.
+  const told = changes.length === 1 ? changes : changes.filter(({ path }) => !path.startsWith("config."));
   const settings = changes.length - told.length;
-  const words = told.slice(0, MOST_TOLD).map(changeWords);
+  const words = told.slice(0, MOST_TOLD).map(inShort);
   if (told.length > MOST_TOLD) words.push(`${told.length - MOST_TOLD} more`);
   if (settings > 0) words.push(settings === 1 ? "1 setting" : `${settings} settings`);
   return words.join(" · ") || "Understood";
 }
 
 /** @param {Change} change */
-function changeWords({ path, before, after }) {
-  if (path === "paused") return after ? "pauses" : "goes on";
-  return `${plain(path)} ${valueWords(before)} → ${valueWords(after)}`;
+function inShort(change) {
+  if (change.path === "paused") return change.after ? "pauses" : "goes on";
+  const { name, before, after } = changeWords(change);
+  return `${name} ${before} → ${after}`;
 }

@@ -1,7 +1,7 @@
 // @ts-check
 /** Small words of the page's own: moves, reasons, figures, and marking words inside a sentence. */
 
-/** @import { Move } from "./protocol.js" */
+/** @import { Change, Move } from "./protocol.js" */
 
 /** Each move's arrow and name. */
 export const MOVES = /** @type {Record<Move, {arrow: string, name: string}>} */ ({
@@ -40,16 +40,58 @@ export function plain(name) {
   return name.replaceAll("_", " ").replaceAll(".", " ");
 }
 
+/** Planners by the names people know them by; others go by the name they were registered under. */
+const PLANNERS = /** @type {Record<string, string>} */ ({ astar: "A*", dijkstra: "Dijkstra" });
+
+/** @param {string} name */
+export function plannerName(name) {
+  return PLANNERS[name] ?? plain(name);
+}
+
 /**
- * A value of a change as text.
+ * What is called otherwise than it is spelt on the wire: a figure's name, and how its values are said.
+ * @type {Record<string, {name?: string, value?: (value: any) => string}>}
+ */
+const FIGURES = {
+  mode: { name: "driver", value: (mode) => (mode === "manual" ? "you" : "itself") },
+  queue: { name: "next moves", value: (moves) => listed(moves, (/** @type {Move} */ move) => MOVES[move]?.name ?? plain(move)) },
+  playback_speed: { value: (pace) => (pace === "max" ? "max" : `${pace}×`) },
+  planner: { value: plannerName },
+  preferences: { value: (wishes) => listed(wishes, plain) },
+  columns: { name: "lanes" },
+  rows: { name: "length", value: (rows) => `${rows} rows` },
+  step_seconds: { name: "time of a tick", value: (seconds) => `${seconds} s` },
+};
+
+/**
+ * A change in words: `config.preferences` from `[]` to `["smooth_ride"]` is "preferences", "none" and "smooth ride".
+ * @param {Change} change
+ * @returns {{name: string, before: string, after: string}}
+ */
+export function changeWords({ path, before, after }) {
+  const key = path.replace("config.", "");
+  const figure = FIGURES[key] ?? {};
+  const said = (/** @type {unknown} */ value) => (figure.value && value !== null && value !== undefined ? figure.value(value) : valueWords(value));
+  return { name: figure.name ?? plain(key), before: said(before), after: said(after) };
+}
+
+/**
+ * A value as text; null is a setting that nobody has chosen.
  * @param {unknown} value
+ * @returns {string}
  */
 export function valueWords(value) {
-  if (value === null || value === undefined) return "none";
+  if (value === null || value === undefined) return "not set";
   if (value === true) return "on";
   if (value === false) return "off";
+  if (Array.isArray(value)) return listed(value, valueWords);
   if (typeof value === "object") return JSON.stringify(value);
-  return String(value).replaceAll("_", " ");
+  return String(value).replaceAll("_", " "); // a point belongs to its number
+}
+
+/** @param {any[]} values @param {(value: any) => string} words */
+function listed(values, words) {
+  return values.map(words).join(", ") || "none";
 }
 
 /** @param {number | null} fraction */

@@ -3,7 +3,7 @@
 
 import { make } from "../dom.js";
 import { changesOf } from "../talk.js";
-import { markWords, plain, valueWords } from "../words.js";
+import { changeWords, markWords } from "../words.js";
 import { answerElement } from "./answer.js";
 
 /** @import { Page } from "../main.js" */
@@ -44,8 +44,9 @@ function resultParts(result, page, undos, taken) {
   // A thing moved changes no figure, and can be taken back all the same.
   if (changes.length > 0 || undos > 0 || taken) {
     const list = make("ul", { class: "changes", "aria-label": "What changed" });
-    const onRoad = changes.filter(({ path }) => !isSetting(path));
-    const settings = changes.filter(({ path }) => isSetting(path));
+    // Settings stand behind what is on the road; one that changes alone is what the sentence was about.
+    const onRoad = changes.length === 1 ? changes : changes.filter(({ path }) => !isSetting(path));
+    const settings = changes.filter((change) => !onRoad.includes(change));
     list.append(...onRoad.map(changeElement));
     if (undos > 0) list.append(make("li", { class: "change-undo" }, undoButton(undos, page)));
     if (taken) list.append(make("li", { class: "change-taken" }, "taken back"));
@@ -82,14 +83,15 @@ function isSetting(path) {
 }
 
 /** @param {Change} change */
-function changeElement({ path, before, after }) {
+function changeElement(change) {
+  const { name, before, after } = changeWords(change);
   return make(
     "li",
     { class: "change" },
-    `${plain(path.replace("config.", ""))} `,
-    make("span", { class: "before" }, valueWords(before)),
+    `${name} `,
+    make("span", { class: "before" }, before),
     " → ",
-    make("span", { class: "after" }, valueWords(after)),
+    make("span", { class: "after" }, after),
   );
 }
 
