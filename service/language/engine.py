@@ -14,35 +14,28 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from pydantic import ValidationError
-
-from service.actions import Action, dump, load
+from service.actions import Action, dump
 from service.language.capture import names
-from service.language.clauses import Clause, Divided, Divider, Fragment, fragments
 from service.language.data import LanguageData, LanguageDataError, read_language
-from service.language.lattice import GLUE, Lattice, Name, Scanner
+from service.language.lattice import Lattice, Name, Scanner
 from service.language.linter import defects, flaws
 from service.language.matching import Frames
-from service.language.noun_phrases import NOUN, QUANTITY, Amount, add_noun_phrases
-from service.language.parse_types import Ambiguous, Choice, Correction, Parse, Reason, Refused, Understood
-from service.language.paths import ALLOWS, SEPARATOR
-from service.language.references import Unclear, add_known, add_referents
+from service.language.noun_phrases import NOUN
+from service.language.parse_types import Ambiguous, Choice, Correction, Parse, Refused, Understood
+from service.language.paths import SEPARATOR
+from service.language.reading import Reading, content_of
+from service.language.references import add_known
 from service.language.remembered import Remembered
 from service.language.repairs import Repaired
-from service.language.sentences import Sentences, Unsayable
+from service.language.sentences import Sentences
 from service.language.suggestions import Suggestions
 from service.language.tokens import Token, as_said, normalise, renamed, tokenise
 from service.language.topic import ALONE, Phrases, Topic
 from service.language.typos import Typos
-from service.language.wrappers import read_all
 from service.resources import prompts_folder
-from sim.actions import Add, Remove
 
 MAX_TOKENS = 300
 """Longer utterances are refused unread: the service caps text at 500 characters anyway."""
-
-MAX_UNPARSED = 8
-"""How many stretches not understood a refusal names."""
 
 
 class Language:
@@ -99,7 +92,7 @@ class Language:
             readings = repaired.readings(lambda each: self.read(each, topic, asking=False))
             if readings is not None and not lattice.uncovered():
                 return self._put_right(text, repaired.phrase, readings, lattice, asking=asking)
-        return _Reading(self, text, plain, tokens, lattice, corrections, topic).parse(asking=asking)
+        return Reading(self, text, plain, tokens, lattice, corrections, topic).parse(asking=asking)
 
     def _put_right(
         self, text: str, phrase: str, readings: list[Choice], lattice: Lattice, *, asking: bool
@@ -110,7 +103,7 @@ class Language:
         if asking and readings:
             return Ambiguous(text, self.data.messages["which"], tuple(readings))
         message = self.data.messages["not_understood"].format(phrases=f'"{phrase}"')
-        suggestions = self.suggestions.nearest(text, _content(lattice))
+        suggestions = self.suggestions.nearest(text, content_of(lattice))
         return Refused(text, "not_understood", message, (phrase,), (), suggestions)
 
     def sentence(self, actions: Sequence[Action]) -> str:
@@ -213,229 +206,4 @@ class Language:
         """The content concepts that occur in a text."""
         plain = normalise(text)
         tokens = tokenise(plain, self.data.contractions)
-        return _content(self._scanner.scan(tokens, {}))
-
-
-def _content(lattice: Lattice) -> frozenset[str]:
-    """The concepts of a sentence that say what it is about."""
-    return frozenset(
-        f"{edge.sense.concept}={edge.sense.value}"
-        if isinstance(edge.sense.value, str)
-        else edge.sense.concept
-        for edge in lattice.all()
-        if edge.sense.concept not in (GLUE, SEPARATOR, QUANTITY, ALLOWS)
-    )
-
-
-def _once(clauses: Sequence[Clause]) -> list[dict[str, Any]]:
-    """All actions, without what is only said again for emphasis: "stop, hold on" pauses once."""
-    values: list[dict[str, Any]] = []
-    for clause in clauses:
-        again = bool(values) and clause.after in _EMPHASIS and clause.actions == values[-1:]
-        if not (again and clause.actions[0]["do"] in _STEADY):
-            values += clause.actions
-    return values
-
-
-_STEADY = ("pause", "resume")
-"""Actions that make no difference the second time."""
-
-_EMPHASIS = ("pause", "stop", "and")
-"""Separators after which they may be said again for emphasis; "pause, then pause" is two."""
-
-
-class _Reading:
-    """One utterance on its way through the engine."""
-
-    def __init__(
-        self,
-        language: Language,
-        text: str,
-        plain: str,
-        tokens: list[Token],
-        lattice: Lattice,
-        corrections: tuple[Correction, ...],
-        topic: Topic,
-    ) -> None:
-        self._language = language
-        self._topic = topic
-        self._unclear: list[Unclear] = []
-        self._messages = language.data.messages
-        self._text = text
-        self._plain = plain
-        self._tokens = tokens
-        self._lattice = lattice
-        self._corrections = corrections
-
-    def parse(self, *, asking: bool) -> Parse:
-        """The whole utterance."""
-        unknown = self._lattice.uncovered()
-        if unknown:
-            return self._refused(self._stretches(unknown), ())
-        add_noun_phrases(self._lattice, self._language.data.vague)
-        self._unclear = add_referents(self._lattice, self._topic)
-        divided = read_all(self._lattice, 0, self._lattice.size, self._divide)
-        if isinstance(divided, Fragment):
-            return self._refused([self._written(divided.start, divided.end)], (), asking=asking)
-        clauses = divided.clauses
-        if divided.failed is not None or not clauses:
-            return self._refused_after(divided, asking=asking)
-        question = next(
-            (clause for clause in clauses if clause.filled.frame.ask and not clause.negated), None
-        )
-        if question is not None:
-            return self._asked(question) if asking else self._refused([self._plain], ())
-        values = _once(clauses)
-        if not values:
-            return self._refusal("negation", self._messages["negation"])
-        try:
-            actions = load(values)
-        except ValidationError:
-            return self._impossible(clauses)
-        if self._topic.removed and clauses[0].leans:
-            return self._more_of_what(actions) if asking else self._refused([self._plain], ())
-        supposes = next((each.supposes for each in clauses if each.actions and each.supposes), None)
-        return Understood(self._text, actions, self._corrections, supposes)
-
-    def _divide(self, start: int, end: int, moods: frozenset[str]) -> Divided:
-        """The clauses of tokens `[start, end)`, with these forms in place."""
-        divider = Divider(self._language.frames, self._lattice, self._language.data.vague, moods)
-        return divider.divide(fragments(self._lattice, start, end), None if start else self._topic.kind)
-
-    def _more_of_what(self, actions: tuple[Action, ...]) -> Parse:
-        """The question after "two more" when the last amount was taken away."""
-        first = actions[0]
-        if not isinstance(first, Add):
-            return self._refused([self._plain], ())
-        away = Remove(kind=first.kind, count=first.count, where=first.where)
-        try:
-            choices = tuple(
-                Choice(self._language.sentence(each), each) for each in ((away, *actions[1:]), actions)
-            )
-        except Unsayable:  # a language that says nothing back has no sentences to choose from
-            return self._refused([self._plain], ())
-        return Ambiguous(self._text, self._messages["more_of_what"], choices)
-
-    def _which(self) -> Parse | None:
-        """The question about a reference to one of several things, or the refusal of one to nothing."""
-        for unclear in self._unclear:
-            lanes = self._language.data.lanes
-            tried = unclear.candidates or (lanes if unclear.lane else ("vehicle-1",))
-            choices: list[Choice] = []
-            for candidate in tried:
-                parsed = self._language.read(self._instead(unclear, candidate), self._topic, asking=False)
-                if isinstance(parsed, Understood) and all(c.actions != parsed.actions for c in choices):
-                    choices.append(Choice(parsed.text.strip(), parsed.actions))
-            if len(choices) > 1:
-                return Ambiguous(self._text, self._messages["which"], tuple(choices))
-            if choices:
-                phrase = self._written(unclear.start, unclear.end)
-                return self._refusal(
-                    "not_understood", self._messages["no_referent"].format(phrase=phrase), (phrase,)
-                )
-        return None
-
-    def _instead(self, unclear: Unclear, phrase: str) -> str:
-        """The whole text with a reference replaced by what it may mean."""
-        start, end = self._tokens[unclear.start].start, self._tokens[unclear.end - 1].end
-        return self._plain[:start] + phrase + self._plain[end:]
-
-    def _asked(self, clause: Clause) -> Parse:
-        """The question of an ambiguous clause; each choice is the whole utterance with it replaced."""
-        ask = clause.filled.frame.ask
-        if ask is None:
-            return self._refused([self._plain], ())
-        said: dict[str, str] = {}
-        for edge in clause.filled.slots:
-            written = self._written(edge.start, edge.end)
-            said[edge.sense.concept.partition(".")[0]] = written
-            if isinstance(edge.sense.value, Amount):
-                noun = self._tokens[edge.end - 1]
-                said["noun"] = self._plain[noun.start : noun.end]
-        start, end = self._tokens[clause.start].start, self._tokens[clause.end - 1].end
-        choices: list[Choice] = []
-        for template in ask.choices:
-            try:
-                sentence = template.format_map(said)
-            except KeyError:
-                continue
-            whole = self._plain[:start] + sentence + self._plain[end:]
-            parsed = self._language.read(whole, self._topic, asking=False)
-            if isinstance(parsed, Understood) and all(c.actions != parsed.actions for c in choices):
-                choices.append(Choice(whole.strip(), parsed.actions))
-        if len(choices) < 2:
-            return self._refused([self._written(clause.start, clause.end)], ())
-        return Ambiguous(self._text, ask.question, tuple(choices))
-
-    def _impossible(self, clauses: Sequence[Clause]) -> Refused:
-        """The refusal of actions whose values cannot be."""
-        for clause in clauses:
-            try:
-                load(clause.actions)
-            except ValidationError:
-                phrase = self._written(clause.start, clause.end)
-                return self._refusal(
-                    "impossible", self._messages["impossible"].format(phrase=phrase), (phrase,)
-                )
-        return self._refusal("impossible", self._messages["impossible"].format(phrase=self._text))
-
-    def _refused_after(self, divided: Divided, *, asking: bool) -> Parse:
-        """The refusal of a sentence of known words that make no request; or a question about one of them."""
-        understood = tuple(self._written(clause.start, clause.end) for clause in divided.clauses)
-        part = divided.failed
-        if part is None:
-            return self._refused([self._plain.strip()], understood)
-        failed = self._written(part.start, part.end)
-        if any(_impossible_number(edge.sense.value) for edge in self._lattice.between(part.start, part.end)):
-            return self._refusal("impossible", self._messages["impossible"].format(phrase=failed), (failed,))
-        return self._refused([failed], understood, asking=asking)
-
-    def _refused(self, unparsed: list[str], understood: tuple[str, ...], *, asking: bool = False) -> Parse:
-        if asking and (which := self._which()) is not None:
-            return which
-        shown = unparsed[:MAX_UNPARSED]
-        quoted = self._messages["and"].join(f'"{_shortened(phrase)}"' for phrase in shown)
-        message = self._messages["not_understood"].format(phrases=quoted)
-        return self._refusal("not_understood", message, tuple(shown), understood)
-
-    def _refusal(
-        self,
-        reason: Reason,
-        message: str,
-        unparsed: tuple[str, ...] = (),
-        understood: tuple[str, ...] = (),
-    ) -> Refused:
-        suggestions = self._language.suggestions.nearest(self._plain, _content(self._lattice))
-        return Refused(self._text, reason, message, unparsed, understood, suggestions)
-
-    def _stretches(self, unknown: list[int]) -> list[str]:
-        """The stretches with unknown words; unknown words with only glue between them are one."""
-        stretches: list[tuple[int, int]] = []
-        for at in unknown:
-            if stretches and self._only_glue(stretches[-1][1], at):
-                stretches[-1] = (stretches[-1][0], at + 1)
-            else:
-                stretches.append((at, at + 1))
-        return [self._written(start, end) for start, end in stretches]
-
-    def _only_glue(self, start: int, end: int) -> bool:
-        return all(
-            any(edge.sense.concept == GLUE for edge in self._lattice.edges[at]) for at in range(start, end)
-        )
-
-    def _written(self, start: int, end: int) -> str:
-        """Tokens `[start, end)` as they stand in the text."""
-        if not self._tokens:
-            return ""
-        first = min(start, len(self._tokens) - 1)
-        last = max(min(end, len(self._tokens)) - 1, first)
-        return self._plain[self._tokens[first].start : self._tokens[last].end]
-
-
-def _impossible_number(value: object) -> bool:
-    """Whether a value is a number that no count or place can be: negative."""
-    return isinstance(value, int | float) and value < 0
-
-
-def _shortened(phrase: str, limit: int = 80) -> str:
-    return phrase if len(phrase) <= limit else phrase[: limit - 1] + "…"
+        return content_of(self._scanner.scan(tokens, {}))

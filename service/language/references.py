@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, replace
 
 from service.actions import dump
-from service.language.clauses import REPEATED
+from service.language.fragments import REPEATED
 from service.language.lattice import Edge, Lattice
 from service.language.lexicon import Sense
 from service.language.noun_phrases import Amount

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from service.language.clauses import STOP, Clause, Divided, Fragment
+from service.language.clauses import Clause, Divided
+from service.language.fragments import STOP, Fragment
 from service.language.frames import Filled, Frame
 from service.language.lattice import GLUE, NAME, Edge, Lattice
 from service.language.paths import SEPARATOR
