@@ -50,9 +50,9 @@ test("a change is one loud line and its own event is not repeated, now or after 
     state: wireState(),
   };
   const log = logChange([], message);
-  assert.deepEqual(log.map(({ tone, text }) => [tone, text]), [
-    ["change", "“add five potholes” Added 5 potholes."],
-    ["event", "vehicle-1 is disabled."],
+  assert.deepEqual(log.map(({ tone, said, text }) => [tone, said, text]), [
+    ["change", "add five potholes", "Added 5 potholes."],
+    ["event", undefined, "vehicle-1 is disabled."],
   ]);
   assert.equal(logEvents(log, [edited, disabled]), log);
 });

@@ -16,6 +16,7 @@
  * @property {number} from  the first tick the line speaks of
  * @property {number} to  the last
  * @property {string} text
+ * @property {string} [said]  the words that brought it about
  * @property {number} number  of the event in the session's log; 0 when it has none
  */
 
@@ -80,7 +81,8 @@ export function logChange(log, message) {
     type: "change",
     from: tick,
     to: tick,
-    text: message.text ? `“${message.text}” ${message.reply}` : message.reply,
+    text: message.reply,
+    ...(message.text ? { said: message.text } : {}),
     number,
   };
   return trimmed([...log, line, ...others]);

@@ -127,13 +127,19 @@ function keys(page) {
     const doing = act.keyName ? act.now(page.state()) : null;
     return doing && act.keyName ? [[act.keyName, doing.label]] : [];
   });
-  const seen = new Set();
-  const rows = [...MORE_KEYS, ...acts].filter(([key]) => !seen.has(key) && seen.add(key));
+  /** @type {Map<string, string[]>} what can be done → the keys that do it */
+  const rows = new Map();
+  const taken = new Set();
+  for (const [key, what] of [...MORE_KEYS, ...acts]) {
+    if (taken.has(key)) continue;
+    taken.add(key);
+    rows.set(what, [...(rows.get(what) ?? []), key]);
+  }
   return make(
     "section",
     { class: "help-keys", "aria-label": "Keys" },
     make("h3", {}, "Keys"),
-    make("dl", {}, ...rows.map(([key, what]) => make("div", {}, make("dt", {}, make("kbd", {}, key)), make("dd", {}, what)))),
+    make("dl", {}, ...[...rows].map(([what, keys]) => make("div", {}, make("dt", {}, ...keys.map((key) => make("kbd", {}, key))), make("dd", {}, what)))),
   );
 }
 

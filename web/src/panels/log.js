@@ -71,7 +71,7 @@ function rowOf(line) {
     "li",
     { class: "log-line", "data-tone": line.tone, "data-type": line.type },
     make("span", { class: "log-tick" }, ticks(line)),
-    make("span", { class: "log-text" }, line.text),
+    make("span", { class: "log-text" }, line.said && make("span", { class: "log-said" }, `“${line.said}” `), line.text),
   );
 }
 

@@ -85,7 +85,9 @@ export function createMetrics(host, page) {
     const latest = book.items.get(tick - 1);
     const [risk, regret] = charts;
     setText(risk.told, latest ? `${latest.blocked} of 6 blocked` : "–");
-    setText(regret.told, failed || (known === 0 ? "–" : lost ? "the road was lost" : `${ticksWords(ticks)} lost in ${known}`));
+    // A lost connection is told once, at the top of the page; what was known stays.
+    const trouble = newest?.connection.phase === "live" ? failed : "";
+    setText(regret.told, trouble || (known === 0 ? "–" : lost ? "the road was lost" : `${ticksWords(ticks)} lost in ${known}`));
     risk.canvas.setAttribute("aria-label", `Moves blocked, of six, at each of the last ${WINDOW} ticks; at the latest ${risk.told.textContent}`);
     regret.canvas.setAttribute("aria-label", `Ticks lost against the best possible drive; ${regret.told.textContent}`);
   }

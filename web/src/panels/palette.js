@@ -115,14 +115,17 @@ export function createPalette(dialog, page) {
   return { acts: [opens] };
 }
 
-/** @param {Page} page @returns {Entry[]} */
+/** What two keys do stands here once. @param {Page} page @returns {Entry[]} */
 function actsNow(page) {
   const acts = page.acts().flatMap((act) => {
     const doing = act.now(page.state());
     return doing ? [{ label: doing.label, group: act.group, key: act.keyName, run: () => perform(act, page) }] : [];
   });
   const groups = [...new Set(acts.map(({ group }) => group))];
-  return groups.flatMap((group) => acts.filter((act) => act.group === group));
+  return groups.flatMap((group) => {
+    const own = acts.filter((act) => act.group === group);
+    return own.filter(({ label }, at) => own.findIndex((act) => act.label === label) === at);
+  });
 }
 
 /**

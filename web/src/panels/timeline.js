@@ -39,7 +39,7 @@ export function createTimeline(host, page, looking) {
   const kinds = make(
     "select",
     { class: "line-kinds", "aria-label": "Jump between" },
-    ...JUMPS.map(({ name, label }) => make("option", { value: name }, label)),
+    ...JUMPS.map(({ name, label }) => make("option", { value: name }, name === "any" ? `any ${label}` : label)),
   );
   const note = make("span", { class: "line-note", hidden: true });
   const jumpers = make("div", { class: "jumps", role: "group", "aria-label": "Jump along the run" }, jumper(-1), kinds, jumper(1));
