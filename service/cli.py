@@ -62,14 +62,22 @@ def _options(
         raise typer.Exit
 
 
+def _default(setting: str) -> str:
+    """A setting's default, for help: the option itself has none, so that the environment is heard."""
+    return str(Settings.model_fields[setting].default)
+
+
 @cli.command()
 def serve(
-    host: Annotated[str | None, typer.Option(help="Address to listen on. [default: 127.0.0.1]")] = None,
+    host: Annotated[
+        str | None, typer.Option(help="Address to listen on.", show_default=_default("host"))
+    ] = None,
     port: Annotated[
-        int | None, typer.Option(help="Port to listen on; 0 takes a free one. [default: 8000]")
+        int | None,
+        typer.Option(help="Port to listen on; 0 takes a free one.", show_default=_default("port")),
     ] = None,
     database: Annotated[
-        str | None, typer.Option(help="Where sessions are kept. [default: sqlite:///roadtalk.db]")
+        str | None, typer.Option(help="Where sessions are kept.", show_default=_default("database"))
     ] = None,
     workers: Annotated[
         int | None, typer.Option(help="Only 1: several would each hold some of the sessions.")
@@ -77,8 +85,9 @@ def serve(
 ) -> None:
     """Run the service and its page until it is told to stop (Ctrl-C).
 
-    Options win over the environment (ROADTALK_HOST, ROADTALK_PORT, ROADTALK_DATABASE). It is one
-    process on purpose: several would each hold some of the sessions.
+    Options win over the environment (ROADTALK_HOST, ROADTALK_PORT,
+    ROADTALK_DATABASE). It is one process on purpose: several would each
+    hold some of the sessions.
 
     Example: roadtalk serve --port 9000
     """

@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import doctest
+import json
 import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
 from typing import Any
 
+import httpx
 import pytest
 
+from service.cli import cli
 from service.settings import Settings
 from sim.plan.checker import check
-from tests.browser.service_process import ServiceProcess
+from tests.browser.service_process import PATIENCE_S, ServiceProcess
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -50,9 +54,77 @@ def test_every_command_named_is_a_target_of_make() -> None:
     assert {"run", "test", "setup", "check", "bench"} <= named <= targets
 
 
-@pytest.mark.parametrize("link", re.findall(r"\]\(([^)#:]+)\)", README))
-def test_every_link_leads_to_a_file(link: str) -> None:
-    assert (ROOT / link).is_file()
+def readmes() -> list[Path]:
+    """Every README of the project, and none of what was set up beside it."""
+    folders = ("", "bench", "prompts", "service", "sim", "web")
+    found = {path for folder in folders[1:] for path in (ROOT / folder).rglob("README.md")}
+    return [ROOT / "README.md", *sorted(found)]
+
+
+def named(path: Path) -> str:
+    return str(path.relative_to(ROOT))
+
+
+def headings(path: Path) -> set[str]:
+    """As a link names them."""
+    text = re.sub(r"```.*?```", "", path.read_text(encoding="utf-8"), flags=re.DOTALL)
+    found = re.findall(r"^#+ (.*)$", text, re.MULTILINE)
+    return {re.sub(r"[^\w -]", "", heading).strip().lower().replace(" ", "-") for heading in found}
+
+
+@pytest.mark.parametrize("path", readmes(), ids=named)
+def test_every_link_leads_to_a_file_and_its_heading(path: Path) -> None:
+    for link in re.findall(r"\]\(([^):]+)\)", path.read_text(encoding="utf-8")):
+        file, _, heading = link.partition("#")
+        target = (path.parent / file) if file else path
+        assert target.is_file(), link
+        assert not heading or heading in headings(target), link
+
+
+@pytest.mark.parametrize("name", ["service", "service/language", "service/llm", "sim", "bench"])
+def test_every_file_in_a_table_of_files_is_there(name: str) -> None:
+    """The first column names files and folders; after `sessions/draft`, `history` is in `sessions` as well."""
+    text = (ROOT / name / "README.md").read_text(encoding="utf-8")
+    table = text[text.index("\n| ") :].split("\n\n")[0]
+    missing = []
+    for row in re.findall(r"^\| (`[^|]*`) \|", table, re.MULTILINE):
+        folder = ROOT / name
+        for file in re.findall(r"`([^`]+)`", row):
+            if "/" in file.rstrip("/"):
+                folder = ROOT / name / file.rpartition("/")[0]
+            place = folder / file.rpartition("/")[2] if not file.endswith("/") else ROOT / name / file
+            if not (place.is_dir() or place.with_suffix(".py").is_file()):
+                missing.append(file)
+    assert missing == []
+
+
+def test_every_command_of_roadtalk_that_is_named_is_there() -> None:
+    names = {
+        command.name or command.callback.__name__ for command in cli.registered_commands if command.callback
+    }
+    told = "\n".join(path.read_text(encoding="utf-8") for path in readmes())
+    assert (
+        {"play", "say", "serve", "watch"}
+        <= set(re.findall(r"(?:`|^)roadtalk ([a-z-]+)", told, re.MULTILINE))
+        <= names
+    )
+
+
+def test_what_a_shell_is_to_say_is_understood(tmp_path: Path) -> None:
+    service = ServiceProcess(tmp_path / "readme.db")
+    service.start()
+    try:
+        made, said = re.findall(r"curl --json '(.*)' \$api(\S+)", block("sh", 3))
+        http = httpx.Client(base_url=f"{service.url}/api/v1", timeout=PATIENCE_S)
+        identity = http.post(made[1], json=json.loads(made[0])).raise_for_status().json()["id"]
+        http.post(said[1].replace("<id>", identity), json=json.loads(said[0])).raise_for_status()
+        http.close()
+        for line in block("sh", 2).replace("--ticks 20", "--ticks 2").splitlines():
+            asked = [sys.executable, "-m", "service", *shlex.split(line)[1:], "--url", service.url]
+            done = subprocess.run(asked, cwd=ROOT, capture_output=True, text=True, check=True)
+            assert done.stdout
+    finally:
+        service.kill()
 
 
 def test_the_planner_shown_keeps_its_promises() -> None:

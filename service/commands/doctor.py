@@ -56,8 +56,8 @@ STYLES = {"ok": "green", "fault": "bold red", "note": "yellow"}
 def doctor() -> None:
     """Check that the service can run here. Exits with 1 when something is wrong.
 
-    Looks at Python, packages, settings, database, port, words, language model, pictures, a display for the
-    window and, for the tests, Chromium.
+    Looks at Python, packages, settings, database, port, words, language
+    model, pictures, a display for the window and, for the tests, Chromium.
 
     Example: roadtalk doctor
     """

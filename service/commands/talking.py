@@ -39,8 +39,9 @@ def say(
 ) -> None:
     """Say something to a session and print the reply. Exits with 1 when it is refused.
 
-    Where several things may be meant, they are listed; in a terminal one of them can be chosen. Of several
-    lines, those before the one that is refused are done, and none after it.
+    Where several things may be meant, they are listed; in a terminal one
+    of them can be chosen. Of several lines, those before the one that is
+    refused are done, and none after it.
 
     Example: roadtalk say "add five potholes"
     """

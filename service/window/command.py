@@ -28,11 +28,13 @@ def play(
         int | None, typer.Option(min=0, help="How many potholes; asked for in the window if not given.")
     ] = None,
     obstacles: Annotated[int | None, typer.Option(min=0, help="How many obstacle vehicles.")] = None,
-    seed: Annotated[int | None, typer.Option(min=0, help="The road's seed. [default: a new one]")] = None,
+    seed: Annotated[
+        int | None, typer.Option(min=0, help="The road's seed.", show_default="a new one")
+    ] = None,
     scenario: Annotated[
         str | None, typer.Option(help='The road in a sentence: "a highway with 10 potholes".')
     ] = None,
-    planner: Annotated[str | None, typer.Option(help="Who decides. [default: priority]")] = None,
+    planner: Annotated[str | None, typer.Option(help="Who decides.", show_default="priority")] = None,
     size: Annotated[str, typer.Option(help="Width and height of the window in pixels.")] = SIZE,
 ) -> None:
     """Open the road in a window: drive, watch it drive, talk to it. No service is needed.
