@@ -83,7 +83,7 @@ def test_every_link_leads_to_a_file_and_its_heading(path: Path) -> None:
 
 @pytest.mark.parametrize("name", ["service", "service/language", "service/llm", "sim", "bench"])
 def test_every_file_in_a_table_of_files_is_there(name: str) -> None:
-    """The first column names files and folders; after `sessions/draft`, `history` is in `sessions` as well."""
+    """The first column names files and folders; after `sessions/draft`, `history` is in `sessions`, too."""
     text = (ROOT / name / "README.md").read_text(encoding="utf-8")
     table = text[text.index("\n| ") :].split("\n\n")[0]
     missing = []
