@@ -15,7 +15,6 @@ from struct import Struct, pack
 from sim.kinds import PLACEABLE, Cell, Kind, Outcome
 from sim.road import Board, Road, bits
 
-AV_ID = "av-1"
 _OUTCOMES = {outcome: number for number, outcome in enumerate(Outcome)}
 _HEAD = Struct("<IIQQQqBH").pack
 _KINDS = {kind.value: kind for kind in Kind}

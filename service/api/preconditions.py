@@ -25,9 +25,6 @@ from service.sessions.terms import Terms
 from service.sessions.utterance import Outcome
 from service.store import KeptAnswer
 
-CHANGING = ("POST", "PATCH", "DELETE")
-"""Methods that may change something."""
-
 _TAG = re.compile(r'(W/)?"([\x21\x23-\x7e]*)"')
 _BLANK = " \t"
 """What HTTP calls white space: less than a text does."""

@@ -12,10 +12,10 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from service.actions import Action
 from service.api.bodies import Tick
-from service.api.shapes import Answered, CellPair, LogEvent, PlaybackSpeed
+from service.api.shapes import Answered, LogEvent, PlaybackSpeed
 from service.api.shapes import Decision as Decision
 from service.api.shapes import State as State
-from sim.kinds import Kind, Mode, Outcome
+from sim.kinds import Mode, Outcome
 
 
 class Parent(Answered):
@@ -223,15 +223,6 @@ class Parsed(Answered):
     actions: list[Action]
     source: Literal["grammar", "llm"]
     corrections: list[Correction]
-
-
-class AnswerCause(Answered):
-    """One thing a decision hangs on."""
-
-    id: str
-    kind: Kind
-    cell: CellPair
-    role: str
 
 
 class Verified(Answered):

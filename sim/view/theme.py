@@ -87,7 +87,6 @@ ZERO: Final[Colour] = (74, 80, 90)
 ON_KIND: Final[Colour] = (16, 18, 22)
 """writing on the colour of a kind"""
 REFUSED: Final[Colour] = (240, 108, 98)
-EXPECTED: Final[Colour] = (150, 160, 176)
 LINES: Final[dict[str, Colour]] = {
     "crashed": OUTCOMES["crash"],
     "failed": OUTCOMES["crash"],
