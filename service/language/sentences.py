@@ -51,6 +51,9 @@ _EXCLUSIVE = (
 )
 """Parts of a place that contradict each other when said together."""
 
+_FULL_SPEED = ("playback_speed", "max")
+"""The one number that may also be a word."""
+
 _KEPT_APART = (Teach, Forget)
 
 
@@ -184,16 +187,22 @@ class Sentences:
         return said
 
     def _set(self, action: Set) -> str:
-        value = action.value
+        value, parameter = action.value, action.parameter
+        named = parameter in self._words["values"]
+        if named is not isinstance(value, str) and (parameter, value) != _FULL_SPEED:
+            raise Unsayable(f"{value!r} is no value of {parameter}")
         if not isinstance(value, str):
             told = number(value)
-        elif action.parameter == "traffic":
+        elif parameter == "traffic":
+            self._value(parameter, value)
             told = value
         else:
-            told = self._value(action.parameter, value)
-        return self._say("set", parameter=self._word("parameters", action.parameter), value=told)
+            told = self._value(parameter, value)
+        return self._say("set", parameter=self._word("parameters", parameter), value=told)
 
     def _adjust(self, action: Adjust) -> str:
+        if action.parameter in self._words["values"]:
+            raise Unsayable(f"{action.parameter} has no more or less")
         parameter = self._word("parameters", action.parameter)
         if action.factor is not None:
             return self._say("adjust_factor", parameter=parameter, value=number(action.factor))
@@ -248,7 +257,12 @@ class Sentences:
         return {"count": count, "things": self._entry("things", kind)[0 if count == 1 else 1]}
 
     def _value(self, key: str, value: str) -> str:
-        return str(self._words["values"].get(key, {}).get(value, value))
+        words = self._words["values"].get(key)
+        if words is None:
+            return value
+        if value not in words:
+            raise Unsayable(f"{value!r} is no value of {key}")
+        return str(words[value])
 
     def _word(self, section: str, key: Any) -> str:
         return str(self._entry(section, key))

@@ -56,7 +56,9 @@ class Replies:
             case Undone():
                 key = "redo" if fact.again else "undo"
                 told = self._diff(fact.changes)
-                return self._say(key, diff=told) if told else self._say(f"{key}_plain")
+                said = self._say(key, diff=told) if told else self._say(f"{key}_plain")
+                clock = [change.after for change in fact.changes if change.path == "paused"]
+                return f"{said} {self._say('pause' if clock[0] else 'resume')}" if clock else said
             case Kept(name=name, tick=tick, again=again):
                 return self._say("saved_again" if again else "saved", name=name, tick=tick)
             case Went(name=name, tick=tick):
@@ -168,7 +170,7 @@ class Replies:
         told = [
             self._say("diff", path=change.path, before=change.before, after=change.after)
             for change in changes
-            if isinstance(change.before, int) and not change.path.startswith("config.")
+            if type(change.before) is int and not change.path.startswith("config.")
         ]
         return ", ".join(told)
 

@@ -258,12 +258,15 @@ class Draft:
         else:
             self.timeline = step.jump.after.copy()
             self._jumped = True
-        if self.paused == step.paused_before:
+        paused = self.paused
+        if paused == step.paused_before:
             self.paused = step.paused_after
         self._open = _Mark(self.timeline.copy(), self.paused, kept)
         changes = differences(before, self.timeline.run)
         if before.world.tick != self.timeline.tick:
             changes = (Change("tick", before.world.tick, self.timeline.tick), *changes)
+        if paused != self.paused:
+            changes = (*changes, Change("paused", paused, self.paused))
         return Undone(again, changes)
 
 

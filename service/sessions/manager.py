@@ -27,13 +27,13 @@ from service.problems import (
     TooManySessions,
     UnknownSession,
 )
-from service.sessions.draft import check_ticks
+from service.sessions.draft import Draft, check_ticks
 from service.sessions.forking import way_of
 from service.sessions.keeping import Keeper
 from service.sessions.pace import NORMAL
 from service.sessions.replaying import ReplayError, repeat, replay
 from service.sessions.saved import with_names
-from service.sessions.session import Session, Surroundings
+from service.sessions.session import CHANGES_NOTHING, Session, Surroundings
 from service.sessions.sleeping import Idleness, Sleeper
 from service.sessions.terms import ANY_TERMS, Terms
 from service.sessions.waking import woken
@@ -181,6 +181,10 @@ class SessionManager:
             session.mixed = {each["sequence"] for each in way.branch.instead}
             said = [] if pace == NORMAL else [(Set(parameter="playback_speed", value=pace),)]
             entries: list[EntryRecord] = []
+            if all(isinstance(action, CHANGES_NOTHING) for action in actions):
+                draft = Draft(session.timeline, session.paused, session.history, session.pace)
+                draft.perform(session.sequence + 1, actions)  # possible, and nothing to be kept, as ever
+                actions = ()
             for each in (*said, *((actions,) if actions else ())):
                 entries.append(
                     EntryRecord(

@@ -28,6 +28,11 @@ def test_what_the_language_says_of_itself_is_understood(language: Language) -> N
         [{"do": "remove", "kind": "everything", "count": 3}],
         [{"do": "remove", "kind": "pothole", "count": 1, "where": {"id": "vehicle-2"}}],
         [{"do": "add", "kind": "pothole", "count": 1, "where": {"cell": [1, 2], "lane": 3}}],
+        [{"do": "adjust", "parameter": "traffic", "direction": "up"}],
+        [{"do": "adjust", "parameter": "planner", "factor": 2.0}],
+        [{"do": "set", "parameter": "planner", "value": "exact"}],
+        [{"do": "set", "parameter": "weather", "value": 5}],
+        [{"do": "set", "parameter": "columns", "value": "many"}],
     ],
 )
 def test_what_no_sentence_means_is_not_said(language: Language, actions: list[dict[str, object]]) -> None:

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from service import actions as contract
 from service.api.links import MOST_CARRIED, Named, opened
-from service.problems import DoesNotFit, Invalid, NotSaved, ProblemError
+from service.problems import DoesNotFit, Invalid, NotAvailable, NotSaved, ProblemError
 from service.sessions.replaying import replay
 from service.sessions.session import Session
 from service.store import EntryRecord, MemoryStore, StoreError
@@ -93,6 +93,20 @@ async def test_a_fork_that_cannot_be_changed_so_is_not_made() -> None:
     with pytest.raises(Invalid, match=r"^at_tick: has not come yet: it is tick 3\.$"):
         await service.manager.fork(parent, 4)
     assert (service.manager.live, len(await service.store.newest(10))) == (1, 1)
+
+
+async def test_a_question_to_a_fork_is_no_change_of_it() -> None:
+    """As in any session: it is not counted and not kept."""
+    service = Service()
+    parent = await service.session()
+    service.clock.tick(3)
+    asked = contract.load([{"do": "ask", "about": "why"}, {"do": "show", "view": "plan"}])
+    child = await service.manager.fork(parent, 2, asked)
+    assert child.sequence == 0
+    assert list(await service.store.entries(child.id)) == []
+    unoffered = contract.load([{"do": "ask", "about": "what_if", "change": [{"do": "undo"}]}])
+    with pytest.raises(NotAvailable):
+        await service.manager.fork(parent, 2, unoffered)
 
 
 async def test_a_fork_that_is_not_stored_is_not_made() -> None:
