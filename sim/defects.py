@@ -13,7 +13,7 @@ from sim.commit import commit
 from sim.config import Config
 from sim.judge import collisions, outcome
 from sim.kinds import Cell, Kind, Move, Outcome, kind_of
-from sim.road import Board, bits
+from sim.road import Board, bits, board_of
 from sim.world import World
 
 
@@ -62,10 +62,10 @@ def _of_state(world: World) -> Iterator[Defect]:
     yield from at("pothole_and_barrier", world.potholes & world.barriers & road.all)
     yield from at("mover_in_barrier", world.moving & world.barriers & road.all)
     yield from at("pedestrian_without_heading", world.pedestrians & ~world.moving & road.all)
-    yield from at("no_mover_here", _board(world.movers) & ~world.moving)
-    yield from at("mover_without_id", world.moving & ~_board(world.movers) & road.all)
-    yield from at("no_hazard_here", _board(world.hazards) & ~world.fixed)
-    yield from at("hazard_without_id", world.fixed & ~_board(world.hazards) & road.all)
+    yield from at("no_mover_here", board_of(world.movers) & ~world.moving)
+    yield from at("mover_without_id", world.moving & ~board_of(world.movers) & road.all)
+    yield from at("no_hazard_here", board_of(world.hazards) & ~world.fixed)
+    yield from at("hazard_without_id", world.fixed & ~board_of(world.hazards) & road.all)
     for table, kinds in (
         (world.movers, (Kind.PEDESTRIAN, Kind.VEHICLE)),
         (world.hazards, (Kind.POTHOLE, Kind.BARRIER)),
@@ -120,13 +120,6 @@ def _of_plan(world: World, plan: Iterable[Move], config: Config) -> Iterator[Def
         world = replace(after, outcome=Outcome.RUNNING)
     if not arrived:
         yield Defect("not_at_goal", world.tick, cell=world.road.cell(world.av))
-
-
-def _board(cells: Iterable[int]) -> Board:
-    board = 0
-    for index in cells:
-        board |= 1 << index
-    return board
 
 
 def _names(world: World, index: int) -> tuple[str, ...]:

@@ -8,7 +8,7 @@ step along the road.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import compress
@@ -42,7 +42,7 @@ def cells_of(board: Board) -> list[int]:
     return list(compress(range(board.bit_length()), bin(board)[:1:-1].encode().translate(_FROM_DIGITS)))
 
 
-def board_of(indices: Iterator[int] | list[int] | tuple[int, ...]) -> Board:
+def board_of(indices: Iterable[int]) -> Board:
     """The board holding these cell indices."""
     board = 0
     for index in indices:

@@ -11,11 +11,9 @@ from sim.actions import Add, Adjust, Drive, Prefer, Remove, Reset, Scenario, Set
 from sim.edit import Applied, Change
 from sim.events import EventType
 from sim.kinds import Mode
+from sim.planner_names import WEIGHING
 from sim.run import Run
 from sim.settings import AS_IT_IS, FROM_THE_NEXT_ROAD, NEEDS_A_NEW_ROAD
-
-WEIGHING = ("astar", "dijkstra")
-"""Planners that weigh preferences."""
 
 
 class Replies:
@@ -28,7 +26,8 @@ class Replies:
     def done(self, facts: tuple[Fact, ...]) -> str:
         """A sentence for each fact; questions are answered elsewhere."""
         told = [
-            self._done(group[0]) if len(group) == 1 else self._all_gone(group) for group in _grouped(facts)
+            self._all_gone(group) if len(group) > 1 and _by_name(group[0]) else self._done(group[-1])
+            for group in _grouped(facts)
         ]
         return " ".join(sentence for sentence in told if sentence)
 
@@ -179,14 +178,21 @@ class Replies:
 
 
 def _grouped(facts: tuple[Fact, ...]) -> list[list[Fact]]:
-    """The facts one by one, but things that are taken away by name one after another together."""
+    """The facts one by one, but together what is told at once.
+
+    Things that are taken away by name one after another; and wishes, of which the last tells all that hold.
+    """
     groups: list[list[Fact]] = []
     for fact in facts:
-        if groups and _by_name(fact) and _by_name(groups[-1][-1]):
+        if groups and any(alike(fact) and alike(groups[-1][-1]) for alike in (_by_name, _wish)):
             groups[-1].append(fact)
         else:
             groups.append([fact])
     return groups
+
+
+def _wish(fact: Fact) -> bool:
+    return isinstance(fact, Applied) and isinstance(fact.action, Prefer)
 
 
 def _by_name(fact: Fact) -> bool:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from service.actions import Ask
 from service.narrate.answering import Json, not_so, plain
 from service.narrate.naming import Naming
-from service.narrate.replies import WEIGHING
 from service.narrate.sayings import Sayings
 from service.sessions.facts import Asked
 from service.sessions.pace import sets_pace
@@ -29,6 +28,7 @@ from sim.explain import QuestionError
 from sim.explain.future import Story
 from sim.explain.whatif import Difference, WhatIf, what_if
 from sim.kinds import Kind, Outcome
+from sim.planner_names import WEIGHING
 from sim.run import Run
 from sim.settings import AS_IT_IS
 

@@ -33,7 +33,7 @@ from sim.kinds import Mode, Move, Outcome
 from sim.perceive import perceive
 from sim.plan import Decision
 from sim.plan.costs import weights
-from sim.planner_names import BUILT_IN
+from sim.planner_names import BUILT_IN, WEIGHING
 from sim.randomness import Stream
 from sim.road import Board, bits, board_of
 from sim.rules import beside
@@ -52,8 +52,6 @@ PATIENCE: Final = {"priority": 40}
 """Decisions after which futures are looked at for whether they are shut off; at once where not named, as a
 decision then costs as much as the look."""
 MAX_FUTURES: Final = 200
-_WEIGHING: Final = ("astar", "dijkstra")
-"""Planners that charge for what is near, also behind the vehicle."""
 Z: Final = 1.959964
 """Standard errors on either side of a 95 % interval."""
 
@@ -218,7 +216,7 @@ class _Futures:
         self._root = _Node(replace(self.start, mode=Mode.AUTO))
         # Planners of others may look at anything; the project's own at what their charges reach.
         self._known = config.planner in BUILT_IN
-        self._buffer = weights(config).buffer if config.planner in _WEIGHING else 0
+        self._buffer = weights(config).buffer if config.planner in WEIGHING else 0
         self._none = config.with_parts(courtesy=0.0)
         self._all = config.with_parts(courtesy=1.0)
 

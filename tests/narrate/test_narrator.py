@@ -9,7 +9,7 @@ import pytest
 from service.actions import Ask
 from service.narrate import Narrator
 from service.sessions.facts import Asked
-from sim.actions import Add, Drive, Remove, Reset, Scenario, SetCount, SetMode, Where, WorldAction
+from sim.actions import Add, Drive, Prefer, Remove, Reset, Scenario, SetCount, SetMode, Where, WorldAction
 from sim.config import Config
 from sim.kinds import Mode, Move
 from sim.run import Run, advance
@@ -46,6 +46,13 @@ def test_answers_name_only_what_is_in_their_facts() -> None:
             text = told.pop("text")
             assert looks_like_sentences(text), text
             assert ids_in(text) <= ids_in(told)
+
+
+def test_wishes_of_one_utterance_are_told_once() -> None:
+    timeline = Timeline(Config(seed=1, planner="astar"))
+    wishes = [Prefer(preference="avoid_potholes"), Prefer(preference="smooth_ride")]
+    told = NARRATOR.done(tuple(timeline.apply(1, wishes)))
+    assert told == "From now on I keep away from potholes and drive smoothly."
 
 
 def test_a_why_names_its_causes_and_the_flip() -> None:
