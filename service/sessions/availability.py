@@ -48,6 +48,8 @@ _NAMES = {
     "find_worst": "Searching for the hardest road",
     "record": "Recording pictures",
 }
+_WITH_UNITS = {"target_speed_kmh": ("target speed", " km/h"), "sensor_range_m": ("sensor range", " m")}
+"""Parameters whose spelling ends in their unit, in words."""
 
 
 def refusal(action: Action) -> str | None:
@@ -67,8 +69,9 @@ def refusal(action: Action) -> str | None:
         case Set() | Adjust() if sets_pace(action):
             return None
         case Set() | Adjust() if not offered(action):
-            value = f" ({action.value})" if isinstance(action, Set) else ""
-            return _sentence(f"Changing the {action.parameter.replace('_', ' ')}{value}")
+            name, unit = _WITH_UNITS.get(action.parameter, (action.parameter.replace("_", " "), ""))
+            value = f" ({action.value}{unit})" if isinstance(action, Set) else ""
+            return _sentence(f"Changing the {name}{value}")
         case Drive() | Reset() | SetMode() | _:
             return None
 

@@ -101,6 +101,11 @@ def test_what_is_offered_is_done(action: dict[str, Any]) -> None:
     assert fact is not None
 
 
+def test_units_are_said_as_people_say_them() -> None:
+    said = {"do": "set", "parameter": "target_speed_kmh", "value": 50}
+    assert refusal(contract.load([said])[0]) == "Changing the target speed (50 km/h) is not available yet."
+
+
 @pytest.mark.parametrize("action", REFUSED, ids=str)
 def test_what_is_not_offered_says_so(action: dict[str, Any]) -> None:
     draft = Draft(Timeline(Config(seed=2)), False, History())
