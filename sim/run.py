@@ -29,7 +29,17 @@ _END_EVENTS = {
 }
 
 
-__all__ = ["Run", "Tick", "advance", "commit", "decide", "next_episode", "reconfigured", "restarted"]
+__all__ = [
+    "Run",
+    "Tick",
+    "advance",
+    "commit",
+    "decide",
+    "next_episode",
+    "reconfigured",
+    "repeated",
+    "restarted",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,11 +97,8 @@ def advance(run: Run) -> Tick:
     decision = decide(run)
     if decision is None:
         return _hold(run)
-    before = run.world
-    after = commit(before, decision.move, run.config)
-    crashes = collisions(before, after)
-    result = outcome(after, crashes, run.config.max_ticks)
-    metrics = run.metrics.after_move(decision.move, run.config.cell_m)
+    moved = repeated(run, decision.move, by_person=decision.asked is not None, fault=decision.fault)
+    after = moved.world
     events = []
     if decision.fault is not None and decision.fault != run.fault:
         events.append(Event(after.tick, EventType.PLANNER_FAILED, after.episode, how=decision.fault))
@@ -108,27 +115,37 @@ def advance(run: Run) -> Tick:
                 blocked.reason,
             )
         )
-    if result is not Outcome.RUNNING:
+    if after.outcome is not Outcome.RUNNING:
+        cause = after.cause
+        ids, cell, how = (cause.ids, cause.cell, cause.how) if cause else ((), None, None)
+        event = _END_EVENTS[after.outcome]
+        events.append(Event(after.tick, event, after.episode, ids, cell, decision.move, how))
+    return _ticked(moved, decision, tuple(events))
+
+
+def repeated(run: Run, move: Move, *, by_person: bool, fault: str | None = None) -> Run:
+    """The run one tick on, where it is known what was decided: to this move, asked for by a person or not."""
+    before, config = run.world, run.config
+    after = commit(before, move, config)
+    crashes = collisions(before, after)
+    result = outcome(after, crashes, config.max_ticks)
+    metrics = run.metrics.after_move(move, config.cell_m)
+    ended = result is not Outcome.RUNNING
+    if ended:
         cause = crashes[0] if crashes else None
         after = replace(after, outcome=result, ended=after.tick, cause=cause)
         metrics = metrics.after_end(result, after.episode_tick)
-        ids, cell, how = (cause.ids, cause.cell, cause.how) if cause else ((), None, None)
-        events.append(Event(after.tick, _END_EVENTS[result], after.episode, ids, cell, decision.move, how))
     course = run.course.after(
         before,
         after,
-        decision.move,
+        move,
         edits=run.edits,
-        certain=run.config.courtesy == 0.0,
-        by_person=decision.asked is not None,
-        faulty=decision.fault is not None,
-        ended=result is not Outcome.RUNNING,
+        certain=config.courtesy == 0.0,
+        by_person=by_person,
+        faulty=fault is not None,
+        ended=ended,
     )
-    return _ticked(
-        _advanced(run, after, metrics, run.queue[1:], decision.fault, course),
-        decision,
-        tuple(events),
-    )
+    return _advanced(run, after, metrics, run.queue[1:], fault, course)
 
 
 def next_episode(run: Run) -> tuple[Run, Event]:

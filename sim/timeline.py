@@ -2,7 +2,8 @@
 
 That list *is* the session; every state is derived from it by replay, and snapshots along the way
 only save time. Undoing is rewriting the list without a change, which is then as if never said.
-Snapshots are placed by the work between them, so that every state is as near as every other.
+Snapshots are placed by the work between them, so that every state is as near as every other. The way from
+one is driven by the moves that were made (`sim.track`); a tick is decided once.
 """
 
 from __future__ import annotations
@@ -16,22 +17,31 @@ from sim.actions import WorldAction
 from sim.chain import Chain
 from sim.config import Config
 from sim.edit import Applied, apply
+from sim.events import Event, EventType
 from sim.plan import Decision
 from sim.run import Run, Tick, advance, decide
+from sim.track import Track
 
 SNAPSHOT_TICKS = 128
-"""Work between two snapshots, in ticks of the simplest planner; twice that each time there are too many."""
+"""Work between two snapshots, in ticks that are driven again; twice that each time there are too many."""
 
 MAX_SNAPSHOTS = 512
-"""Of some kilobytes each. A fork of a log of 50,000 ticks is to take 20 ms."""
+"""Of some kilobytes each. A fork of a log of 50,000 ticks is to take 10 ms."""
 
 ACTION_WORK = 4
-"""What an action of the log costs, in such ticks."""
+"""What an action of the log costs, in such ticks or those of the simplest planner: two of them are one."""
+
+THINGS_AN_ACTION = 10
+"""So many things on the road cost an action one such tick more."""
+
+ROAD_WORK, ROAD_CELLS = 4, 80
+"""What drawing a road costs, and the cells that cost one such tick more."""
 
 SEARCH_WORK = 16
 """What a tick costs with a planner that searches, or one that is not known here."""
 
 _SIMPLE_PLANNERS = frozenset(("priority", "dwa"))
+_DRAWN = frozenset((EventType.EPISODE_STARTED, EventType.ROAD_KEPT))
 
 RECENT_RUNS = 8
 """States kept as they were, for questions about what has just been done."""
@@ -83,6 +93,7 @@ class Timeline:
         self._recent: deque[Run] = deque(maxlen=RECENT_RUNS)
         self._before: tuple[Snapshot, ...] = ()
         """before the latest changes"""
+        self._track = Track()
 
     @classmethod
     def made(
@@ -94,18 +105,25 @@ class Timeline:
         gap: int,
         work: int,
         worked: int,
+        moves: Sequence[bytes],
     ) -> Timeline:
-        """A timeline of the parts of another: see `parts`. They are taken as they are."""
+        """A timeline of the parts of another: see `parts`. Raises `ValueError` where moves are missing."""
         new = cls.__new__(cls)
         new.config, new.run, new.entries = config, run, entries
         new._snapshots, new._gap, new._work, new.worked = tuple(snapshots), gap, work, worked
         new._recent = deque(maxlen=RECENT_RUNS)
         new._before = ()
+        new._track = Track(moves)
+        if len(new._track) != new.tick:
+            raise ValueError(f"{len(new._track)} moves lead to tick {new.tick}")
         return new
 
-    def parts(self) -> tuple[Config, Run, Chain[Entry], tuple[Snapshot, ...], int, int, int]:
+    def parts(
+        self,
+    ) -> tuple[Config, Run, Chain[Entry], tuple[Snapshot, ...], int, int, int, tuple[bytes, ...]]:
         """What it is made of, but for the states that are only kept for being near."""
-        return self.config, self.run, self.entries, self._snapshots, self._gap, self._work, self.worked
+        shots, moves = self._snapshots, self._track.blocks
+        return self.config, self.run, self.entries, shots, self._gap, self._work, self.worked, moves
 
     @property
     def tick(self) -> int:
@@ -124,6 +142,7 @@ class Timeline:
         twin._snapshots = self._snapshots
         twin._recent = self._recent.copy()
         twin._before = self._before
+        twin._track = self._track.copy()
         return twin
 
     def advance(self) -> Tick:
@@ -136,22 +155,22 @@ class Timeline:
         if tick.decision is not None and tick.decision.timed_out:
             raise PlannerSilentError(tick.decision.planner, tick.decision.fault or "")
         self._recent.append(self.run)
-        self.run = tick.run
-        self._worked(_tick_work(self.run), len(self.entries))
+        self._went_on(tick, len(self.entries))
         return tick
 
     def apply(self, sequence: int, actions: Sequence[WorldAction]) -> list[Applied]:
         """Change the world at the present tick; all of the actions or, on `EditError`, none."""
-        run, done = self.run, []
+        run, done, work = self.run, [], 0
         for action in actions:
             applied = apply(run, action)
             run = applied.run
             done.append(applied)
+            work += _action_work(applied)
         before = Snapshot(self.tick, self.run, len(self.entries))
         self._before = (*self._before[1 - RECENT_CHANGES :], before)
         self.run = run
         self.entries = self.entries.plus([Entry(sequence, self.tick, action) for action in actions])
-        self._worked(ACTION_WORK * len(actions), len(self.entries))
+        self._worked(ACTION_WORK * len(actions), work, len(self.entries))
         return done
 
     def rewrite(self, entries: Sequence[Entry], since: int) -> None:
@@ -164,17 +183,20 @@ class Timeline:
         self._recent.clear()
         self._forget_from(entries, since)
         self.entries = entries if isinstance(entries, Chain) else Chain(entries)
-        run, position = self._nearest(since)
+        self.run, position = self._nearest(since)
+        self._track.cut(since)
         self._work = 0
         while True:
             due = position
-            run, position = self._apply_due(run, position)
-            self.run = run
-            self._worked(ACTION_WORK * (position - due), position)
-            if run.world.tick == present:
+            self.run, position, work = self._apply_due(self.run, position)
+            self._worked(ACTION_WORK * (position - due), work, position)
+            if self.tick == present:
                 return
-            self.run = run = advance(run).run
-            self._worked(_tick_work(run), position)
+            if self.tick < since:
+                self.run = self._track.after(self.run)
+                self._worked(1, 1, position)
+            else:
+                self._went_on(advance(self.run), position)
 
     def rewind(self, tick: int) -> None:
         """Make a past tick the present; what was said or happened after it is gone. Raises `IndexError`."""
@@ -187,6 +209,7 @@ class Timeline:
         self._snapshots, self._before = (
             tuple(shot for shot in shots if shot.tick <= tick) for shots in (self._snapshots, self._before)
         )
+        self._track.cut(tick)
         self._work = 0
         self._recent.clear()
 
@@ -195,7 +218,7 @@ class Timeline:
         self._check(tick)
         shot = self._nearest_shot(tick)
         said = self._said_by(tick) - shot.entries
-        return (tick - shot.tick) * _tick_work(self.run) + said * ACTION_WORK
+        return tick - shot.tick + said * ACTION_WORK
 
     def work_since(self, tick: int) -> int:
         """What it takes to come to the present anew from a past tick, about in ticks. Raises `IndexError`."""
@@ -219,11 +242,12 @@ class Timeline:
         for tick in (first, stop - 1):
             self._check(tick)
         run, position = self._nearest(first)
+        track = self._track.copy()  # whoever reads on later reads of this
         while run.world.tick < stop:
-            run, position = self._apply_due(run, position)
+            run, position, _ = self._apply_due(run, position)
             if run.world.tick >= first:
                 yield run
-            run = advance(run).run
+            run = track.after(run)
 
     def decision(self, tick: int) -> Decision | None:
         """The decision taken at a tick (None while a result stood), derived anew. Raises `IndexError`."""
@@ -233,9 +257,15 @@ class Timeline:
         if not 0 <= tick <= self.tick:
             raise IndexError(f"tick {tick} is not between 0 and {self.tick}")
 
-    def _worked(self, work: int, entries: int) -> None:
-        """The present was come to by this much work, with so many entries applied."""
-        self._work += work
+    def _went_on(self, tick: Tick, entries: int) -> None:
+        """One tick on, which was decided now, with so many entries applied."""
+        self.run = tick.run
+        self._track.note(tick.decision)
+        self._worked(_tick_work(tick.run), 1 + _road_work(tick.run, tick.events), entries)
+
+    def _worked(self, work: int, again: int, entries: int) -> None:
+        """The present was come to by this much work, and so much when it is done again."""
+        self._work += again
         self.worked += work
         if self._work < self._gap:
             return
@@ -271,12 +301,28 @@ class Timeline:
         shot = self._nearest_shot(tick)
         return shot.run, shot.entries
 
-    def _apply_due(self, run: Run, position: int) -> tuple[Run, int]:
+    def _apply_due(self, run: Run, position: int) -> tuple[Run, int, int]:
+        """The state, the entries applied, and the work of those that were applied now."""
+        work = 0
         while position < len(self.entries) and self.entries[position].tick == run.world.tick:
-            run = apply(run, self.entries[position].action).run
+            applied = apply(run, self.entries[position].action)
+            run = applied.run
+            work += _action_work(applied)
             position += 1
-        return run, position
+        return run, position, work
 
 
 def _tick_work(run: Run) -> int:
     return 1 if run.config.planner in _SIMPLE_PLANNERS else SEARCH_WORK
+
+
+def _action_work(applied: Applied) -> int:
+    world = applied.run.world
+    things = len(world.movers) + len(world.hazards)
+    return ACTION_WORK + things // THINGS_AN_ACTION + _road_work(applied.run, applied.events)
+
+
+def _road_work(run: Run, events: Sequence[Event]) -> int:
+    if not any(event.type in _DRAWN for event in events):
+        return 0
+    return ROAD_WORK + run.world.road.columns * run.world.road.rows // ROAD_CELLS

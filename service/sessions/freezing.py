@@ -97,7 +97,7 @@ class _Writing:
         self.packer = Packer()
         self._entries: list[Entry] = []
         self._entry_numbers: dict[int, int] = {}
-        self._timelines, self._snapshots = Pool(), Pool()
+        self._timelines, self._snapshots, self._moves = Pool(), Pool(), Pool()
         self._thinned = thinned
         history = frozen.history
         jumps = [step.jump for step in chain(history.done, history.undone) if step.jump is not None]
@@ -128,6 +128,7 @@ class _Writing:
             "lines": [[line.tick, line.type, line.text, line.ids, line.cell] for line in frozen.lines],
             "timelines": self._timelines.values,
             "snapshots": self._snapshots.values,
+            "moves": self._moves.values,
             "logs": self._logs[1],
             "entries": _entries(self._entries),
             "states": self.packer.packed(),
@@ -170,7 +171,7 @@ class _Writing:
         return self._timelines.number(timeline, self._written_timeline)
 
     def _written_timeline(self, timeline: Timeline) -> list[Any]:
-        config, run, entries, snapshots, gap, work, worked = timeline.parts()
+        config, run, entries, snapshots, gap, work, worked, moves = timeline.parts()
         kept = [
             each for place, each in enumerate(snapshots) if id(each) in self._main or place % self._gap == 0
         ]
@@ -183,6 +184,7 @@ class _Writing:
             gap,
             work,
             worked,
+            _stretches([self._moves.number(block, _ascii) for block in moves]),
         ]
 
     def _written_snapshot(self, snapshot: Snapshot) -> list[int]:
@@ -197,6 +199,10 @@ class _Writing:
             step.paused_after,
             None if jump is None else [self._timeline(jump.before), self._timeline(jump.after)],
         ]
+
+
+def _ascii(moves: bytes) -> str:
+    return moves.decode("ascii")
 
 
 def _entries(entries: Sequence[Entry]) -> list[Any]:
@@ -232,6 +238,7 @@ def read(values: Mapping[str, Any], session: str) -> Frozen:
     snapshots = [
         Snapshot(states.runs[run].world.tick, states.runs[run], count) for run, count in values["snapshots"]
     ]
+    moves = [each.encode("ascii") for each in values["moves"]]
     timelines = [
         Timeline.made(
             states.configs[config],
@@ -241,8 +248,9 @@ def read(values: Mapping[str, Any], session: str) -> Frozen:
             gap,
             work,
             worked,
+            _of_stretches(blocks, moves),
         )
-        for config, run, log, length, places, gap, work, worked in values["timelines"]
+        for config, run, log, length, places, gap, work, worked, blocks in values["timelines"]
     ]
 
     def step(parts: Sequence[Any]) -> Step:

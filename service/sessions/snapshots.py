@@ -30,7 +30,7 @@ from sim.config import Config
 from sim.plan.guard import is_foreign
 from sim.planner_names import installed
 
-FORMAT = 1
+FORMAT = 2
 """Of the JSON values."""
 
 MOST_BYTES = 4_000_000
