@@ -22,7 +22,7 @@ from sqlalchemy.exc import ArgumentError, DBAPIError
 from sqlalchemy.ext.asyncio import AsyncEngine, create_async_engine
 from sqlalchemy.pool import AsyncAdaptedQueuePool
 
-from service.store import wal
+from service.store import holders, wal
 from service.store.base import StoreError
 
 _BUSY_S = 1.0
@@ -36,6 +36,8 @@ _LOCK = 0x0A0D7A1C
 
 _TRIES = 10
 """How often it is asked for while a table would be waited for."""
+
+_HELD = (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED)
 
 _PRAGMAS = (
     f"PRAGMA busy_timeout={_BUSY_S * 1000:.0f}",
@@ -64,7 +66,10 @@ class Sqlite:
         except UnicodeDecodeError:
             found = "not even the fault can be told"  # SQLite's message quotes it
         except (sqlite3.OperationalError, OSError) as error:
-            raise StoreError(f"{self.name} cannot be opened: {error}") from error
+            why = str(error)
+            if isinstance(error, sqlite3.Error) and error.sqlite_errorcode in _HELD:
+                why = f"it is locked: {await to_thread.run_sync(holders.told, Path(self._path))}."
+            raise StoreError(f"{self.name} cannot be opened: {why}") from error
         except sqlite3.Error as error:
             found = str(error)
         if found != "ok":
@@ -183,4 +188,7 @@ def _prepare_postgres(connection: Any, _record: Any) -> None:
     connection.commit()
     if not held:
         connection.close()
-        raise StoreError("The database is locked: another service uses it.")
+        raise StoreError(
+            "The database is locked: another service uses it. Stop that one, or name another in "
+            "ROADTALK_DATABASE."
+        )

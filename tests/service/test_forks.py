@@ -16,8 +16,8 @@ from service.sessions.replaying import replay
 from service.sessions.session import Session
 from service.store import EntryRecord, MemoryStore, StoreError
 from tests.service.conftest import Service as Http
+from tests.service.talking import ADD, ADD_CARS, UNDO, WORDS, Service, do, fingerprint, potholes
 from tests.service.test_rewind import SAID, anew
-from tests.service.test_sessions import ADD, ADD_CARS, UNDO, WORDS, Service, do, fingerprint, potholes
 
 Json = dict[str, Any]
 

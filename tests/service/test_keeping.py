@@ -13,7 +13,7 @@ from structlog.testing import capture_logs
 from service.sessions.session import Session
 from service.store import MemoryStore, SnapshotRecord, SqlStore, StoreError
 from sim.config import Config
-from tests.service.test_sessions import ADD, UNDO, Service, do
+from tests.service.talking import ADD, UNDO, Service, do
 from tests.service.test_snapshots import all_of, back, compared
 
 STEP = {"do": "step", "ticks": 40}

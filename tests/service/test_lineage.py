@@ -16,10 +16,10 @@ from service.sessions.recording import recording_json
 from service.sessions.session import Session
 from service.store import EntryRecord, SqlStore
 from tests.service.conftest import Service as Http
+from tests.service.talking import ADD, ADD_CARS, CONFIG, UNDO, Service, do, potholes
 from tests.service.test_forks import TALK, talked
 from tests.service.test_rewind import SAID, anew, rewind
 from tests.service.test_saved import load, save
-from tests.service.test_sessions import ADD, ADD_CARS, CONFIG, UNDO, Service, do, potholes
 
 
 def stands(session: Session) -> tuple[object, ...]:

@@ -13,9 +13,9 @@ from service.language.topic import Phrases
 from service.problems import NothingToUndo, NotRestorable, ProblemError
 from service.sessions.session import Session
 from service.store import MemoryStore
+from tests.service.talking import ADD, ADD_CARS, REDO, UNDO, Service, do, potholes
 from tests.service.test_rewind import SAID
 from tests.service.test_saved import load, save
-from tests.service.test_sessions import ADD, ADD_CARS, REDO, UNDO, Service, do, potholes
 
 NAMES = st.sampled_from([[save("a")], [save("b"), ADD], [load("a")], [ADD_CARS, load("b"), ADD]])
 TALK = st.lists(st.tuples(st.integers(0, 5), st.one_of(SAID, NAMES)), max_size=12)

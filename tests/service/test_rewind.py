@@ -16,7 +16,7 @@ from service.store import EntryRecord
 from sim.run import Run
 from sim.timeline import Timeline
 from tests.service.conftest import Service as Http
-from tests.service.test_sessions import ADD, ADD_CARS, PAUSE, REDO, UNDO, Service, do, potholes, recorded
+from tests.service.talking import ADD, ADD_CARS, PAUSE, REDO, UNDO, Service, do, potholes, recorded
 
 
 def rewind(ticks: int) -> dict[str, object]:

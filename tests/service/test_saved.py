@@ -7,7 +7,7 @@ import pytest
 from service.problems import Invalid, UnknownName
 from service.sessions.saved import MOST_NAMES
 from tests.service.conftest import Service as Http
-from tests.service.test_sessions import ADD, ADD_CARS, UNDO, Service, do, potholes
+from tests.service.talking import ADD, ADD_CARS, UNDO, Service, do, potholes
 
 
 def save(name: str) -> dict[str, object]:

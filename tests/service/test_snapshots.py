@@ -20,10 +20,10 @@ from service.sessions.session import Session
 from service.sessions.snapshots import UnfitError, opened
 from service.store import MemoryStore, SnapshotRecord
 from sim.config import Config
+from tests.service.talking import ADD, ADD_CARS, PAUSE, REDO, RESUME, UNDO, Service, do
 from tests.service.test_replaying import TALK, whole
 from tests.service.test_rewind import rewind
 from tests.service.test_saved import load, save
-from tests.service.test_sessions import ADD, ADD_CARS, PAUSE, REDO, RESUME, UNDO, Service, do
 
 ASK = {"do": "ask", "about": "why"}
 AFTERWARDS = ([UNDO], [UNDO], [REDO], [ADD], [load("a")], [UNDO, ADD], [rewind(2)], [UNDO], [PAUSE], [RESUME])
