@@ -88,6 +88,9 @@ class _Maker:
         value = self._value(template, turn)
         if not isinstance(value, dict):
             raise CannotBuild("an action must be a mapping")
+        about = value.get("parameter")
+        if about in self._parameters.takes and any(e.sense.value != about for e in self._filled.of("param")):
+            raise CannotBuild("another setting was named")
         return value
 
     def _value(self, template: Any, turn: Edge | None) -> Any:

@@ -12,9 +12,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Protocol
 
-from service.language.fragments import BUT, STOP, Fragment
+from service.language.fragments import BUT, EXCEPT, OR, STOP, Fragment
 from service.language.frames import Filled
-from service.language.lattice import Edge, Lattice
+from service.language.lattice import NUMBER, Edge, Lattice
 from service.language.lexicon import Sense
 from service.language.noun_phrases import QUANTITY, Amount, understood_nouns
 from service.language.paths import ALLOWS, NEGATION, Stretch
@@ -25,7 +25,6 @@ MAX_JOINED = 16
 _LENIENT = ("counted", "the_many", "bare_many")
 _TOGETHER = frozenset({"pause", "stop", "and", "but"})
 """Separators inside a listing clause; any other ends it."""
-_OR = "or"
 _WHOLE = (".all", ".the_many", ".bare_many", ".those")
 """Amounts that hold again in another place: "the cones in lane 3 and in lane 5"."""
 
@@ -71,6 +70,8 @@ class Context:
     everything: bool = False
     distant: bool = False
     """Whether it comes from an earlier sentence: then only "two more" and the like may lean on it."""
+    placed: bool = False
+    """Whether it ended with a place: a number alone after it may be of more things, or of another place."""
 
 
 @dataclass(slots=True)
@@ -127,7 +128,7 @@ class Divider:
         last = at + 1
         while last < min(len(parts), at + MAX_JOINED) and parts[last].after in _TOGETHER:
             last += 1
-        if parts[at].after == _OR:
+        if parts[at].after == OR:
             return None, 0
         for end in range(last, at + 1, -1):
             start, stop = parts[at].start, parts[end - 1].end
@@ -154,7 +155,7 @@ class Divider:
 
     def _single(self, part: Fragment, context: Context) -> Clause | None:
         """One fragment as a clause: by itself, leaning on the clause before, or without a verb."""
-        if part.after == _OR and not context.negated:
+        if part.after == EXCEPT or (part.after == OR and not context.negated):
             return None
         start, end = part.start, part.end
         if context.negated and context.verb and self._contrasts(part):
@@ -169,6 +170,8 @@ class Divider:
         if NEGATION in plain.concepts:
             return self._negated(part, context)
         if part.after == BUT or (context.verb and self._says_again(part)):
+            return None
+        if context.placed and self._only_number(start, end):
             return None
         if context.verb:
             leaning = self._stretch(start, end, context)
@@ -216,6 +219,14 @@ class Divider:
 
     def _says_where(self, start: int, end: int) -> bool:
         return any(edge.sense.concept in _PLACED for edge in self._lattice.between(start, end))
+
+    def _only_number(self, start: int, end: int) -> bool:
+        """Whether it says no more than a number: the "3" of "in lane 2 and 3"."""
+        said = {edge.concept for edge in self._lattice.between(start, end)}
+        return NUMBER in said and said.isdisjoint((*_PLACED, QUANTITY)) and not self._names_thing(start, end)
+
+    def _names_thing(self, start: int, end: int) -> bool:
+        return any(isinstance(edge.sense.value, Amount) for edge in self._lattice.between(start, end))
 
     def _says_more(self, start: int, end: int) -> bool:
         """Whether an amount in the tokens is one more of something."""
@@ -303,7 +314,11 @@ def _context(clause: Clause, before: Context) -> Context:
     amounts = [edge for edge in clause.filled.slots if isinstance(edge.sense.value, Amount)]
     noun = amounts[-1] if amounts else before.noun
     everything = any(edge.sense.concept == EVERYTHING for edge in clause.filled.slots)
-    return Context(verb, noun, frame.verbless or not frame.inherits, clause.negated, everything)
+    last = max(clause.filled.slots, key=lambda edge: edge.end, default=None)
+    placed = last is not None and last.concept in _PLACED
+    return Context(
+        verb, noun, frame.verbless or not frame.inherits, clause.negated, everything, placed=placed
+    )
 
 
 def _lenient(edge: Edge) -> list[Edge]:

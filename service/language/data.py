@@ -23,6 +23,8 @@ MESSAGES = frozenset(
         "and",
         "impossible",
         "negation",
+        "contradiction",
+        "both",
         "no_referent",
         "which",
         "more_of_what",

@@ -12,6 +12,9 @@ from service.language.noun_phrases import COLON
 from service.language.paths import SEPARATOR
 
 STOP = "stop"
+OR = "or"
+EXCEPT = "except"
+"""After this comes where something shall not be: "anywhere but the left lane"."""
 BUT = "but"
 """After this a part says for itself what to do: "remove all but two cars" leans on nothing."""
 
@@ -59,8 +62,8 @@ def fragments(lattice: Lattice, start: int, end: int) -> list[Fragment]:
             continue
         inside = reach
         at += 1
-    if _says_something(lattice, begin, end):
-        found.append(Fragment(after, begin, end))
+    if _says_something(lattice, begin, end) or (after == OR and begin < end and found):
+        found.append(Fragment(after, begin, end))  # "five or so": how many was meant is not known
     return found
 
 

@@ -26,7 +26,20 @@ ENGINE_CONCEPTS = frozenset(
 """Concepts the engine itself gives a use."""
 
 AMOUNT_FORMS = frozenset(
-    {"counted", "more", "exact", "fewer", "all", "any", "none", "those", "that", "the_one", "the_many"}
+    {
+        "counted",
+        "more",
+        "exact",
+        "fewer",
+        "all",
+        "any",
+        "any_one",
+        "none",
+        "those",
+        "that",
+        "the_one",
+        "the_many",
+    }
     | {"the_counted", "bare_one", "bare_many", "more_bare", "more_bare_one", "post", "those_counted", "asked"}
     | {"id", "last", "last_counted"}
 )

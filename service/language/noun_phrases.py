@@ -2,7 +2,7 @@
 
 A noun and the quantities just before it become one edge whose concept says which kind of amount
 it is: `thing.counted` (five potholes), `.more` (two more), `.exact` (exactly nine), `.all` (every),
-`.the_many`, `.the_one`, `.that`, `.those`, `.bare_many`, `.bare_one`, `.any`, `.none`, `.post`
+`.the_many`, `.the_one`, `.that`, `.those`, `.bare_many`, `.bare_one`, `.any`, `.any_one`, `.none`, `.post`
 ("potholes: 10"). Frames say which of these they take, and so what a definite plural means.
 """
 
@@ -18,6 +18,15 @@ QUANTITY = "quantity"
 COLON = "colon"
 OF_THE = "of_the"
 """Value of quantities that need another before them: "two of the"."""
+
+ODD = "odd"
+"""Value of quantities that no request has a use for ("every other"), and the form of such nouns."""
+
+BEYOND = "beyond"
+"""That of words that are odd before things only: "over ten cars", but "over ten episodes"."""
+
+THINGS = "thing"
+"""What nouns for things on the road are."""
 
 DETERMINED = "the"
 """Form of senses that hold only after a bare definite article: "the car" is the vehicle itself."""
@@ -54,11 +63,14 @@ def add_noun_phrases(lattice: Lattice, vague: int) -> None:
         for edge in starting:
             if edge[2][0] in _AMOUNTS:
                 amounts.setdefault(edge[1], []).append(edge)
+    odd = [edge for ending in amounts.values() for edge in ending if edge.sense.value == ODD]
     for at in range(lattice.size):
         nouns = [edge for edge in lattice.edges[at] if edge[2][0] in named]
         if not nouns:
             continue
         gathered = _gather(amounts, at)
+        if any(edge.start < at < edge.end for edge in odd):  # of "every other car", "other car" is no noun
+            gathered.said.add(ODD)
         here = lattice.edges[at]
         lattice.edges[at] = [e for e in here if e[2][0] not in named and e[2][2] != DETERMINED]
         if gathered.said == {"the"} and gathered.number is None:
@@ -119,6 +131,9 @@ def _gather(amounts: dict[int, list[Edge]], noun: int) -> _Gathered:
 
 def _joined(gathered: _Gathered, noun: Edge, vague: int) -> Edge:
     _, name, grammatical = noun.concept.split(".")
+    if BEYOND in gathered.said:
+        said = (gathered.said - {BEYOND}) | ({ODD} if name == THINGS else set())
+        gathered = _Gathered(gathered.start, gathered.number, said)
     form, count = _form(gathered, grammatical == "many", vague)
     return Edge(gathered.start, noun.end, Sense(f"{name}.{form}", Amount(str(noun.sense.value), count)))
 
@@ -126,24 +141,28 @@ def _joined(gathered: _Gathered, noun: Edge, vague: int) -> Edge:
 def _form(gathered: _Gathered, many: bool, vague: int) -> tuple[str, int | float | None]:
     """The kind of amount and the count, from the words before the noun."""
     said, number = gathered.said - {"filler"}, gathered.number
+    if ODD in said:
+        return (ODD, None)
     if "how" in said:
         return ("asked", None)
     if "no" in said:
-        return ("none", 0) if said == {"no"} and number is None else ("odd", None)
+        return ("none", 0) if said == {"no"} and number is None else (ODD, None)
     if "any" in said:
-        return ("any", None) if said <= {"any", "more", "the"} and number is None else ("odd", None)
+        if number is not None or not said <= {"any", "more", "the"}:
+            return (ODD, None)
+        return ("any" if many else "any_one", None)
     if "last" in said:
         odd = said - {"last", "the"}
-        return ("odd", None) if odd else ("last", None) if number is None else ("last_counted", number)
+        return (ODD, None) if odd else ("last", None) if number is None else ("last_counted", number)
     if number is not None:
         if "all" in said:
             return ("all", None)
         if said & {"every", "that", "vague"}:
-            return ("odd", None)
+            return (ODD, None)
         if "those" in said:
             return ("those_counted", number)
         if "exact" in said:
-            return ("odd", None) if "more" in said else ("exact", number)
+            return (ODD, None) if "more" in said else ("exact", number)
         if said & {"more", "another"}:
             return ("more", number)
         if "fewer" in said:
@@ -164,7 +183,7 @@ def _form(gathered: _Gathered, many: bool, vague: int) -> tuple[str, int | float
     if "more" in said:
         return ("more_bare" if many else "more_bare_one", None)
     if "exact" in said:
-        return ("odd", None)
+        return (ODD, None)
     if "the" in said:
         return ("the_many" if many else "the_one", None)
     return ("bare_many" if many else "bare_one", None)

@@ -13,6 +13,7 @@ from pydantic import ValidationError
 
 from service.actions import Action, load
 from service.language.clauses import Clause, Divided, Divider
+from service.language.contradictions import Contradiction, contradiction
 from service.language.data import LanguageData
 from service.language.fragments import Fragment, fragments
 from service.language.lattice import GLUE, Lattice
@@ -118,6 +119,8 @@ class Reading:
         )
         if question is not None:
             return self._asked(question) if asking else self._refused([self._plain], ())
+        if (both := contradiction(clauses, self._lattice)) is not None:
+            return self._contradicted(both, asking=asking)
         values = _once(clauses)
         if not values:
             return self._refusal("negation", self._messages["negation"])
@@ -148,6 +151,23 @@ class Reading:
         except Unsayable:  # a language that says nothing back has no sentences to choose from
             return self._refused([self._plain], ())
         return Ambiguous(self._text, self._messages["more_of_what"], choices)
+
+    def _contradicted(self, both: Contradiction, *, asking: bool) -> Parse:
+        """The question which of two values is meant, or the refusal of parts that cannot both hold."""
+        try:
+            choices = [self._choice(alternative) for alternative in both.alternatives]
+        except (Unsayable, ValidationError):  # nothing to choose from
+            choices = []
+        if asking and len(choices) > 1:
+            return Ambiguous(self._text, self._messages["which"], tuple(choices))
+        phrases = tuple(dict.fromkeys(self._written(each.start, each.end) for each in both.clauses))
+        quoted = self._messages["both"].join(f'"{_shortened(phrase)}"' for phrase in phrases)
+        return self._refusal("impossible", self._messages["contradiction"].format(phrases=quoted), phrases)
+
+    def _choice(self, values: list[dict[str, Any]]) -> Choice:
+        """Actions to choose, with a sentence that means them."""
+        actions = load(values)
+        return Choice(self._language.sentence(actions), actions)
 
     def _which(self) -> Parse | None:
         """The question about a reference to one of several things, or the refusal of one to nothing."""

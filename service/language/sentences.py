@@ -70,8 +70,8 @@ class Sentences:
 
     def sentence(self, actions: Sequence[Action]) -> str:
         """One sentence for all of them, in order. Raises `Unsayable`."""
-        if not actions:
-            raise Unsayable("nothing is said by no sentence")
+        if not actions or not self._words:
+            raise Unsayable("nothing is said by no sentence, and a language may have none")
         whole = ""
         before: Action | None = None
         for action in actions:
