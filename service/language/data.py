@@ -25,6 +25,8 @@ MESSAGES = frozenset(
         "negation",
         "contradiction",
         "both",
+        "earlier",
+        "instead",
         "no_referent",
         "which",
         "more_of_what",

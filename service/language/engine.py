@@ -17,6 +17,7 @@ from typing import Any
 from service.actions import Action, dump
 from service.language.capture import names
 from service.language.data import LanguageData, LanguageDataError, read_language
+from service.language.earlier import corrected, takes_back
 from service.language.lattice import Lattice, Name, Scanner
 from service.language.linter import defects, flaws
 from service.language.matching import Frames
@@ -26,7 +27,7 @@ from service.language.paths import SEPARATOR
 from service.language.reading import Reading, content_of
 from service.language.references import add_known
 from service.language.remembered import Remembered
-from service.language.repairs import Repaired
+from service.language.repairs import ALWAYS, DROPPED, REPAIR, Repaired
 from service.language.sentences import Sentences
 from service.language.suggestions import Suggestions
 from service.language.tokens import Token, as_said, normalise, renamed, tokenise
@@ -92,7 +93,22 @@ class Language:
             readings = repaired.readings(lambda each: self.read(each, topic, asking=False))
             if readings is not None and not lattice.uncovered():
                 return self._put_right(text, repaired.phrase, readings, lattice, asking=asking)
-        return Reading(self, text, plain, tokens, lattice, corrections, topic).parse(asking=asking)
+        parsed = Reading(self, text, plain, tokens, lattice, corrections, topic).parse(asking=asking)
+        if not asking or tokens[0].text not in self._takes_back or lattice.uncovered():
+            return parsed
+        sure = self._corrects(plain)
+        return parsed if sure is None else corrected(self, text, plain, topic, parsed, sure)
+
+    @cached_property
+    def _takes_back(self) -> frozenset[str]:
+        return takes_back(self.data)
+
+    def _corrects(self, plain: str) -> bool | None:
+        """Whether a sentence begins by taking something back for sure; None where it does not at all."""
+        tokens = tokenise(f", {plain}", self.data.contractions)
+        edges = [edge for edge in self._scanner.scan(tokens, {}).edges[0] if edge.concept == REPAIR]
+        edges = [edge for edge in edges if edge.sense.value != DROPPED and edge.end < len(tokens)]
+        return any(edge.sense.value == ALWAYS for edge in edges) if edges else None
 
     def _put_right(
         self, text: str, phrase: str, readings: list[Choice], lattice: Lattice, *, asking: bool

@@ -21,6 +21,9 @@ from service.language.tokens import Token
 REPAIR = "repair"
 """Concept of words that take back what was just said; their value says when they do."""
 
+ALWAYS = "always"
+"""Value of those that do wherever they stand: "I mean"."""
+
 PERHAPS = "perhaps"
 """Value of those that are fillers elsewhere: "sorry"."""
 
