@@ -11,15 +11,16 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Awaitable, Callable, Iterable
+from json import JSONDecodeError
 from typing import Any, NamedTuple, get_type_hints
 
-import orjson
 from fastapi import Request, Response
 from fastapi.routing import APIRoute
 from pydantic import BaseModel, ValidationError
 from starlette.routing import BaseRoute
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from service.api import strictly
 from service.api.context import context_of
 from service.api.errors import respond
 from service.api.kept import kept_contract
@@ -114,6 +115,6 @@ def _read(message: Message, model: type[BaseModel]) -> Any:
     if message["type"] != "http.request" or message.get("more_body", False):
         return None
     try:
-        return model.model_validate(orjson.loads(message["body"]))
-    except (orjson.JSONDecodeError, ValidationError):
+        return model.model_validate(strictly.loads(message["body"]))
+    except (JSONDecodeError, ValidationError):
         return None

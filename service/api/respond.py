@@ -8,12 +8,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any, get_args
 
-import orjson
 from fastapi import Request, Response
 from fastapi.dependencies.utils import get_flat_params
 from fastapi.params import Query
 from fastapi.routing import APIRoute
 
+from service.api import strictly
 from service.api.context import check_form
 from service.api.kept import kept_contract
 from service.api.preconditions import checked_first
@@ -40,10 +40,10 @@ def etag(sequence: int) -> dict[str, str]:
 
 
 class _StrictRequest(Request):
-    """Reads JSON by the letter: no NaN, no lone surrogates, which later could not be written."""
+    """Reads JSON by the letter."""
 
     async def json(self) -> Any:
-        return orjson.loads(await self.body())
+        return strictly.loads(await self.body())
 
 
 class StrictRoute(APIRoute):

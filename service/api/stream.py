@@ -17,17 +17,17 @@ from __future__ import annotations
 
 import asyncio
 from contextlib import suppress
+from json import JSONDecodeError
 from typing import Annotated, Any, Literal, TypeAlias
 from urllib.parse import urlsplit
 
-import orjson
 import structlog
 from fastapi import APIRouter
 from pydantic import Discriminator, Field, TypeAdapter, ValidationError
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from service.actions import Action
-from service.api import pixels
+from service.api import pixels, strictly
 from service.api.bodies import MAX_ACTIONS, Sent, Strictly
 from service.api.context import Context, context_of
 from service.api.errors import field_problems, invalid
@@ -215,8 +215,8 @@ def _message(text: str | None) -> Message:
     if text is None:
         raise Malformed("Messages are text, not binary.")
     try:
-        values = orjson.loads(text)
-    except orjson.JSONDecodeError as error:
+        values = strictly.loads(text)
+    except JSONDecodeError as error:
         raise Malformed(f"The message cannot be read as JSON: {error.msg}.") from error
     try:
         return _MESSAGE.validate_python(values)

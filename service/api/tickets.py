@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import asyncio
+from json import JSONDecodeError
 from typing import Annotated, Literal
 
-import orjson
 from fastapi import APIRouter, Body, Request, Response
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from starlette.websockets import WebSocket
 
+from service.api import strictly
 from service.api.context import JSON_ONLY
 from service.api.errors import documented
 from service.api.respond import StrictRoute, json_response
@@ -85,8 +86,8 @@ async def admitted(socket: WebSocket) -> bool:
     if received["type"] == "websocket.disconnect":
         return False
     try:
-        said = _Auth.model_validate(orjson.loads(received.get("text") or ""))
-    except (orjson.JSONDecodeError, ValidationError):
+        said = _Auth.model_validate(strictly.loads(received.get("text") or ""))
+    except (JSONDecodeError, ValidationError):
         said = _Auth(type="auth")
     if (said.ticket is not None and guard.tickets.take(said.ticket)) or (
         said.key is not None and guard.key.right(said.key)

@@ -199,6 +199,7 @@ async def test_refusals_come_under_their_id(live: Live) -> None:
         "7",
         '{"type": "dance"}',
         '{"type": "ping", "extra": 1}',
+        '{"type": "ping", "type": "ping"}',
         '{"type": "command", "id": "1"}',
     ],
 )
