@@ -98,6 +98,15 @@ def test_every_file_in_a_table_of_files_is_there(name: str) -> None:
     assert missing == []
 
 
+def test_every_module_of_the_page_that_is_named_is_there() -> None:
+    source = ROOT / "web" / "src"
+    files = re.findall(
+        r"(?<![\w/])(?:src/)?([\w/]+\.js)", (ROOT / "web" / "README.md").read_text(encoding="utf-8")
+    )
+    assert len(files) > 30
+    assert [name for name in files if not (source / name.removeprefix("web/src/")).is_file()] == []
+
+
 def test_every_command_of_roadtalk_that_is_named_is_there() -> None:
     names = {
         command.name or command.callback.__name__ for command in cli.registered_commands if command.callback
