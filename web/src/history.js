@@ -61,15 +61,3 @@ function read(storage) {
     return [];
   }
 }
-
-/**
- * The browser's storage, or null where reading it is forbidden.
- * @returns {Storage | null}
- */
-export function localHistory() {
-  try {
-    return window.localStorage;
-  } catch {
-    return null;
-  }
-}

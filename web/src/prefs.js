@@ -1,7 +1,7 @@
 // @ts-check
 /** What the reader has chosen, kept in the browser where that is allowed, and for this visit where it is not. */
 
-import { localHistory } from "./history.js";
+import { browserStorage } from "./storage.js";
 
 const PREFIX = "roadtalk.";
 /** @type {Map<string, string>} */
@@ -10,7 +10,7 @@ const here = new Map();
 /** @param {string} name @param {string} [otherwise] @returns {string} */
 export function preference(name, otherwise = "") {
   try {
-    return here.get(name) ?? localHistory()?.getItem(PREFIX + name) ?? otherwise;
+    return here.get(name) ?? browserStorage()?.getItem(PREFIX + name) ?? otherwise;
   } catch {
     return otherwise;
   }
@@ -20,7 +20,7 @@ export function preference(name, otherwise = "") {
 export function prefer(name, value) {
   here.set(name, value);
   try {
-    localHistory()?.setItem(PREFIX + name, value);
+    browserStorage()?.setItem(PREFIX + name, value);
   } catch {
     // Full or forbidden: it holds for this visit.
   }

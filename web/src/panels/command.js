@@ -2,8 +2,9 @@
 /** The box to talk in: Enter sends, Tab completes, ↑ and ↓ bring back what was said, Escape clears. */
 
 import { make } from "../dom.js";
-import { History, localHistory } from "../history.js";
+import { History } from "../history.js";
 import { icon } from "../icons.js";
+import { browserStorage } from "../storage.js";
 import { createMicrophone } from "./speech.js";
 import { createSuggest } from "./suggest.js";
 
@@ -22,7 +23,7 @@ const RESTING = matchMedia("(hover: none)").matches
  * @returns {Panel}
  */
 export function createCommand(host, page) {
-  const history = new History(localHistory());
+  const history = new History(browserStorage());
   const words = make("input", {
     id: "words",
     class: "words",

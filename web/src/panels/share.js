@@ -2,13 +2,13 @@
 /** A moment handed on: forked into a session of its own, gone back to, or put into a link. */
 
 import { make } from "../dom.js";
-import { localHistory } from "../history.js";
 import { askJson, words } from "../http.js";
 import { icon } from "../icons.js";
 import { onDemand, styled } from "../lazy.js";
 import { forkAt, forks, hashOf, noteFork, shareLink } from "../links.js";
 import { createMenu } from "../menu.js";
 import { sessionPath } from "../protocol.js";
+import { browserStorage } from "../storage.js";
 
 /** @import { Act } from "../acts.js" */
 /** @import { Page } from "../main.js" */
@@ -73,7 +73,7 @@ export function createShare(host, page, looking) {
   const fork = () =>
     doing(async (session, wanted) => {
       const made = await forkAt(session, wanted, wanted === null ? undefined : true);
-      noteFork(localHistory(), { child: made.id, parent: session, tick: made.tick });
+      noteFork(browserStorage(), { child: made.id, parent: session, tick: made.tick });
       const open = () => void (location.hash = hashOf(made.id));
       // Whoever has gone to another session meanwhile is not taken away from there.
       if (page.state().session !== session) return page.tell({ text: `The other session was forked at tick ${made.tick}.`, offer: { label: "Open", run: open } });
@@ -94,7 +94,7 @@ export function createShare(host, page, looking) {
     });
 
   /** @param {string | null} session */
-  const parentOf = (session) => forks(localHistory()).findLast(({ child }) => child === session);
+  const parentOf = (session) => forks(browserStorage()).findLast(({ child }) => child === session);
 
   return {
     acts: [
@@ -139,7 +139,7 @@ function shareActs({ share, fork, rewind, parentOf }) {
     {
       name: "open-fork", group,
       now({ past, session }) {
-        const made = past && forks(localHistory()).findLast(({ parent, tick }) => parent === session && tick === past.world.tick);
+        const made = past && forks(browserStorage()).findLast(({ parent, tick }) => parent === session && tick === past.world.tick);
         return made ? { label: "Open the fork made here", run: () => (location.hash = hashOf(made.child)) } : null;
       },
     },

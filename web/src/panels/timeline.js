@@ -4,10 +4,10 @@
 import { make, setText } from "../dom.js";
 import { words } from "../http.js";
 import { icon } from "../icons.js";
-import { localHistory } from "../history.js";
 import { byLoudness, JUMPS, marksIn, markWords, nextMark, spanOf } from "../marks.js";
 import { drawLine, HEIGHT, tickAt, xOf } from "../paint/line.js";
 import { Run } from "../run.js";
+import { browserStorage } from "../storage.js";
 import { clock } from "../words.js";
 
 /** @import { Act } from "../acts.js" */
@@ -47,7 +47,7 @@ export function createTimeline(host, page, looking) {
   const pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
 
   const run = new Run({
-    storage: localHistory(),
+    storage: browserStorage(),
     changed: redraw,
     rewritten: () => looking.rewritten(),
     failed(error) {
