@@ -15,7 +15,7 @@ from typing import TypeVar
 
 import fastapi.routing
 import pytest
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 
 from service.language import engine
 from service.language.data import LanguageData
@@ -29,7 +29,10 @@ from tests.service.postgres import Server, binaries, serving
 
 Report = TypeVar("Report", pytest.TestReport, pytest.CollectReport)
 
-settings.register_profile("untimed", deadline=None)
+# The same examples each time, and as many seconds for them as a machine needs.
+settings.register_profile(
+    "untimed", derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow]
+)
 settings.load_profile("untimed")
 
 

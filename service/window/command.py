@@ -62,20 +62,18 @@ def play(
     loading = Loading()
     if scenario is not None:
         base = _described(loading, scenario, base, given)
-    try:
-        screen = loop.open_display(room)
-    except loop.NoDisplayError as error:
-        _refuse(
-            f"There is no display to open a window on ({error}). Run it on a desktop, or use the page: "
-            "roadtalk serve"
-        )
 
     def config_of(asked: int | None) -> Config:
         return base if not ask or asked is None else base.with_parts(potholes=asked)
 
     ask = potholes is None and scenario is None
     try:
-        loop.play(screen, config_of, ask=ask, loading=loading)
+        loop.play(loop.open_display(room), config_of, ask=ask, loading=loading)
+    except loop.NoDisplayError as error:
+        _refuse(
+            f"There is no display to open a window on ({error}). Run it on a desktop, or use the page: "
+            "roadtalk serve"
+        )
     except LoadError as error:
         _refuse(str(error))
     except KeyboardInterrupt:

@@ -16,7 +16,7 @@ from typing import Any
 import httpx
 
 ROOT = Path(__file__).parents[2]
-START_S = 60
+START_S = 180
 
 
 class NotStartedError(Exception):

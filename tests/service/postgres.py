@@ -7,7 +7,6 @@ import os
 import pwd
 import shutil
 import signal
-import socket
 import subprocess
 import tempfile
 from collections.abc import Iterator
@@ -18,7 +17,11 @@ from pathlib import Path
 
 import asyncpg
 
+from tests.ports import lasting_port
+
 _NAMES = count(1)
+STARTS = 20
+"""How often it is tried to start one."""
 
 
 def binaries() -> Path | None:
@@ -60,11 +63,19 @@ class Server:
 
     def start(self) -> None:
         """Start it, for the first time or again."""
-        # Locks of a server that was killed; where nobody buries its processes, they still look alive.
-        for lock in (self.folder / "data" / "postmaster.pid", *self.folder.glob(".s.PGSQL.*.lock")):
-            lock.unlink(missing_ok=True)
         options = f"-p {self.port} -c listen_addresses=127.0.0.1 -c unix_socket_directories={self.folder}"
-        self._control("-w", "-l", str(self.folder / "log"), "-o", options, "start")
+        for left in reversed(range(STARTS)):
+            # Locks of a server that was killed; where nobody buries its processes, they still look alive.
+            for lock in (self.folder / "data" / "postmaster.pid", *self.folder.glob(".s.PGSQL.*.lock")):
+                lock.unlink(missing_ok=True)
+            try:
+                self._control("-w", "-t", "300", "-l", str(self.folder / "log"), "-o", options, "start")
+            except subprocess.CalledProcessError:
+                # What was killed may take a while to be gone, and until then its memory is taken.
+                if left == 0:
+                    raise
+            else:
+                return
 
     def stop(self) -> None:
         """Stop it without waiting for anyone."""
@@ -103,9 +114,6 @@ def serving(programs: Path) -> Iterator[Server]:
     try:
         if user is not None:
             os.chown(folder, user, -1)
-        with socket.socket() as free:
-            free.bind(("127.0.0.1", 0))
-            port = free.getsockname()[1]
         data = str(folder / "data")
         making = [
             programs / "initdb",
@@ -119,7 +127,7 @@ def serving(programs: Path) -> Iterator[Server]:
             "--no-sync",
         ]
         subprocess.run(making, user=user, cwd=folder, check=True, stdout=subprocess.DEVNULL)
-        server = Server(port, folder, programs, user)
+        server = Server(lasting_port(), folder, programs, user)
         server.start()
         try:
             yield server

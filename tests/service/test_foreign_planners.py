@@ -4,17 +4,28 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import httpx
 import pytest
 
 from sim import planner_names
-from sim.plan.worker import worker_of
+from sim.plan import worker
 from tests.service.conftest import Service
 from tests.sim import faulty_planners
 
 MADE = "/api/v1/sessions"
+PATIENCE_S = 120.0
+
+
+@cache
+def patient(name: str) -> worker.Worker | None:
+    """As `worker_of`, but only who is to hang is held to the time for one decision: a machine may be busy."""
+    point = planner_names.installed().get(name)
+    if point is None:
+        return None
+    return worker.Worker(point, worker.BUDGET_S if name == "hangs" else PATIENCE_S)
 
 
 @pytest.fixture(autouse=True)
@@ -22,14 +33,16 @@ def installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]
     """The package of faulty planners on the path, for this process and its children."""
     faulty_planners.package(str(tmp_path))
     monkeypatch.syspath_prepend(str(tmp_path))
+    monkeypatch.setattr(worker, "worker_of", patient)
+    monkeypatch.setattr(worker, "START_S", PATIENCE_S)
     planner_names.installed.cache_clear()
-    worker_of.cache_clear()
+    patient.cache_clear()
     yield
     for name in planner_names.installed():
-        worker = worker_of(name)
-        if worker is not None:
-            worker.stop()
-    worker_of.cache_clear()
+        started = patient(name)
+        if started is not None:
+            started.stop()
+    patient.cache_clear()
     planner_names.installed.cache_clear()
 
 

@@ -76,7 +76,7 @@ async def sent(at: At, content: bytes, *, shut: bool = False) -> tuple[int, http
         head = await asyncio.wait_for(reader.readuntil(b"\r\n\r\n"), 60)
         lines = head.decode("latin-1").strip().split("\r\n")
         headers = httpx.Headers([line.split(": ", 1) for line in lines[1:]])
-        body = await asyncio.wait_for(reader.readexactly(int(headers.get("content-length", 0))), 20)
+        body = await asyncio.wait_for(reader.readexactly(int(headers.get("content-length", 0))), 60)
     except (asyncio.IncompleteReadError, ConnectionError):
         return 0, httpx.Headers(), b""
     finally:

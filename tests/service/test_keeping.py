@@ -203,7 +203,7 @@ async def test_it_is_kept_in_its_own_time_without_being_asked(monkeypatch: pytes
     await do(session, ADD)
     worker = service.manager.keeper._worker
     assert worker is not None
-    await asyncio.wait([worker], timeout=10)
+    await asyncio.wait([worker], timeout=60)
     assert service.manager.keeper.fates == {"kept": 1}
     await do(session, ADD)
     assert service.manager.keeper._worker is not None

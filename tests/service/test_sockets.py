@@ -49,7 +49,7 @@ async def refused(live: Running, content: bytes) -> tuple[int, httpx.Headers, di
     """What is answered to its end, on a line that the service closes."""
     reader, writer = await asyncio.open_connection("127.0.0.1", live.port)
     writer.write(content)
-    answer = await asyncio.wait_for(reader.read(), 20)
+    answer = await asyncio.wait_for(reader.read(), 60)
     writer.close()
     head, _, body = answer.partition(b"\r\n\r\n")
     status, *lines = head.decode("latin-1").split("\r\n")
@@ -151,7 +151,7 @@ async def test_letters_that_are_none_are_no_failure(
     reader, writer = await opened(live, path)
     writer.write(b"\x81\x82" + bytes(4) + b"\xff\xfe")
     with caplog.at_level(logging.WARNING):
-        rest = await asyncio.wait_for(reader.read(), 20)
+        rest = await asyncio.wait_for(reader.read(), 60)
     writer.close()
     assert rest.endswith((1007).to_bytes(2, "big") + b"not written in UTF-8")
     assert caplog.records == []
@@ -163,7 +163,7 @@ async def test_a_message_of_endless_parts_is_ended(
     monkeypatch.setattr(sockets, "MOST_FRAGMENTS", 10)
     reader, writer = await opened(live, path)
     writer.write(b"\x01\x80" + bytes(4) + (b"\x00\x80" + bytes(4)) * 20)
-    rest = await asyncio.wait_for(reader.read(), 20)
+    rest = await asyncio.wait_for(reader.read(), 60)
     writer.close()
     assert rest.endswith((1009).to_bytes(2, "big") + b"more than 10 fragments")
 

@@ -132,8 +132,7 @@ def test_a_person_plays(screen: Screen, tmp_path: Path) -> None:
         screen.key("slash")
         screen.type("exactly 31 potholes")
         screen.key("Return", "Escape")
-        full = picture()
-        assert yellow(full) > 2 * yellow(still), "there are more potholes on the schematic"
+        until(lambda: yellow(picture()) > 2 * yellow(still), "there are more potholes on the schematic")
         screen.key("ctrl+z")
         until(lambda: yellow(picture()) < 1.5 * yellow(still), "they are gone again")
         screen.key("F2", "F3", "F4")
