@@ -31,11 +31,11 @@ class Held:
         page = self._visitor.page
         with page.expect_event("requestfinished", lambda request: self._address.search(request.url)):
             self._routes.pop(0).continue_()
-        page.evaluate("() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        self._visitor.drawn()
 
     def asked(self) -> None:
         """Wait until something is held back: it is told of only some time after the page has asked."""
         end = time.monotonic() + PATIENCE_MS / 1000
         while not self._routes:
             assert time.monotonic() < end, f"nothing was asked of {self._address.pattern}"
-            self._visitor.page.evaluate("() => new Promise(requestAnimationFrame)")
+            self._visitor.drawn()

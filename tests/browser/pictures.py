@@ -64,10 +64,10 @@ class Studio:
         tick = visitor.script.state()["tick"]
         lost = page.locator("#metrics").get_by_text(re.compile(rf"lost in {tick}$|^–$|was lost"))
         expect(lost.last).to_be_attached()
-        page.evaluate("() => Promise.all(document.getAnimations().map((one) => one.finished))")
+        visitor.coloured()
         before, now = b"", page.screenshot(animations="disabled")
         while now != before:
-            visitor.watch(0.5)
+            visitor.settled()
             before, now = now, page.screenshot(animations="disabled")
         image = Image.open(io.BytesIO(now)).convert("RGB")
         path = FOLDER / f"{name}.png"
@@ -168,7 +168,7 @@ def beside(studio: Studio) -> None:
     visitor.script.act({"do": "add", "kind": "barrier", "count": 1, "where": {"cell": [column, row - 1]}})
     studio.drive(visitor, 1)
     visitor.say("why did you do that?")
-    visitor.watch(1.5)  # until the vehicle is where it is going
+    visitor.settled()  # the vehicle is where it is going
     visitor.page.mouse.click(*visitor.page.evaluate(PLACE_OF, visitor.script.state()["vehicles"][0]["cell"]))
     visitor.page.locator("#bubble .bubble-move", has_text="a barrier").click()
     end = visitor.page.locator("#beside [data-side=changed] .beside-verdict")

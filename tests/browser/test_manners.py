@@ -83,7 +83,7 @@ def test_a_dark_choice_is_dark_before_anything_runs(visit: Visit) -> None:
     page.reload()
     until(page, "() => getComputedStyle(document.documentElement).colorScheme === 'dark'")
     assert page.evaluate(GROUND) == "rgb(14, 16, 20)"
-    visitor.console.clear()
+    visitor.forgive("Failed to load resource")
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
@@ -115,6 +115,7 @@ def test_on_a_phone_nothing_sticks_out_and_every_target_can_be_hit(
     states: dict[str, list[str]] = {}
 
     def look(name: str) -> None:
+        visitor.coloured()
         states[name] = [*page.evaluate(STICKS_OUT), *page.evaluate(SMALL_TARGETS, 44)]
 
     look("first visit")
@@ -134,7 +135,7 @@ def test_on_a_phone_nothing_sticks_out_and_every_target_can_be_hit(
     look("help")
     page.keyboard.press("Escape")
     visitor.script.act({"do": "mode", "mode": "manual"})
-    expect(page.locator("[data-figure=tick]")).to_be_visible()
+    expect(page.locator(".drive-pad")).to_be_visible()
     look("driving by hand")
     wrong = {name: found for name, found in states.items() if found}
     assert not wrong, wrong
@@ -183,13 +184,11 @@ def test_a_long_run_does_not_grow_the_page(visit: Visit) -> None:
     visitor.pause()
     nodes = "document.getElementsByTagName('*').length"
     for _ in range(3):
-        visitor.script.act({"do": "step", "ticks": 100})
+        visitor.step(100)
     first = visitor.page.evaluate(nodes)
     for _ in range(4):
-        visitor.script.act({"do": "step", "ticks": 100})
+        visitor.step(100)
         visitor.say("add two potholes")
         visitor.say("undo")
-    tick = visitor.script.state()["tick"]
-    expect(visitor.page.locator("[data-figure=tick] .figure-value")).to_have_text(str(tick))
     assert visitor.page.evaluate(nodes) - first < 400
     assert visitor.page.evaluate(nodes) < 4_000

@@ -177,10 +177,7 @@ def test_an_answer_that_comes_late_takes_no_newer_ones_place(visit: Visit) -> No
 
 
 def test_what_is_heard_is_put_in_the_box_and_not_sent(visit: Visit) -> None:
-    visitor = visit(live=False)
-    visitor.page.add_init_script(SCRIPTED_SPEECH)
-    visitor.page.reload()
-    visitor.wait_live()
+    visitor = visit(before=SCRIPTED_SPEECH)
     visitor.page.get_by_role("button", name="Speak").click()
     expect(visitor.words).to_have_value("add two barriers")
     expect(visitor.words).to_be_focused()
@@ -188,23 +185,18 @@ def test_what_is_heard_is_put_in_the_box_and_not_sent(visit: Visit) -> None:
 
 
 def test_replies_are_read_aloud_only_on_request(visit: Visit) -> None:
-    visitor = visit(live=False)
-    visitor.page.add_init_script(SCRIPTED_SPEECH)
-    visitor.page.reload()
-    visitor.wait_live()
+    visitor = visit(before=SCRIPTED_SPEECH)
     visitor.say("add two barriers")
     assert visitor.page.evaluate("window.spoken") == []
     visitor.page.locator("#help").click()
     visitor.page.get_by_label("Read aloud").check()
     visitor.page.keyboard.press("Escape")
-    reply = visitor.say("add three barriers").locator(".reply").inner_text()
+    reply = visitor.say("add three barriers").locator(".reply").inner_text().replace("\xa0", " ")
+    visitor.until("() => window.spoken.length > 0")
+    assert visitor.page.evaluate("window.spoken") == [reply]
     expect(visitor.page.locator("#announcer")).to_have_text(reply)
-    assert visitor.page.evaluate("window.spoken") == [reply.replace("\xa0", " ")]
 
 
 def test_without_a_microphone_there_is_no_button(visit: Visit) -> None:
-    visitor = visit(live=False)
-    visitor.page.add_init_script("delete window.SpeechRecognition; delete window.webkitSpeechRecognition;")
-    visitor.page.reload()
-    visitor.wait_live()
+    visitor = visit(before="delete window.SpeechRecognition; delete window.webkitSpeechRecognition;")
     expect(visitor.page.get_by_role("button", name="Speak")).to_have_count(0)

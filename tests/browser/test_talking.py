@@ -96,7 +96,7 @@ def test_over_long_text_is_refused_in_words(visit: Visit) -> None:
     assert exchange.get_attribute("data-standing") == "refused"
     assert exchange.locator(".reply").inner_text() != ""
     # Where typing and sending are apart, completions were asked for and refused: the browser's own line.
-    visitor.console = [line for line in visitor.console if "422" not in line]
+    visitor.forgive("422")
 
 
 def test_an_unavailable_wish_is_refused_saying_so(visit: Visit) -> None:
@@ -112,13 +112,14 @@ def test_the_log_tells_ticks_quietly_and_follows_until_scrolled(visit: Visit) ->
     for _ in range(50):
         visitor.script.act({"do": "step", "ticks": 3})
     lines = visitor.page.locator(".log-lines")
+    visitor.shows(150)
     expect(visitor.page.locator(".log-line").nth(30)).to_be_attached()
     at_end = "(list) => list.scrollHeight - list.scrollTop - list.clientHeight < 2"
     visitor.until(f"() => ({at_end})(document.querySelector('.log-lines'))")
     lines.evaluate("(list) => { list.scrollTop = 0; }")
     newest = visitor.page.get_by_role("button", name="Newest")
     expect(newest).to_be_visible()
-    visitor.script.act({"do": "step", "ticks": 3})
+    visitor.step(3)
     assert lines.evaluate("(list) => list.scrollTop") == 0
     newest.click()
     visitor.until(f"() => ({at_end})(document.querySelector('.log-lines'))")

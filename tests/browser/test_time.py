@@ -29,6 +29,7 @@ def test_dragging_shows_the_past_as_it_was(run: Visitor) -> None:
     expect(bar(run)).to_be_visible()
     run.page.mouse.move(box["x"] + box["width"] * 0.3, middle, steps=8)
     run.page.mouse.up()
+    run.drawn()
     tick = int(slider(run).get_attribute("aria-valuenow") or "-1")
     assert 20 < tick < 60
     expect(figure(run)).to_have_text(str(tick))

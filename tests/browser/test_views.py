@@ -97,6 +97,7 @@ def test_parts_are_shown_and_hidden_by_keys_heads_and_menu_and_stay_so(visit: Vi
 def test_what_is_enlarged_fills_the_place_of_the_rest_and_comes_back(visit: Visit) -> None:
     visitor = visit()
     visitor.pause()
+    expect(visitor.page.locator(".panel-note").first).to_have_text(re.compile("next"))
     before = part(visitor, "plan").bounding_box()
     visitor.page.get_by_role("button", name="Enlarge the plan").click()
     visitor.until("document.querySelector('.plan-canvas').clientWidth > 400")
@@ -108,6 +109,7 @@ def test_what_is_enlarged_fills_the_place_of_the_rest_and_comes_back(visit: Visi
     canvas = visitor.page.locator(".plan-canvas")
     visitor.page.keyboard.press("Escape")
     visitor.until("document.querySelector('.plan-canvas').clientWidth < 300")
+    visitor.drawn()
     assert part(visitor, "plan").bounding_box() == before
     road = part(visitor, "road").bounding_box()
     visitor.page.get_by_role("button", name="Enlarge the road").click()
@@ -328,22 +330,12 @@ def test_what_was_lost_is_reckoned_anew_when_the_run_becomes_another(visit: Visi
     judged = asked(visitor, f"regret?from={first}&limit=60")["items"]
     assert judged[0]["blocked"] == 1
     chart = visitor.page.locator("[data-chart=blocked]")
-    expect(visitor.page.locator(".chart-told").nth(1)).to_contain_text("lost in")
-    blocked = settled_chart(visitor, chart)
+    told = asked(visitor, f"regret?from={max(0, first + 4 - 60)}&limit=60")["items"]
+    expect(visitor.page.locator(".chart-told").nth(1)).to_contain_text(f"lost in {len(told)}")
+    visitor.drawn()
+    blocked = chart.evaluate("(canvas) => canvas.toDataURL()")
     visitor.script.act({"do": "undo"})
     assert asked(visitor, f"regret?from={first}&limit=60")["items"][0]["blocked"] == 0
     visitor.until(
         "(before) => document.querySelector('[data-chart=blocked]').toDataURL() !== before", blocked
     )
-
-
-def settled_chart(visitor: Visitor, chart: Locator) -> str:
-    """The chart's picture once nothing more comes in."""
-    before = ""
-    for _ in range(20):
-        visitor.watch(0.4)
-        picture: str = chart.evaluate("(canvas) => canvas.toDataURL()")
-        if picture == before:
-            break
-        before = picture
-    return before

@@ -10,7 +10,7 @@ from playwright.sync_api import Browser, ConsoleMessage, Locator, Page, Request,
 
 from tests.browser.service_process import Script
 
-PATIENCE_MS = 30_000
+PATIENCE_MS = 60_000
 """How long anything on the page may take: a machine may be slow, or busy with other things."""
 
 WATCH_POLICY = """
@@ -19,26 +19,74 @@ document.addEventListener("securitypolicyviolation", (event) =>
   window.policyViolations.push(`${event.violatedDirective} ${event.blockedURI}`));
 """
 
-WATCH_PICTURES = """
-(durationMs) => new Promise((done) => {
+WATCH_FRAMES = """
+window.nextFrame = window.requestAnimationFrame.bind(window);
+window.framesWanted = 0;
+window.requestAnimationFrame = (work) => {
+  window.framesWanted += 1;
+  return window.nextFrame((now) => {
+    window.framesWanted -= 1;
+    work(now);
+  });
+};
+"""
+"""How many frames the page has asked for: none while nothing on it moves."""
+
+PICTURE = """
+() => {
   const road = document.querySelector("#road .road-canvas");
   const small = new OffscreenCanvas(90, 90);
   const pen = small.getContext("2d", { willReadFrequently: true });
-  const pictures = [];
-  let began = null;
-  function frame(now) {
-    began ??= now;
-    pen.drawImage(road, 0, 0, 90, 90);
-    const data = pen.getImageData(0, 0, 90, 90).data;
-    let hash = 0;
-    for (const value of data) hash = (Math.imul(hash, 31) + value) | 0;
-    pictures.push(hash);
-    if (now - began < durationMs || pictures.length < 4) requestAnimationFrame(frame);
-    else done({ frames: pictures.length - 1, seconds: (now - began) / 1000, pictures });
-  }
-  requestAnimationFrame(frame);
-})
+  pen.drawImage(road, 0, 0, 90, 90);
+  let hash = 0;
+  for (const value of pen.getImageData(0, 0, 90, 90).data) hash = (Math.imul(hash, 31) + value) | 0;
+  return hash;
+}
 """
+
+AT_REST = f"""
+async () => {{
+  const end = performance.now() + {PATIENCE_MS};
+  let still = 0;
+  while (still < 3 && performance.now() < end) {{
+    await new Promise(window.nextFrame);
+    still = window.framesWanted === 0 ? still + 1 : 0;
+  }}
+  return ({PICTURE})();
+}}
+"""
+
+SO_MANY = f"""
+async (frames) => {{
+  const seen = [];
+  while (seen.length < frames) {{
+    await new Promise(window.nextFrame);
+    seen.push(({PICTURE})());
+  }}
+  return seen;
+}}
+"""
+
+LIVE = """
+() => {
+  const { phase, session } = document.querySelector("#connection").dataset;
+  const [, named] = location.hash.match(/^#\\/s\\/([^/]+)/) ?? [];
+  return phase === "live" && session === named;
+}
+"""
+
+COLOURED = """
+async () => {
+  for (;;) {
+    const ending = (one) => one.effect?.getComputedTiming().endTime !== Infinity;
+    const under_way = document.getAnimations().filter(ending);
+    if (under_way.length === 0) return;
+    await Promise.allSettled(under_way.map((one) => one.finished));
+  }
+}
+"""
+
+TWO_FRAMES = "() => new Promise((done) => nextFrame(() => nextFrame(done)))"
 
 
 def until(page: Page, expression: str, *values: Any) -> None:
@@ -51,19 +99,22 @@ def until(page: Page, expression: str, *values: Any) -> None:
     end = time.monotonic() + PATIENCE_MS / 1000
     while not page.evaluate(expression, given):
         assert time.monotonic() < end, f"it did not come to pass that {expression}"
-        page.evaluate("() => new Promise(requestAnimationFrame)")
+        page.evaluate("() => new Promise(window.nextFrame)")
 
 
 class Visitor:
     """One page in a browser of its own, with everything suspicious noted down."""
 
-    def __init__(self, browser: Browser, url: str, **context: Any) -> None:
+    def __init__(self, browser: Browser, url: str, *, before: str | None = None, **context: Any) -> None:
+        """`before` is a script that runs before any of the page's own."""
         self.url = url
         self._context = browser.new_context(**{"viewport": {"width": 1440, "height": 900}, **context})
-        self._context.add_init_script(WATCH_POLICY)
+        for script in filter(None, (WATCH_POLICY, WATCH_FRAMES, before)):
+            self._context.add_init_script(script)
         self.page: Page = self._context.new_page()
         self.page.set_default_timeout(PATIENCE_MS)
         self.console: list[str] = []
+        self._forgiven: list[str] = []
         self.requests: list[str] = []
         self.page.on("console", self._note)
         self.page.on("pageerror", lambda error: self.console.append(f"uncaught: {error}"))
@@ -85,8 +136,22 @@ class Visitor:
         return self
 
     def wait_live(self) -> None:
-        """Until the stream has said hello."""
+        """Until the stream has said hello, of the session that the address names by now."""
         expect(self.page.locator("#connection")).to_have_attribute("data-phase", "live")
+        self.until(LIVE)
+
+    def drawn(self) -> None:
+        """Until what has come to the page is to be seen on it."""
+        self.page.evaluate(TWO_FRAMES)
+
+    def coloured(self) -> None:
+        """Until colours and places are those that style sheets wish for: none is on its way to another."""
+        self.drawn()
+        self.page.evaluate(COLOURED)
+
+    def forgive(self, line: str) -> None:
+        """What the browser itself logs about a request that is meant to fail, before or after this."""
+        self._forgiven.append(line)
 
     @property
     def session(self) -> str:
@@ -126,19 +191,24 @@ class Visitor:
         self.script.act({"do": "pause"})
         expect(self.page.locator(".paused")).to_be_visible()
 
-    def watch(self, seconds: float) -> dict[str, Any]:
-        """The road's picture in every animation frame for a while, each as a number."""
-        seen: dict[str, Any] = self.page.evaluate(WATCH_PICTURES, seconds * 1000)
+    def picture(self) -> int:
+        """The road's picture now, as a number."""
+        seen: int = self.page.evaluate(PICTURE)
+        return seen
+
+    def pictures(self, frames: int) -> list[int]:
+        """The road's picture in so many animation frames, each as a number."""
+        seen: list[int] = self.page.evaluate(SO_MANY, frames)
         return seen
 
     def settled(self, *, like: int | None = None, unlike: int | None = None) -> int:
         """The road's picture as a number, once nothing glides and it is like, or unlike, another."""
-        for _ in range(100):
-            pictures = self.watch(0.3)["pictures"]
-            still, picture = len(set(pictures[-len(pictures) // 2 :])) == 1, int(pictures[-1])
-            if still and picture != unlike and like in (None, picture):
+        end = time.monotonic() + PATIENCE_MS / 1000
+        while True:
+            picture: int = self.page.evaluate(AT_REST)
+            if picture != unlike and like in (None, picture):
                 return picture
-        raise AssertionError("the road does not come to rest as it should")
+            assert time.monotonic() < end, "the road does not come to rest as it should"
 
     def until(self, expression: str, *values: Any) -> None:
         """Wait for something that no expectation of Playwright's tells."""
@@ -181,7 +251,8 @@ class Visitor:
         home = re.escape(self.url.split("://")[1])
         strangers = [url for url in self.requests if not re.match(rf"(http|ws)://{home}(/|$)", url)]
         violations: list[str] = self.page.evaluate("window.policyViolations")
-        return [*self.console, *violations, *strangers]
+        console = [line for line in self.console if not any(each in line for each in self._forgiven)]
+        return [*console, *violations, *strangers]
 
     def close(self) -> None:
         """Leave."""

@@ -18,9 +18,10 @@ export function createConnectionBadge(host, page) {
   host.append(lamp, text, retry);
 
   return {
-    update({ connection, world }) {
+    update({ connection, world, session }) {
       const { phase } = connection;
       host.dataset.phase = phase;
+      host.dataset.session = session ?? "";
       retry.hidden = phase !== "lost";
       document.body.classList.toggle("stale", phase === "lost" && world !== null);
       if (phase === "lost") {
