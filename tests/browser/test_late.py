@@ -10,6 +10,7 @@ from tests.browser.conftest import STANDING, Visit
 from tests.browser.held import Held
 from tests.browser.service_process import ServiceProcess
 from tests.browser.visitor import Visitor
+from tests.browser.walking import TICKS, figure
 
 
 def gone_elsewhere(visitor: Visitor, session: str) -> None:
@@ -62,3 +63,22 @@ def test_a_comparison_that_comes_late_takes_the_focus_from_nobody(visit: Visit) 
     expect(visitor.words).to_be_focused()
     visitor.page.keyboard.type("our")
     expect(visitor.words).to_have_value("add four")
+
+
+def test_a_jump_waits_for_the_part_of_the_run_that_is_not_known_yet(visit: Visit) -> None:
+    visitor = visit()
+    visitor.say("set the number of cars to 14")
+    visitor.script.act({"do": "step", "ticks": TICKS})
+    visitor.shows(TICKS)
+    held = Held(visitor, r"/changes\?", method="GET")
+    visitor.page.reload()
+    held.asked()
+    visitor.wait_live()
+    jumps = visitor.page.get_by_role("combobox", name="Jump between")
+    jumps.select_option("command")
+    visitor.page.get_by_role("button", name="Previous mark").click()
+    visitor.drawn()
+    expect(figure(visitor)).to_have_text(str(TICKS))
+    expect(visitor.page.locator(".notice-box")).to_be_hidden()
+    held.let_go()
+    expect(figure(visitor)).to_have_text("0")

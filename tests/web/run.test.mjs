@@ -154,3 +154,20 @@ test("a page of the run that was asked for before it became another is asked for
   await answer("/timeline");
   assert.equal(run.chart.letter(10), "L");
 });
+
+test("what is about to be known is said to be coming, and no longer once it is known or cannot be had", async () => {
+  const { run, service, pass } = stage();
+  assert.equal(run.coming, false, "of no session");
+  run.takeIn("s1", 1_200, course());
+  assert.equal(run.coming, true);
+  await pass(60);
+  assert.equal(run.coming, true, "the first pages");
+  await pass(1_000);
+  assert.equal(run.coming, false);
+  run.takeIn("s1", 1_200, course({ edition: 2 }));
+  assert.equal(run.coming, true, "what stands is asked anew");
+  service.failing = true;
+  run.takeIn("s1", 1_202, course({ edition: 3, letters: "??" }));
+  await pass(600);
+  assert.equal(run.coming, false, "nobody waits for what cannot be had");
+});

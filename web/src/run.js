@@ -39,6 +39,8 @@ export class Run {
   #pages = 0;
   #asking = false;
   #waiting = false;
+  #failed = false;
+  /** Questions under way about what stands. */ #revisions = 0;
   #revising = turns();
   /** Raised whenever a part is forgotten: a page that was asked for before tells of a run that is no more. */ #age = 0;
 
@@ -61,7 +63,7 @@ export class Run {
       this.#said = [];
       this.#pages = 0;
       this.#age += 1;
-      this.around.failed(null);
+      this.#tell(null);
     }
     const old = this.#course;
     if (course === old) return;
@@ -75,11 +77,18 @@ export class Run {
     if (this.chart.gap(1)) this.#later(this.#pages < QUICK_PAGES ? PAUSE_MS.page : PAUSE_MS.later);
   }
 
+  /** Whether more of it is about to be known: whoever looks for something there does well to wait for that. */
+  get coming() {
+    const quick = this.#pages < QUICK_PAGES && this.chart.gap(1) !== null;
+    return this.session !== null && !this.#failed && (this.#revisions > 0 || quick);
+  }
+
   /** Ask what stands of what was said, and forget what is no longer so. */
   async revise() {
     const { session } = this;
     if (!session) return;
     const newest = this.#revising();
+    this.#revisions += 1;
     try {
       /** @type {{items: {tick: number, sequence: number, text: string}[], more: boolean}} */
       const { items, more } = await askJson(`${sessionPath(session)}/changes?limit=1000`, { http: this.around.http });
@@ -97,12 +106,20 @@ export class Run {
       this.chart.replace("command", items.map(({ tick, text }) => ({ tick, kind: "command", text })));
       const own = forks(this.around.storage).filter(({ parent }) => parent === session);
       this.chart.replace("fork", own.map(({ tick, child }) => ({ tick, kind: "fork", session: child })));
-      this.around.failed(null);
+      this.#tell(null);
       this.#later(PAUSE_MS.page);
-      this.around.changed();
     } catch (error) {
-      if (newest() && session === this.session) this.around.failed(error);
+      if (newest() && session === this.session) this.#tell(error);
+    } finally {
+      this.#revisions -= 1;
+      this.around.changed();
     }
+  }
+
+  /** @param {unknown} error  null: all is well */
+  #tell(error) {
+    this.#failed = error !== null;
+    this.around.failed(error);
   }
 
   /** @param {number} delayMs */
@@ -130,12 +147,13 @@ export class Run {
         this.chart.mark(marks);
         this.#pages += 1;
         if (this.#pages >= QUICK_PAGES) pause = PAUSE_MS.later;
-        this.around.failed(null);
+        this.#tell(null);
         this.around.changed();
       }
     } catch (error) {
       if (age === this.#age) {
-        this.around.failed(error);
+        this.#tell(error);
+        this.around.changed();
         pause = PAUSE_MS.failed;
       }
     } finally {

@@ -48,7 +48,12 @@ export function createTimeline(host, page, looking) {
 
   const run = new Run({
     storage: browserStorage(),
-    changed: redraw,
+    changed() {
+      redraw();
+      if (run.coming) return;
+      sought?.();
+      sought = null;
+    },
     rewritten: () => looking.rewritten(),
     failed(error) {
       note.hidden = error === null;
@@ -57,6 +62,7 @@ export function createTimeline(host, page, looking) {
   });
   /** @type {Inks | null} */ let inks = null;
   /** @type {number | null} */ let over = null;
+  /** @type {(() => void) | null} a jump that waits for the part of the run that is about to be known */ let sought = null;
   let dragging = false;
   let stale = true;
   let width = 0;
@@ -76,6 +82,9 @@ export function createTimeline(host, page, looking) {
 
   /** @param {string} name @param {1 | -1} direction */
   function jump(name, direction) {
+    const session = run.session;
+    sought = run.coming ? () => session === run.session && jump(name, direction) : null;
+    if (sought) return;
     const sort = JUMPS.find((each) => each.name === name) ?? JUMPS[0];
     const from = looking.tick ?? run.chart.now;
     const mark = nextMark(run.chart.marks(), sort.kinds, from, direction);
