@@ -70,6 +70,7 @@ def test_axe_finds_nothing_at_the_end_of_an_episode(
 
 def test_the_whole_first_minute_without_a_mouse(visit: Visit) -> None:
     visitor = visit(running=True)
+    session = visitor.session
     page, press = visitor.page, visitor.page.keyboard.press
     focused = "document.activeElement"
     press("Tab")
@@ -104,6 +105,7 @@ def test_the_whole_first_minute_without_a_mouse(visit: Visit) -> None:
     expect(page.locator(".paused")).to_be_hidden()
     press("Slash")
     expect(visitor.words).to_be_focused()
+    assert visitor.session == session, "the way to the box leads to no other session"
 
 
 def test_every_control_can_be_reached_and_is_seen_to_be(visit: Visit) -> None:

@@ -162,6 +162,11 @@ async function openCarried(link) {
 }
 
 watchKeys(page, byId("words"));
+// The address names the session: the link there by keyboard must not lead away from it.
+document.querySelector(".skip")?.addEventListener("click", (event) => {
+  event.preventDefault();
+  byId("words").focus();
+});
 watchPreferences(() => {
   for (const panel of panels) panel.repaint?.();
   loop.wake(true);
