@@ -82,7 +82,7 @@ def test_pictures_films_and_recordings_are_taken_away(run: Visitor) -> None:
     expect(dialog.get_by_role("status")).to_have_text("4 ticks, 2.0 s long.")
     with run.page.expect_download() as film:
         dialog.get_by_role("button", name="Make film").click()
-    expect(dialog.get_by_role("status")).to_have_text(re.compile(r"Saved: \d+ kB\."))
+    expect(dialog.get_by_role("status")).to_have_text(re.compile(r"Saved: [\d.]+ [kM]B\."))
     with Image.open(BytesIO(Path(film.value.path()).read_bytes())) as moving:
         assert (moving.format, getattr(moving, "n_frames", 1) > 5) == ("GIF", True)
     dialog.get_by_label("To tick").fill("20")
@@ -144,6 +144,19 @@ def test_moments_get_names_and_are_gone_back_to(run: Visitor) -> None:
     expect(bar(run)).to_be_hidden()
     expect(figure(run)).to_have_text(str(TICKS))
     assert run.script.state()["tick"] == TICKS
+
+
+def test_a_new_session_begins_with_a_welcome_and_its_own_talk(visit: Visit) -> None:
+    visitor = visit()
+    first = visitor.session
+    welcome = visitor.page.locator(".welcome")
+    expect(welcome).to_be_visible()
+    visitor.say("add five potholes")
+    expect(welcome).to_have_count(0)
+    choose(visitor, "New session")
+    expect(visitor.page).not_to_have_url(re.compile(first))
+    expect(welcome).to_be_visible()
+    expect(visitor.page.locator(".exchange")).to_have_count(0)
 
 
 def test_sessions_are_listed_opened_and_deleted(visit: Visit) -> None:

@@ -57,6 +57,13 @@ test("a change is one loud line and its own event is not repeated, now or after 
   assert.equal(logEvents(log, [edited, disabled]), log);
 });
 
+test("what happened on the way of a long step is told before where it has led", () => {
+  const arrived = logEvent(3, { tick: 4, type: "arrived", text: "Reached the goal." });
+  const held = logEvent(4, { tick: 10, type: "disabled", text: "vehicle-1 is disabled." });
+  const message = { sequence: 1, text: "advance 10 ticks", reply: "Advanced 10 ticks.", changes: [{ path: "tick", before: 0, after: 10 }], events: [arrived, held], state: wireState() };
+  assert.deepEqual(logChange([], message).map(({ text }) => text), ["Reached the goal.", "Advanced 10 ticks.", "vehicle-1 is disabled."]);
+});
+
 test("pausing is a quiet note, stepping is told by its ticks alone", () => {
   const base = { text: null, events: [logEvent(9, { type: "changed" })], state: wireState() };
   const paused = [{ path: "paused", before: false, after: true }];

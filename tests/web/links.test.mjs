@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { fileName, filmPath, recordingIn, stretch } from "../../web/src/downloads.js";
+import { fileName, filmPath, recordingIn, sizeWords, stretch } from "../../web/src/downloads.js";
 import { ask, askJson, Refused } from "../../web/src/http.js";
 import { forkAt, forks, hashOf, noteFork, placeInHash, shareLink } from "../../web/src/links.js";
 
@@ -72,4 +72,8 @@ test("a file that is no recording says what it is instead", () => {
   assert.throws(() => recordingIn("null", "c.json"), /does not say that it is one/);
   assert.equal(recordingIn('{"format":"roadtalk-recording"}', "d").format, "roadtalk-recording");
   assert.equal(fileName("abcdefghijk", "tick-4", "png"), "roadtalk-abcdefgh-tick-4.png");
+});
+
+test("a file's size is told in three figures or so", () => {
+  assert.deepEqual([1, 1_499, 987_400, 1_568_000, 12_340_000].map(sizeWords), ["1 kB", "1 kB", "987 kB", "1.6 MB", "12.3 MB"]);
 });

@@ -56,6 +56,11 @@ export function fileName(session, part, ending) {
   return `roadtalk-${session.slice(0, 8)}-${part}.${ending}`;
 }
 
+/** How large a file is. @param {number} bytes */
+export function sizeWords(bytes) {
+  return bytes < 1_000_000 ? `${Math.max(1, Math.round(bytes / 1000))} kB` : `${(bytes / 1_000_000).toFixed(1)} MB`;
+}
+
 /**
  * What an address answers, as a file's content. Throws `Refused`, or what an abort throws.
  * @param {string} path

@@ -85,7 +85,9 @@ export function logChange(log, message) {
     ...(message.text ? { said: message.text } : {}),
     number,
   };
-  return trimmed([...log, line, ...others]);
+  // What happened on the way of a long step comes before the line that tells where it has led.
+  const onTheWay = others.filter(({ from }) => from < tick);
+  return trimmed([...log, ...onTheWay, line, ...others.filter(({ from }) => from >= tick)]);
 }
 
 /** @param {LogEvent} event @returns {Line} */

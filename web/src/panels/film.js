@@ -3,7 +3,7 @@
 
 import { makeDialog } from "../dialog.js";
 import { make, setText } from "../dom.js";
-import { fetched, fileName, filmPath, save, stretch } from "../downloads.js";
+import { fetched, fileName, filmPath, save, sizeWords, stretch } from "../downloads.js";
 import { words } from "../http.js";
 
 /** @import { Page } from "../main.js" */
@@ -74,7 +74,7 @@ export function filmDialog(page, looking) {
     try {
       const data = await fetched(filmPath(session, wish, world.stepS), signal);
       save(data, fileName(session, `${wish.from}-${wish.to}`, wish.format));
-      setText(told, `Saved: ${Math.max(1, Math.round(data.size / 1000))} kB.`);
+      setText(told, `Saved: ${sizeWords(data.size)}.`);
     } catch (error) {
       told.dataset.tone = signal.aborted ? "plain" : "bad";
       setText(told, signal.aborted ? "Cancelled." : words(error));

@@ -63,7 +63,7 @@ export function momentsDialog(page, looking) {
     return make(
       "li",
       { class: "row" },
-      make("span", { class: "row-name" }, called),
+      make("span", { class: "row-name", title: called }, called),
       make("span", { class: "row-note" }, `tick ${tick}`),
       make(
         "span",

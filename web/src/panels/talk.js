@@ -20,7 +20,8 @@ const EXAMPLES = [
 export function createTalk(host, page) {
   const list = make("div", { class: "exchanges", tabIndex: 0, role: "log", "aria-label": "Conversation", "aria-live": "off" });
   host.append(list);
-  list.append(welcome(page));
+  const greeting = welcome(page);
+  list.append(greeting);
   /** @type {Map<string, {exchange: Exchange, standing: string, element: HTMLElement}>} */
   const elements = new Map();
 
@@ -29,7 +30,8 @@ export function createTalk(host, page) {
       if (talk === before.talk && steps === before.steps) return;
       const exchanges = shown(talk);
       const kept = new Set(exchanges.map(({ id }) => id));
-      if (exchanges.length > 0) list.querySelector(".welcome")?.remove();
+      if (exchanges.length > 0) greeting.remove();
+      else list.append(greeting);
       /** @type {HTMLElement | null} */
       let newest = null;
       for (const [id, { element }] of elements) {
