@@ -1,0 +1,400 @@
+"""A session as plainly as it can be thought of: what was said, and where time stands.
+
+No snapshots, no shared logs, no steps that remember tails: every state is played from the very first tick
+by the rules of `sim`, and what can be undone is two whole logs side by side. It is slow, and read in one go.
+Left out: words, and what of a question can be answered.
+"""
+
+from __future__ import annotations
+
+from copy import copy
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
+from itertools import groupby
+from typing import Any
+
+from service import actions as contract
+from service.actions import Action
+from sim.actions import Adjust, Scenario, Set
+from sim.config import Config
+from sim.edit import apply
+from sim.edit_error import EditError
+from sim.plan import Decision
+from sim.run import Run, advance, decide
+from sim.scenario import unavailable
+from sim.settings import offered
+
+MOST_STEPS = 1_000
+ROAD = frozenset(
+    ("add", "remove", "set_count", "scenario", "reset", "mode", "drive", "set", "adjust", "prefer")
+)
+"""What may be done to a road."""
+NOTHING = frozenset(("ask", "advise", "show", "hide"))
+"""What changes no session."""
+NEVER = frozenset(("evaluate", "find_worst", "record", "teach", "forget"))
+"""What this version has not, or not in a session."""
+
+
+class RefusedError(Exception):
+    """The model would not do that."""
+
+
+@dataclass(frozen=True)
+class Limits:
+    """How much of each a session keeps."""
+
+    names: int = 100
+    jumps: int = 100
+
+
+@dataclass(frozen=True)
+class Said:
+    """One action of the log."""
+
+    sequence: int
+    tick: int
+    action: Any
+
+
+@dataclass(frozen=True)
+class Stand:
+    """All that a road's state follows from, beside its configuration."""
+
+    log: tuple[Said, ...] = ()
+    tick: int = 0
+
+
+@dataclass(frozen=True)
+class Step:
+    """What can be undone: how it was before and after, and whether time was moved."""
+
+    before: Stand
+    after: Stand
+    jumped: bool
+    paused_before: bool
+    paused_after: bool
+
+    @property
+    def empty(self) -> bool:
+        return self.before.log == self.after.log and not (self.jumped and self.before.tick != self.after.tick)
+
+
+@dataclass
+class Line:
+    """A line of the session's log; its words are the service's, and learned when first seen."""
+
+    tick: int
+    type: str
+    ids: tuple[str, ...] = ()
+    cell: tuple[int, int] | None = None
+    passing: bool = False
+    text: str | None = None
+
+
+@lru_cache(maxsize=64)
+def _played(config: Config, log: tuple[Said, ...]) -> list[Run]:
+    return [_at_its_tick(Run.start(config), log)]
+
+
+def _at_its_tick(run: Run, log: tuple[Said, ...]) -> Run:
+    for said in log:
+        if said.tick == run.world.tick:
+            run = apply(run, said.action).run
+    return run
+
+
+def played(config: Config, stand: Stand) -> list[Run]:
+    """Every state from the first tick to where it stands, after what was said at its tick."""
+    runs = _played(config, stand.log)
+    while len(runs) <= stand.tick:
+        runs.append(_at_its_tick(advance(runs[-1]).run, stand.log))
+    return runs[: stand.tick + 1]
+
+
+def is_pace(action: Action) -> bool:
+    return isinstance(action, Set | Adjust) and action.parameter == "playback_speed"
+
+
+@dataclass
+class Plain:
+    """One session. A change is done to a copy, which then takes the place of this."""
+
+    config: Config
+    limits: Limits = Limits()
+    stand: Stand = field(default_factory=Stand)
+    paused: bool = True
+    pace: float | str = 1.0
+    sequence: int = 0
+    done: tuple[Step, ...] = ()
+    undone: tuple[Step, ...] = ()
+    saved: dict[str, tuple[int, Stand]] = field(default_factory=dict)
+    lines: tuple[Line, ...] = ()
+    texts: dict[int, str | None] = field(default_factory=dict)
+    kept: tuple[int, int] = (0, 0)
+    """where time stood, and how many lines there were, when that was last written down"""
+
+    # What there is to see
+
+    @property
+    def tick(self) -> int:
+        return self.stand.tick
+
+    @property
+    def runs(self) -> list[Run]:
+        return played(self.config, self.stand)
+
+    @property
+    def run(self) -> Run:
+        return self.runs[-1]
+
+    def decision(self, tick: int) -> Decision | None:
+        return decide(self.runs[tick])
+
+    def changes(self) -> list[tuple[int, int]]:
+        """Tick and sequence of each change of the road that stands."""
+        return [(tick, number) for (number, tick), _ in groupby(self.stand.log, _together)]
+
+    # Time
+
+    def pass_ticks(self, ticks: int) -> None:
+        """The clock, or a step, runs on."""
+        for _ in range(ticks):
+            tick = advance(self.run)
+            self.stand = replace(self.stand, tick=self.tick + 1)
+            self._write(tick.events)
+
+    def write_down(self) -> None:
+        """A graceful stop, or sleep."""
+        self.kept = self.tick, len(self.lines)
+
+    def wake(self) -> None:
+        """It comes back as it was written down: paused, without lines that nothing stands for."""
+        tick, lines = self.kept
+        self.stand = replace(self.stand, tick=tick)
+        self.lines = tuple(line for line in self.lines[:lines] if not line.passing)
+        self.kept = tick, len(self.lines)
+        self.paused = True
+
+    # Change
+
+    def said(self, actions: tuple[Action, ...], text: str | None) -> Plain:
+        """The session once this was said. Raises `RefusedError`."""
+        if sum(action.ticks for action in actions if action.do == "step") > MOST_STEPS:
+            raise RefusedError("too many ticks")
+        new = copy(self)
+        if all(action.do in NOTHING for action in actions):
+            for action in actions:
+                _check_offered(action)
+            return new
+        new.sequence += 1
+        line = Line(self.tick, "changed")
+        new.lines = (*self.lines, line)
+        _Doing(new, self).all(actions)
+        new.texts = {**self.texts, new.sequence: text}
+        new.write_down()
+        return new
+
+    def fork(self, tick: int, actions: tuple[Action, ...] = (), paused: bool | None = None) -> Plain:
+        """Another session that is this one up to a tick, then changed. Raises `RefusedError`."""
+        log = tuple(said for said in self.stand.log if said.tick <= tick)
+        begins = self.paused if paused is None else paused
+        new = Plain(
+            self.config,
+            self.limits,
+            Stand(log, tick),
+            paused=begins,
+            sequence=log[-1].sequence if log else 0,
+            done=_ground(log, tick, begins),
+        )
+        pace = () if self.pace == 1.0 else (Set(parameter="playback_speed", value=self.pace),)
+        for each in (pace, actions):
+            if each:
+                new = new.said(each, None)
+        new.write_down()
+        if paused is not None:
+            new.paused = paused
+        return new
+
+    def carried(self, tick: int) -> Plain:
+        """What a link to a tick opens: the changes that stand, numbered anew and said one after the other."""
+        new = Plain(self.config, self.limits, paused=False)
+        for (_, at), group in groupby((said for said in self.stand.log if said.tick <= tick), _together):
+            new.pass_ticks(at - new.tick)
+            new = new.said(tuple(said.action for said in group), None)
+        new.pass_ticks(tick - new.tick)
+        new.paused = True
+        new.write_down()
+        return new
+
+    def again(self, recording: dict[str, Any]) -> Plain:
+        """What a recording of this one comes to, replayed."""
+        new = Plain(self.config, self.limits, paused=False)
+        for entry in recording["entries"]:
+            new.pass_ticks(entry["tick"] - new.tick)
+            new = new.said(contract.load(entry["actions"]), entry["text"])
+        new.pass_ticks(recording["tick"] - new.tick)
+        new.paused = True
+        new.write_down()
+        return new
+
+    def _write(self, events: Any) -> None:
+        self.lines += tuple(Line(event.tick, event.type, event.ids, event.cell) for event in events)
+
+
+def _together(said: Said) -> tuple[int, int]:
+    return said.sequence, said.tick
+
+
+def _ground(log: tuple[Said, ...], tick: int, paused: bool) -> tuple[Step, ...]:
+    """What was said before a fork can be undone in it, one utterance at a time."""
+    steps, before = [], Stand((), tick)
+    for _, group in groupby(log, _together):
+        after = Stand((*before.log, *group), tick)
+        steps.append(Step(before, after, False, paused, paused))
+        before = after
+    return tuple(steps)
+
+
+def _check_offered(action: Action) -> None:
+    """Raise where this version does not do that."""
+    do = action.do
+    if do in NEVER or (getattr(action, "kind", None) == "av" and do in ("add", "remove", "set_count")):
+        raise RefusedError(f"{do} is not offered")
+    if do in ("show", "hide") and action.view == "sensors":
+        raise RefusedError("no sensors")
+    if isinstance(action, Scenario) and unavailable(action) is not None:
+        raise RefusedError("such a scenario is not offered")
+    if isinstance(action, Set | Adjust) and not is_pace(action) and not offered(action):
+        raise RefusedError("such a setting is not offered")
+
+
+class _Doing:
+    """One utterance, action by action, on a copy of a session."""
+
+    def __init__(self, now: Plain, before: Plain) -> None:
+        self.now, self.before = now, before
+        self.jumped = False
+        self.begin()
+
+    def begin(self) -> None:
+        """From here on, what is done is what an undo in the same breath takes back first."""
+        self.open = self.now.stand, self.now.paused, False
+
+    def all(self, actions: tuple[Action, ...]) -> None:
+        now, before = self.now, self.before
+        for action in actions:
+            _check_offered(action)
+            getattr(self, f"_{action.do}", self._road)(action)
+        if any((each.do in ROAD and not is_pace(each)) or each.do in ("rewind", "load") for each in actions):
+            now.done, now.undone = before.done, before.undone
+            self.close(before.stand, before.paused, self.jumped)
+
+    def close(self, stand: Stand, paused: bool, jumped: bool) -> None:
+        step = Step(stand, self.now.stand, jumped, paused, self.now.paused)
+        if step.empty:
+            return
+        self.now.done, self.now.undone = (*self.now.done, step), ()
+        jumps = [number for number, each in enumerate(self.now.done) if each.jumped]
+        if step.jumped and len(jumps) > self.now.limits.jumps:
+            self.now.done = self.now.done[jumps[0] + 1 :]
+
+    def _road(self, action: Action) -> None:
+        if is_pace(action):
+            self.now.pace = pace_after(self.now.pace, action)
+            return
+        now = self.now
+        try:
+            applied = apply(now.run, action)
+        except EditError as error:
+            raise RefusedError(error.message) from error
+        now.stand = replace(now.stand, log=(*now.stand.log, Said(now.sequence, now.tick, action)))
+        now._write(applied.events)
+
+    def _ask(self, action: Action) -> None:
+        pass
+
+    _advise = _show = _hide = _ask
+
+    def _pause(self, action: Action) -> None:
+        self.now.paused = action.do == "pause"
+
+    _resume = _pause
+
+    def _step(self, action: Action) -> None:
+        self.now.paused = True
+        self.now.pass_ticks(action.ticks)
+
+    def _save(self, action: Action) -> None:
+        if action.name not in self.now.saved and len(self.now.saved) >= self.now.limits.names:
+            raise RefusedError("enough names")
+        self.now.saved = {**self.now.saved, action.name: (self.now.sequence, self.now.stand)}
+
+    def _load(self, action: Action) -> None:
+        if action.name not in self.now.saved:
+            raise RefusedError("no such name")
+        self._go(self.now.saved[action.name][1])
+
+    def _rewind(self, action: Action) -> None:
+        tick = self.now.tick - action.ticks
+        if tick < 0:
+            raise RefusedError("before the beginning")
+        self._go(Stand(tuple(said for said in self.now.stand.log if said.tick <= tick), tick))
+
+    def _go(self, stand: Stand) -> None:
+        self.now.stand = stand
+        self.open = (*self.open[:2], True)
+        self.jumped = True
+
+    def _undo(self, _: Action) -> None:
+        now = self.now
+        self.close(*self.open)
+        if not now.done:
+            raise RefusedError("nothing to undo")
+        step, now.done = now.done[-1], now.done[:-1]
+        step = replace(step, after=now.stand) if step.jumped else step
+        now.undone = (*now.undone, step)
+        self._take(step, step.before, step.paused_after, step.paused_before)
+
+    def _redo(self, _: Action) -> None:
+        now = self.now
+        self.close(*self.open)
+        if not now.undone:
+            raise RefusedError("nothing to redo")
+        step, now.undone = now.undone[-1], now.undone[:-1]
+        step = replace(step, before=now.stand) if step.jumped else step
+        now.done = (*now.done, step)
+        self._take(step, step.after, step.paused_before, step.paused_after)
+
+    def _take(self, step: Step, stand: Stand, was: bool, will: bool) -> None:
+        now = self.now
+        now.stand = stand if step.jumped else Stand(stand.log, now.tick)
+        self.jumped = self.jumped or step.jumped
+        if now.paused == was:
+            now.paused = will
+        self.begin()
+
+
+def pace_after(pace: float | str, action: Any) -> float | str:
+    """How fast the clock is once that was said: 0.25 to 64, doubled or halved, or `max`. Raises."""
+    now = 64.0 if pace == "max" else float(pace)
+    if isinstance(action, Set):
+        if action.value == "max":
+            return "max"
+        if isinstance(action.value, str):
+            raise RefusedError("no speed")
+        wanted = float(action.value)
+    elif action.direction == "up":
+        if pace == "max":
+            raise RefusedError("at its limit")
+        return "max" if now == 64.0 else min(64.0, now * 2)
+    elif action.direction == "down":
+        if pace != "max" and now == 0.25:
+            raise RefusedError("at its limit")
+        return 64.0 if pace == "max" else max(0.25, now / 2)
+    else:
+        wanted = round(now * action.factor if action.factor is not None else now + action.by, 9)
+        if pace == "max" and wanted > now:
+            raise RefusedError("at its limit")
+    if not 0.25 <= wanted <= 64.0:
+        raise RefusedError("out of range")
+    return wanted

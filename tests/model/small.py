@@ -1,0 +1,34 @@
+"""The service with small limits, so that a short walk comes to what otherwise only a long session does."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from unittest.mock import patch
+
+MOST_JUMPS = 3
+MOST_NAMES = 2
+
+
+@contextmanager
+def limits() -> Iterator[None]:
+    """Few states kept on the way, few moves in time and names, work beside the loop, thinned snapshots."""
+    few = {
+        "sim.timeline.SNAPSHOT_TICKS": 6,
+        "sim.timeline.MAX_SNAPSHOTS": 6,
+        "sim.timeline.RECENT_RUNS": 2,
+        "sim.timeline.RECENT_CHANGES": 1,
+        "service.sessions.history.MOST_JUMPS": MOST_JUMPS,
+        "service.sessions.draft.MOST_NAMES": MOST_NAMES,
+        "service.sessions.session.THREAD_TICKS": 4,
+        "service.sessions.freezing.MOST_STATES": 8,
+        "service.sessions.freezing.AT_ONCE": 2,
+    }
+    patches = [patch(name, value) for name, value in few.items()]
+    try:
+        for each in patches:
+            each.start()
+        yield
+    finally:
+        for each in patches:
+            each.stop()

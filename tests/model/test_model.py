@@ -1,0 +1,100 @@
+"""Short walks of fixed seeds; `python -m tests.model` takes as many as one likes, shortened if wrong."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from service.actions import Undo
+from service.language import Language
+from sim.actions import Add
+from sim.config import Config
+from tests.model.compare import DifferenceError
+from tests.model.plain import Plain, RefusedError
+from tests.model.plan import Op, walk
+from tests.model.shrinking import kind, shrunk
+from tests.model.walking import walked
+
+STEPS = 40
+
+
+@pytest.fixture(scope="module")
+def language() -> Language:
+    return Language.load()
+
+
+@pytest.mark.parametrize("seed", range(1, 9))
+async def test_the_service_is_what_the_model_is(seed: int, language: Language) -> None:
+    """Every other one with small limits, so that a short walk comes to what else only a long one does."""
+    done = await walked(walk(seed, STEPS), language, small_ones=seed % 2 == 0)
+    assert done.done == STEPS + 2
+    assert done.judge.ticks > 0
+
+
+async def test_so_is_a_process_that_is_killed(language: Language) -> None:
+    calm = [op for op in walk(1, 20, by_hand=False) if op[0] not in ("kill", "stop")]
+    ops: list[Op] = [*calm, ("kill",), ("look", 0, 0.5), ("act", 0, [{"do": "undo"}], "typed")]
+    done = await walked(ops, language, small_ones=False, real=True)
+    assert done.done == len(ops)
+
+
+def test_a_walk_is_plain_values_and_the_same_every_time() -> None:
+    ops = walk(7, 100)
+    assert ops == walk(7, 100)
+    assert ops != walk(8, 100)
+    assert json.loads(json.dumps(ops)) == [list(op) for op in json.loads(json.dumps(ops))]
+
+
+async def test_a_difference_is_found_and_made_short(
+    language: Language, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Were an undo to take back all there is, a walk would show it, in a few steps."""
+    whole = Plain.said
+
+    def forgetful(plain: Plain, actions: tuple[object, ...], text: str | None) -> Plain:
+        after = whole(plain, actions, text)  # type: ignore[arg-type]
+        if any(isinstance(action, Undo) for action in actions):
+            after.done = ()
+        return after
+
+    monkeypatch.setattr(Plain, "said", forgetful)
+    add = [{"do": "add", "kind": "pothole", "count": 1}]
+    config = {"seed": 3, "columns": 5, "rows": 8}
+    ops: list[Op] = [
+        ("make", config, False),
+        ("make", config, False),
+        ("act", 1, add, "typed"),
+        ("act", 0, add, "typed"),
+        ("look", 0, 0.5),
+        ("act", 0, [*add, {"do": "pause"}], "said"),
+        ("act", 0, [{"do": "undo"}], "typed"),
+        ("kill",),
+    ]
+
+    async def tried(part: list[Op]) -> str | None:
+        try:
+            await walked(part, language, small_ones=False)
+        except DifferenceError as difference:
+            return str(difference)
+        return None
+
+    found = await tried(ops)
+    assert found is not None
+    assert kind(found) == "state undo at tick #"
+    short = await shrunk(ops, tried)
+    assert [op[0] for op in short] == ["make", "act", "act", "act"]
+
+
+def test_the_model_undoes_and_does_again() -> None:
+    """The model by itself, on what anyone can follow."""
+    plain = Plain(Config(seed=3, potholes=2))
+    add = Add(kind="pothole", count=3)
+    said = plain.said((add,), "add three potholes")
+    assert (said.run.world.counts()["pothole"], said.sequence, len(said.done)) == (5, 1, 1)
+    said.pass_ticks(2)
+    undone = said.said((Undo(),), None)
+    assert (undone.run.world.counts()["pothole"], undone.tick, len(undone.undone)) == (2, 2, 1)
+    assert said.run.world.counts()["pothole"] == 5
+    with pytest.raises(RefusedError):
+        undone.said((Undo(),), None)
