@@ -21,6 +21,7 @@ TRAILING = "name_tail"
 FORGETS = "forgets"
 TEACH = "teach"
 MEANS = "means"
+SAVES = "save"
 SHORT = "short"
 RETURNS = "returns"
 """The form of what brings a name only where that name is known: "go back to autopilot" names no moment."""
@@ -33,6 +34,7 @@ COLON = "colon"
 
 QUOTE = '"'
 ESCAPE = "\\"
+_DASHES = ("-", "–", "—")
 _LOOSE = "\"' "
 """Marks around a name that are no part of it."""
 
@@ -71,7 +73,7 @@ def names(tokens: Sequence[Token], lexicon: Lexicon, said: str, topic: Topic) ->
         name = _quoted(tokens, after, said)
         if name is None:
             name = _open(tokens, after, lexicon, said)
-            if name is not None and name.end - after > MAX_SHORT and _only(SHORT, lexicon, tokens, at, after):
+            if name is not None and not _fits(tokens, at, after, name.end, lexicon):
                 name = None
         if name is not None and _only(RETURNS, lexicon, tokens, at, after):
             name = name if name.text.casefold() in topic.names else None
@@ -112,10 +114,8 @@ def _quoted(tokens: Sequence[Token], at: int, said: str) -> Name | None:
 def _open(tokens: Sequence[Token], at: int, lexicon: Lexicon, said: str) -> Name | None:
     """The name that starts at `at` and ends at the next mark."""
     end = at
-    while end < len(tokens) and not _is(lexicon, tokens[end], ENDS):
+    while end < len(tokens) and (not _is(lexicon, tokens[end], ENDS) or _inside_word(tokens, end, said)):
         end += 1
-    if any(_names_a_thing(lexicon, token) for token in tokens[at:end]):
-        return None
     while end > at and _is(lexicon, tokens[end - 1], TRAILING):
         end -= 1
     return Name(end, said[tokens[at].start : tokens[end - 1].end].strip(_LOOSE)) if end > at else None
@@ -166,6 +166,25 @@ def _any_is(senses: Sequence[Sense], concept: str) -> bool:
 def _begins(tokens: Sequence[Token], at: int, lexicon: Lexicon) -> bool:
     """Whether a request can begin at this token: after a separator, or after nothing but glue."""
     return at == 0 or any(_is(lexicon, tokens[at - 1], each) for each in (STARTS_AFTER, GLUE, COLON))
+
+
+def _inside_word(tokens: Sequence[Token], at: int, said: str) -> bool:
+    """Whether a mark is a dash with no space around it: "sweep-07" is one name."""
+    mark = tokens[at]
+    touching = (
+        0 < at < len(tokens) - 1 and tokens[at - 1].end == mark.start and tokens[at + 1].start == mark.end
+    )
+    return touching and said[mark.start : mark.end] in _DASHES
+
+
+def _fits(tokens: Sequence[Token], at: int, start: int, end: int, lexicon: Lexicon) -> bool:
+    """Whether words may be a name: after "save this as" any may, after "load" not "five cars"."""
+    short = _only(SHORT, lexicon, tokens, at, start)
+    if short and end - start > MAX_SHORT:
+        return False
+    senses = [s for stop, found, _ in lexicon.matches(tokens, at, {}, {}) if stop == start for s in found]
+    saves = any(sense.concept == CAPTURE and sense.value == SAVES for sense in senses)
+    return (saves and not short) or not any(_names_a_thing(lexicon, word) for word in tokens[start:end])
 
 
 def _names_a_thing(lexicon: Lexicon, token: Token) -> bool:

@@ -30,6 +30,7 @@ AMOUNT_FORMS = frozenset(
         "counted",
         "more",
         "exact",
+        "nearest",
         "fewer",
         "all",
         "any",

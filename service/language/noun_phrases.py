@@ -8,6 +8,7 @@ it is: `thing.counted` (five potholes), `.more` (two more), `.exact` (exactly ni
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from service.language.lattice import NUMBER, Edge, Lattice
@@ -24,6 +25,9 @@ ODD = "odd"
 
 BEYOND = "beyond"
 """That of words that are odd before things only: "over ten cars", but "over ten episodes"."""
+
+NEAREST = "nearest"
+"""That of words which, between a number and a noun, say which are meant: "the two closest cones"."""
 
 THINGS = "thing"
 """What nouns for things on the road are."""
@@ -120,6 +124,10 @@ def _gather(amounts: dict[int, list[Edge]], noun: int) -> _Gathered:
         before = [edge for edge in before if edge.sense.value != OF_THE or edge.start in amounts]
         if not before:
             break
+        if gathered.number is None:
+            before = [e for e in before if e.sense.value != NEAREST or _numbered(amounts, e.start)]
+            if not before:
+                break
         longest = min(before, key=lambda edge: (edge.start, edge.sense.concept != NUMBER))
         if longest.concept == NUMBER:
             gathered.number = longest.sense.value
@@ -127,6 +135,11 @@ def _gather(amounts: dict[int, list[Edge]], noun: int) -> _Gathered:
             gathered.said.add(str(longest.sense.value))
         gathered.start = longest.start
     return gathered
+
+
+def _numbered(amounts: Mapping[int, Sequence[Edge]], at: int) -> bool:
+    """Whether a number ends where a word begins."""
+    return any(edge.concept == NUMBER for edge in amounts.get(at, ()))
 
 
 def _joined(gathered: _Gathered, noun: Edge, vague: int) -> Edge:
@@ -154,6 +167,8 @@ def _form(gathered: _Gathered, many: bool, vague: int) -> tuple[str, int | float
     if "last" in said:
         odd = said - {"last", "the"}
         return (ODD, None) if odd else ("last", None) if number is None else ("last_counted", number)
+    if NEAREST in said:
+        return (NEAREST, number) if said <= {NEAREST, "the", "those"} else (ODD, None)
     if number is not None:
         if "all" in said:
             return ("all", None)

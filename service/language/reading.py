@@ -201,6 +201,9 @@ class Reading:
         said: dict[str, str] = {}
         for edge in clause.filled.slots:
             written = self._written(edge.start, edge.end)
+            if edge.part:  # only half of it stands here: "divide ... by two"
+                typical = self._language.data.lexicon.typical.get((edge.concept, repr(edge.sense.value)))
+                written = " ".join(typical or (written,))
             said[edge.sense.concept.partition(".")[0]] = written
             if isinstance(edge.sense.value, Amount):
                 noun = self._tokens[edge.end - 1]

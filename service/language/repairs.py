@@ -66,7 +66,8 @@ class Repaired:
         self._lattice = lattice
         self._edge = edge
         self._end = self._before_separators(edge.start)
-        self._again = self._past_separators(edge.end)
+        self._value = edge.sense.value
+        self._again = self._past_more(self._past_separators(edge.end))
         cuts = (e.start for e in lattice.between(self._again + 1, lattice.size) if e.concept == SEPARATOR)
         self._tail = min(cuts, default=lattice.size)
 
@@ -93,11 +94,11 @@ class Repaired:
 
     def readings(self, read: Read) -> list[Choice] | None:
         """The sentences that may be meant; None where nothing was taken back after all."""
-        if self._edge.sense.value == DROPPED:
+        if self._value == DROPPED:
             return self._without(read)
         if (found := self._in_place(read)) or (found := self._instead_of_all(read)):
             return found
-        return [] if self._edge.sense.value != PERHAPS or self._alike(read) is not False else None
+        return [] if self._value != PERHAPS or self._alike(read) is not False else None
 
     def _without(self, read: Read) -> list[Choice]:
         """That without what shall not be: "use Dijkstra instead of A*", "instead of A* use Dijkstra"."""
@@ -197,6 +198,19 @@ class Repaired:
     def _past_separators(self, at: int) -> int:
         while at < self._lattice.size and any(e.concept == SEPARATOR for e in self._lattice.edges[at]):
             at = max(e.end for e in self._lattice.edges[at] if e.concept == SEPARATOR)
+        return at
+
+    def _past_more(self, at: int) -> int:
+        """Past more words of the kind, and fillers before a mark: ", sorry, I mean", ", no, sorry,"."""
+        while at < self._lattice.size:
+            here = [e for e in self._lattice.edges[at] if e.end < self._lattice.size]
+            more = [e for e in here if e.concept == REPAIR and e.sense.value not in (DROPPED, NUMBERS)]
+            if any(edge.sense.value == ALWAYS for edge in more) and self._value == PERHAPS:
+                self._value = ALWAYS
+            fillers = [e for e in here if e.concept == GLUE and self._past_separators(e.end) > e.end]
+            if not (more or fillers):
+                break
+            at = self._past_separators(max(edge.end for edge in (*more, *fillers)))
         return at
 
     def _begins_with_number(self) -> bool:
