@@ -14,7 +14,10 @@ _moved = changer(World, "tick", "avs", "right", "left", "pedestrians", "movers")
 
 
 def commit(world: World, move: Move, config: Config) -> World:
-    """Everything moved at once, nothing judged: the world one tick later."""
+    """Everything moved at once, nothing judged: the world one tick later.
+
+    Raises `ValueError` where the move leads off the road.
+    """
     road = world.road
     disabled = world.disabled
     resting = disabled if pedestrians_walk(world.episode_tick) else disabled | world.pedestrians

@@ -91,7 +91,7 @@ def unreachable(url: str, error: Exception) -> NotReachable:
 
 
 def body_of(response: httpx.Response) -> Any:
-    """The JSON of an answer."""
+    """The JSON of an answer. Raises `UnexpectedAnswer` where it is none."""
     try:
         return response.json()
     except ValueError:

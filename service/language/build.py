@@ -46,7 +46,7 @@ class Parameters:
 
 
 def build(filled: Filled, parameters: Parameters) -> list[dict[str, Any]]:
-    """The actions of a filled frame, in the order their things were said."""
+    """The actions of a filled frame, in the order their things were said. Raises `CannotBuild`."""
     frame = filled.frame
     maker = _Maker(filled, parameters)
     if not frame.per:

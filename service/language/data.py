@@ -81,7 +81,7 @@ class YamlError(Exception):
 
 
 def read_yaml(path: Path) -> Any:
-    """One YAML file."""
+    """What one YAML file holds. Raises `YamlError`."""
     import yaml  # with the words themselves, and not where only the types are needed
 
     try:

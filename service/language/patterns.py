@@ -26,7 +26,7 @@ class PatternError(ValueError):
 
 
 def expand(pattern: str, macros: Mapping[str, tuple[Words, ...]]) -> list[Words]:
-    """All word lists a comma-separated pattern stands for, in the order written."""
+    """All word lists a comma-separated pattern stands for, in the order written. Raises `PatternError`."""
     if not any(mark in pattern for mark in "[]()<{"):
         return [tuple(phrase.split()) for phrase in pattern.split(",") if phrase.strip()]
     pieces = _PIECE.findall(pattern)

@@ -164,7 +164,7 @@ class Batch:
             self.step(self.moves(planner, threads=threads), threads=threads)
 
     def run_to_end(self, planner: BatchPlanner = "priority", *, threads: int = 1) -> None:
-        """All lanes to the end of their episodes; for batches made with `after="stop"`."""
+        """All lanes to the end of their episodes. Raises `ValueError` unless made with `after="stop"`."""
         if self.after != "stop":
             raise ValueError('only a batch made with after="stop" has an end')
         while (self.outcomes == 0).any():
@@ -174,7 +174,7 @@ class Batch:
         """One tick, every vehicle making its move (shape: lanes; indices in the order of `Move`).
 
         Nothing is held back: a move into a collision is a crash. A move off the road is a wait. Lanes whose
-        result stands do not move.
+        result stands do not move. Raises `ValueError` for another shape, or a number that is no move.
         """
         if moves.shape != (len(self),):
             raise ValueError(f"{len(self)} moves are wanted, one for each lane")
@@ -186,7 +186,10 @@ class Batch:
         self._advance(1, threads, asked=True)
 
     def moves(self, planner: BatchPlanner, *, threads: int = 1) -> NDArray[np.uint8]:
-        """What a planner would do now in every lane (shape: lanes); waits where a result stands."""
+        """What a planner would do now in every lane (shape: lanes); waits where a result stands.
+
+        Raises `ValueError` for `priority`, which decides within the tick.
+        """
         if planner == "priority":
             raise ValueError("the rule decides within the tick; use run")
         return self._plan(planner, threads)[0]

@@ -56,7 +56,7 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
         return observed(self._run.world), self._info()
 
     def step(self, action: np.int64 | int) -> tuple[NDArray[np.uint8], float, bool, bool, dict[str, Any]]:
-        """One tick."""
+        """One tick. Raises `RuntimeError` before `reset`, and once the episode has ended."""
         run = self._begun()
         before = run.world
         if before.outcome is not Outcome.RUNNING:

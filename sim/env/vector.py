@@ -59,7 +59,7 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
     def step(
         self, actions: NDArray[np.int64]
     ) -> tuple[Observations, NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
-        """One tick of every lane."""
+        """One tick of every lane. Raises `RuntimeError` before the first `reset`."""
         if self._batch is None:
             raise RuntimeError("call reset first")
         batch = self._batch

@@ -86,7 +86,7 @@ class Decision:
         return self.options[: self.options.index(self.chosen)]
 
     def option(self, move: Move) -> Option:
-        """The trace of one move."""
+        """The trace of one move. Raises `ValueError` where it was not looked at."""
         for option in self.options:
             if option.move is move:
                 return option

@@ -57,7 +57,10 @@ def reach(forecast: Forecast, start: Board, limit: int, *, after: int = 0) -> Re
 
 
 def on_shortest(forecast: Forecast, found: Reach, *, after: int = 0) -> list[Board]:
-    """Of every layer, the cells that lie on a way of least ticks. The reach must have met row 0."""
+    """Of every layer, the cells that lie on a way of least ticks.
+
+    Raises `ValueError` where the reach has not met row 0.
+    """
     if found.ticks is None:
         raise ValueError("there is no way to keep")
     road = forecast.road
