@@ -15,8 +15,10 @@ from sim.batch import Batch
 from sim.config import Config
 from sim.env.observation import PLANES, rewards
 from sim.env.single import MOVES, SEEDS
+from sim.kinds import Outcome
 
-SUCCESS, CRASH, STUCK = 1, 2, 3
+RUNNING, SUCCESS, CRASH, STUCK = range(len(Outcome))
+"""As `Batch.outcomes` has them: numbers in the order of `Outcome`."""
 
 Observations = NDArray[np.uint8]
 
@@ -63,7 +65,7 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
         if self._batch is None:
             raise RuntimeError("call reset first")
         batch = self._batch
-        before, live = batch.vehicles // self.config.columns, batch.outcomes == 0
+        before, live = batch.vehicles // self.config.columns, batch.outcomes == RUNNING
         batch.step(np.asarray(actions, np.uint8), threads=self.threads)
         gained = before - batch.vehicles // self.config.columns
         outcomes = batch.outcomes

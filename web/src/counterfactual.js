@@ -4,6 +4,7 @@
 import { moveName } from "./hits.js";
 import { askJson } from "./http.js";
 import { sessionPath } from "./protocol.js";
+import { counted } from "./words.js";
 import { worldAfter, worldOf } from "./world.js";
 
 /** @import { Otherwise } from "./otherwise.js" */
@@ -63,7 +64,7 @@ function framesOf({ state, ticks }) {
  * @param {End} end
  */
 export function endWords({ outcome, driven, tick, cause, by_hand }) {
-  const ticks = driven === 1 ? "1 tick" : `${driven} ticks`;
+  const ticks = counted(driven, "tick");
   if (outcome === "success") return `arrives after ${ticks}`;
   if (outcome === "crash") return `crashes ${cause ? `into a ${cause.kind} ` : ""}at tick ${tick}`;
   if (by_hand) return "waits for you to drive";
@@ -94,7 +95,7 @@ export function sumOf(found) {
   else told.push(`At tick ${part.tick} it ${does(part.changed)} instead of ${doing(part.real)}.`);
   if (real.end.outcome === "success" && changed.end.outcome === "success") {
     const later = changed.end.driven - real.end.driven;
-    const ticks = Math.abs(later) === 1 ? "1 tick" : `${Math.abs(later)} ticks`;
+    const ticks = counted(Math.abs(later), "tick");
     told.push(later === 0 ? "It arrives at the same tick." : `It arrives ${ticks} ${later > 0 ? "later" : "earlier"}.`);
   }
   if (saidSince > 0) told.push("What was said after that tick is left out of both.");

@@ -5,7 +5,7 @@
  * A view says where its cells are (`offerPlaces`); who points at it asks here. Pure but for that table.
  */
 
-import { MOVES, reasonWords } from "./words.js";
+import { counted, MOVES, reasonWords } from "./words.js";
 import { egoOf } from "./world.js";
 
 /** @import { Pose } from "./motion.js" */
@@ -129,14 +129,9 @@ export function placeWords(world, cell) {
   if (!ego) return `${lane}, row ${cell[1]}`;
   const across = cell[0] - ego.cell[0];
   const ahead = ego.cell[1] - cell[1];
-  if (across === 0 && ahead === 0) return `${lane}, ${count(ego.cell[1], "row")} to go`;
-  if (ahead !== 0) return `${across === 0 ? `${lane}, its own` : lane}, ${count(Math.abs(ahead), "row")} ${ahead > 0 ? "ahead" : "behind"}`;
+  if (across === 0 && ahead === 0) return `${lane}, ${counted(ego.cell[1], "row")} to go`;
+  if (ahead !== 0) return `${across === 0 ? `${lane}, its own` : lane}, ${counted(Math.abs(ahead), "row")} ${ahead > 0 ? "ahead" : "behind"}`;
   return `${lane}, beside it on the ${across < 0 ? "left" : "right"}`;
-}
-
-/** @param {number} number @param {string} noun */
-function count(number, noun) {
-  return `${number} ${noun}${number === 1 ? "" : "s"}`;
 }
 
 /**

@@ -2,7 +2,7 @@
 /** The road in sentences, a lane each: what stands and moves from beside the vehicle to as far as is seen. */
 
 import { headingWords, nameOf } from "./hits.js";
-import { MOVES } from "./words.js";
+import { counted, MOVES } from "./words.js";
 import { egoOf } from "./world.js";
 
 /** @import { Decision } from "./protocol.js" */
@@ -32,7 +32,7 @@ export function roadWords(world, decision) {
 /** @param {Thing} thing @param {number} row */
 function said(thing, row) {
   const ahead = row - thing.cell[1];
-  const where = ahead === 0 ? "beside it" : `${ahead} ${ahead === 1 ? "row" : "rows"} ahead`;
+  const where = ahead === 0 ? "beside it" : `${counted(ahead, "row")} ahead`;
   const heading = headingWords(thing);
   return `${nameOf(thing)} ${where}${heading ? `, ${heading}` : ""}`;
 }

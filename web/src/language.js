@@ -3,7 +3,7 @@
 
 import { preference } from "./prefs.js";
 import { GUIDE_PATH } from "./protocol.js";
-import { changeWords } from "./words.js";
+import { changeWords, counted } from "./words.js";
 
 /** @import { Action, Change } from "./protocol.js" */
 
@@ -73,7 +73,7 @@ export function previewWords(preview) {
   const settings = changes.length - told.length;
   const words = told.slice(0, MOST_TOLD).map(inShort);
   if (told.length > MOST_TOLD) words.push(`${told.length - MOST_TOLD} more`);
-  if (settings > 0) words.push(settings === 1 ? "1 setting" : `${settings} settings`);
+  if (settings > 0) words.push(counted(settings, "setting"));
   return words.join(" · ") || "Understood";
 }
 

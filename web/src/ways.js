@@ -3,7 +3,7 @@
 
 import { STEPS } from "./foresight.js";
 import { nameOf } from "./hits.js";
-import { reasonWords } from "./words.js";
+import { counted, reasonWords } from "./words.js";
 
 /** @import { Cell, Decision, Move } from "./protocol.js" */
 /** @import { Way } from "./paint/plan.js" */
@@ -53,7 +53,7 @@ function behind(cost, { planner, move, options }) {
 const MEASURES = {
   astar: (more) => `costs ${more} more`,
   dijkstra: (more) => `costs ${more} more`,
-  exact: (more) => `${more} ${more === 1 ? "tick" : "ticks"} later`,
+  exact: (more) => `${counted(more, "tick")} later`,
 };
 
 /** @param {string} reason @param {string[]} ids @param {World} world */

@@ -94,6 +94,15 @@ function listed(values, words) {
   return values.map(words).join(", ") || "none";
 }
 
+/**
+ * A number of things: 1, "row" → "1 row"; 2 → "2 rows".
+ * @param {number} number
+ * @param {string} noun  one of them
+ */
+export function counted(number, noun) {
+  return `${number} ${noun}${number === 1 ? "" : "s"}`;
+}
+
 /** @param {number | null} fraction */
 export function percent(fraction) {
   return fraction === null ? "–" : `${Math.round(fraction * 100)} %`;

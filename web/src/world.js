@@ -1,6 +1,8 @@
 // @ts-check
 /** The road as the page knows it: one table of things by id, made from a full state and kept up by ticks. */
 
+import { counted } from "./words.js";
+
 /** @import { WireState, TickMessage, Cell, Status, Metrics, Move } from "./protocol.js" */
 
 /**
@@ -143,7 +145,7 @@ export function describe(world) {
   const counts = countsOf(world);
   const named = Object.entries(counts)
     .filter(([kind]) => kind !== "av")
-    .map(([kind, count]) => `${count} ${kind}${count === 1 ? "" : "s"}`);
+    .map(([kind, count]) => counted(count, kind));
   const where = ego
     ? `The vehicle is in lane ${ego.cell[0] + 1}, ${ego.cell[1]} rows from the destination.`
     : "There is no autonomous vehicle.";

@@ -4,7 +4,7 @@
 import { labelOf } from "../otherwise.js";
 import { icon } from "../icons.js";
 import { make } from "../dom.js";
-import { MOVES, plain, reasonWords } from "../words.js";
+import { counted, MOVES, plain, reasonWords } from "../words.js";
 
 /** @import { Page } from "../main.js" */
 /** @import { Action, Answer, Option } from "../protocol.js" */
@@ -92,7 +92,7 @@ function alternativesElement(alternatives, tick, page) {
   return make(
     "details",
     { class: "alternatives" },
-    make("summary", {}, `${alternatives.length} other ${alternatives.length === 1 ? "move" : "moves"}`),
+    make("summary", {}, counted(alternatives.length, "other move")),
     make(
       "ul",
       {},

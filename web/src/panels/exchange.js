@@ -3,7 +3,7 @@
 
 import { make } from "../dom.js";
 import { changesOf } from "../talk.js";
-import { changeWords, markWords } from "../words.js";
+import { changeWords, counted, markWords } from "../words.js";
 import { answerElement } from "./answer.js";
 
 /** @import { Page } from "../main.js" */
@@ -52,7 +52,7 @@ function resultParts(result, page, undos, taken) {
     if (taken) list.append(make("li", { class: "change-taken" }, "taken back"));
     parts.push(list);
     if (settings.length > 0) {
-      const title = `${settings.length} ${settings.length === 1 ? "setting" : "settings"} changed`;
+      const title = `${counted(settings.length, "setting")} changed`;
       parts.push(
         make(
           "details",

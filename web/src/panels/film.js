@@ -5,6 +5,7 @@ import { makeDialog } from "../dialog.js";
 import { make, setText } from "../dom.js";
 import { fetched, fileName, filmPath, save, sizeWords, stretch } from "../downloads.js";
 import { words } from "../http.js";
+import { counted } from "../words.js";
 
 /** @import { Page } from "../main.js" */
 /** @import { Looking } from "../past.js" */
@@ -51,7 +52,7 @@ export function filmDialog(page, looking) {
     const ticks = to.valueAsNumber - from.valueAsNumber;
     const stepS = page.state().world?.stepS ?? 0.5;
     told.dataset.tone = "plain";
-    setText(told, ticks > 0 ? `${ticks} ticks, ${(ticks * stepS).toFixed(1)} s long.` : "");
+    setText(told, ticks > 0 ? `${counted(ticks, "tick")}, ${(ticks * stepS).toFixed(1)} s long.` : "");
   }
   form.addEventListener("input", length);
   dialog.addEventListener("close", () => making?.abort());
@@ -66,7 +67,7 @@ export function filmDialog(page, looking) {
       from: from.valueAsNumber, to: to.valueAsNumber, format: format.value, view: view.value, side: Number(side.value),
     });
     const began = performance.now();
-    const say = () => setText(told, `Drawing ${wish.to - wish.from} ticks: ${Math.round((performance.now() - began) / 1000)} s`);
+    const say = () => setText(told, `Drawing ${counted(wish.to - wish.from, "tick")}: ${Math.round((performance.now() - began) / 1000)} s`);
     told.dataset.tone = "plain";
     say();
     const clock = setInterval(say, 1_000);

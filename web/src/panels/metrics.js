@@ -6,7 +6,7 @@ import { words } from "../http.js";
 import { Book, WINDOW } from "../judged.js";
 import { drawChart } from "../paint/chart.js";
 import { readPalette } from "../theme.js";
-import { percent } from "../words.js";
+import { counted, percent } from "../words.js";
 
 /** @import { Page } from "../main.js" */
 /** @import { Metrics } from "../protocol.js" */
@@ -58,7 +58,7 @@ export function createMetrics(host, page) {
   function titleOf(at) {
     const item = book.items.get(at);
     if (!item) return "";
-    const lost = item.ticks === undefined ? "" : item.lost ? ", the road was lost" : `, ${ticksWords(item.ticks ?? 0)} lost`;
+    const lost = item.ticks === undefined ? "" : item.lost ? ", the road was lost" : `, ${counted(item.ticks ?? 0, "tick")} lost`;
     return `Tick ${at}: ${item.blocked} of 6 moves blocked${lost}`;
   }
 
@@ -87,7 +87,7 @@ export function createMetrics(host, page) {
     setText(risk.told, latest ? `${latest.blocked} of 6 blocked` : "–");
     // A lost connection is told once, at the top of the page; what was known stays.
     const trouble = newest?.connection.phase === "live" ? failed : "";
-    setText(regret.told, trouble || (known === 0 ? "–" : lost ? "the road was lost" : `${ticksWords(ticks)} lost in ${known}`));
+    setText(regret.told, trouble || (known === 0 ? "–" : lost ? "the road was lost" : `${counted(ticks, "tick")} lost in ${known}`));
     risk.canvas.setAttribute("aria-label", `Moves blocked, of six, at each of the last ${WINDOW} ticks; at the latest ${risk.told.textContent}`);
     regret.canvas.setAttribute("aria-label", `Ticks lost against the best possible drive; ${regret.told.textContent}`);
   }
@@ -144,9 +144,4 @@ export function createMetrics(host, page) {
  */
 function rewritten({ world, prior, steps }, { world: old, steps: earlier }) {
   return !!world && !!old && prior === null && (world.tick < old.tick || steps !== earlier);
-}
-
-/** @param {number} ticks */
-function ticksWords(ticks) {
-  return ticks === 1 ? "1 tick" : `${ticks} ticks`;
 }

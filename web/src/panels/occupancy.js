@@ -5,6 +5,7 @@ import { make } from "../dom.js";
 import { offerPlaces } from "../hits.js";
 import { drawOccupancy } from "../paint/occupancy.js";
 import { readPalette } from "../theme.js";
+import { counted } from "../words.js";
 import { countsOf, egoOf } from "../world.js";
 
 /** @import { World } from "../world.js" */
@@ -80,7 +81,7 @@ export function describeMatrix(world) {
   const counts = countsOf(world);
   const taken = new Set([...world.things.values()].map(({ cell: [column, row] }) => row * world.columns + column)).size;
   const ego = egoOf(world);
-  const kinds = Object.entries(counts).filter(([kind]) => kind !== "av").map(([kind, count]) => `${count} ${kind}${count === 1 ? "" : "s"}`);
+  const kinds = Object.entries(counts).filter(([kind]) => kind !== "av").map(([kind, count]) => counted(count, kind));
   const where = ego ? ` The vehicle is in column ${ego.cell[0] + 1} of row ${ego.cell[1]}.` : "";
   return `Occupancy of ${world.columns} columns and ${world.rows} rows: ${taken} of ${world.columns * world.rows} cells are taken, ${kinds.join(", ") || "by nothing else"}.${where}`;
 }

@@ -2,7 +2,7 @@
 /** The instruments: figures of the drive and of the session so far. */
 
 import { make, setText } from "../dom.js";
-import { clock, percent, plannerName } from "../words.js";
+import { clock, counted, percent, plannerName } from "../words.js";
 import { speedKmh, toGo } from "../world.js";
 
 /** @import { State } from "../state.js" */
@@ -63,7 +63,7 @@ function metres(value) {
 
 /** @param {number | undefined} count */
 function rows(count) {
-  return count === undefined ? "" : count === 1 ? "1 row" : `${count} rows`;
+  return count === undefined ? "" : counted(count, "row");
 }
 
 /** @param {World} world @param {State} state */
