@@ -93,7 +93,8 @@ def configuration(document: Mapping[str, Any]) -> str:
             "[operations.checks.positive_data_acceptance]",
             f"expected-statuses = {_listed(('2xx', '3xx', *ALWAYS_REFUSED, *statuses))}",
         ]
-    lines += ["[[operations]]", f'include-path = "{ENDLESS}"', "max-stream-events = 1", "request-timeout = 1"]
+    lines += ["[[operations]]", f'include-path = "{ENDLESS}"']
+    lines += ["max-stream-events = 1", "request-timeout = 20"]
     return "\n".join([*lines, ""])
 
 

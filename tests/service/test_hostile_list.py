@@ -181,14 +181,14 @@ async def test_what_is_no_request_is_refused_and_the_line_ended(name: str, live:
     assert told.headers["x-content-type-options"] == "nosniff"
     assert "set-cookie" not in told.headers
     assert json.loads(told.body)["status"] == status  # one document, and nothing after it
-    async with httpx.AsyncClient(base_url=live.http) as client:
+    async with httpx.AsyncClient(base_url=live.http, timeout=60) as client:
         assert (await client.get(SESSIONS)).json()["items"] == []
 
 
 async def test_a_head_that_never_ends_is_cut(live: Running) -> None:
     told = await sent(live.port, GET + b"X: " + b"a" * 5_000_000)
     assert told.status in (0, 431)
-    async with httpx.AsyncClient(base_url=live.http) as client:
+    async with httpx.AsyncClient(base_url=live.http, timeout=60) as client:
         assert (await client.get("/healthz")).status_code == 200
 
 

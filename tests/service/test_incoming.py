@@ -37,7 +37,7 @@ class At:
     path: str
 
     async def sequence(self) -> int:
-        async with httpx.AsyncClient(base_url=self.service.http) as client:
+        async with httpx.AsyncClient(base_url=self.service.http, timeout=60) as client:
             answer = await client.get(self.path)
         assert answer.status_code == 200
         return int(answer.json()["sequence"])
@@ -112,7 +112,7 @@ async def test_a_request_that_came_in_part_is_not_done(
         await writer.wait_closed()
     # Answered after the line above was seen to be shut: one loop serves both.
     assert await at.sequence() == 0
-    async with httpx.AsyncClient(base_url=at.service.http) as client:
+    async with httpx.AsyncClient(base_url=at.service.http, timeout=60) as client:
         assert len((await client.get(SESSIONS)).json()["items"]) == 1
 
 
@@ -221,7 +221,7 @@ async def test_a_body_is_read_as_it_is(
     ],
 )
 async def test_a_body_in_other_letters_is_refused(at: At, kind: str, status: int) -> None:
-    async with httpx.AsyncClient(base_url=at.service.http) as client:
+    async with httpx.AsyncClient(base_url=at.service.http, timeout=60) as client:
         headers = {"content-type": kind}
         answer = await client.post(f"{at.path}/commands", content=FIVE, headers=headers)
     assert answer.status_code == status
@@ -286,7 +286,7 @@ async def test_who_waits_for_us_is_not_hurried(at: At) -> None:
     """Neither a line between two requests, nor a socket, nor a stream of events."""
     async with (
         sockets.connect(f"{at.service.ws}{at.path}/stream") as socket,
-        httpx.AsyncClient(base_url=at.service.http) as client,
+        httpx.AsyncClient(base_url=at.service.http, timeout=60) as client,
         client.stream("GET", f"{at.path}/events/stream") as events,
     ):
         assert json.loads(await socket.recv())["type"] == "hello"

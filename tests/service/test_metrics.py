@@ -61,7 +61,7 @@ async def test_what_happened_is_counted(service: Service) -> None:
 
 async def test_a_socket_is_a_channel_of_its_own(settings: Settings) -> None:
     app = create_app(settings, store=MemoryStore(), language=FewSentences(), clock=HandClock())
-    async with running(app, settings) as at, httpx.AsyncClient(base_url=at.http) as client:
+    async with running(app, settings) as at, httpx.AsyncClient(base_url=at.http, timeout=60) as client:
         path = (await client.post("/api/v1/sessions", json={"seed": 7})).headers["location"]
         async with connect(f"{at.ws}{path}/stream") as socket:
             await socket.recv()

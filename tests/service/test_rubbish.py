@@ -103,7 +103,7 @@ async def test_a_message_far_too_large_ends_its_socket(live: Running) -> None:
 async def test_sessions_beyond_the_limit_are_refused_and_the_others_go_on(
     live: Running, clock: HandClock
 ) -> None:
-    async with httpx.AsyncClient(base_url=live.http) as client:
+    async with httpx.AsyncClient(base_url=live.http, timeout=60) as client:
         answers = [await client.post("/api/v1/sessions", json={}) for _ in range(30)]
         statuses = [answer.status_code for answer in answers]
         assert statuses == [201] * SESSIONS + [429] * (30 - SESSIONS)

@@ -206,7 +206,7 @@ async def keyed() -> AsyncIterator[tuple[Running, httpx.AsyncClient, str]]:
     app = create_app(settings, store=MemoryStore(), language=FewSentences(), clock=HandClock())
     async with (
         running(app, settings) as service,
-        httpx.AsyncClient(base_url=service.http, headers=BEARER) as client,
+        httpx.AsyncClient(base_url=service.http, headers=BEARER, timeout=60) as client,
     ):
         made = await client.post(SESSIONS, json={"seed": 1})
         yield service, client, f"{service.ws}{made.headers['location']}/stream"
@@ -311,7 +311,7 @@ async def test_who_changes_too_often_is_told_when_to_try_again() -> None:
 async def test_whom_a_request_is_from_is_told_by_named_proxies_only(proxies: str | None, last: int) -> None:
     settings = Settings(changes_per_minute=2, trusted_proxies=proxies)
     app = create_app(settings, store=MemoryStore())
-    async with running(app, settings) as at, httpx.AsyncClient(base_url=at.http) as client:
+    async with running(app, settings) as at, httpx.AsyncClient(base_url=at.http, timeout=60) as client:
         path = (await client.post(SESSIONS, json={"seed": 1})).headers["location"]
         for number in range(3):
             said = {"X-Forwarded-For": f"203.0.113.{number}"}

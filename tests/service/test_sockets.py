@@ -34,7 +34,7 @@ async def live() -> AsyncIterator[Running]:
 
 @pytest.fixture
 async def path(live: Running) -> str:
-    async with httpx.AsyncClient(base_url=live.http) as client:
+    async with httpx.AsyncClient(base_url=live.http, timeout=60) as client:
         made = await client.post("/api/v1/sessions", json={"seed": 7, "paused": True})
     return f"{made.headers['location']}/stream"
 

@@ -106,7 +106,10 @@ async def test_who_refuses_all_is_told_what_it_missed() -> None:
 async def test_a_real_socket_is_written_to_straight_and_in_order() -> None:
     settings, clock = Settings(database="memory:"), HandClock()
     app = create_app(settings, store=MemoryStore(), language=FewSentences(), clock=clock)
-    async with running(app, settings) as service, httpx.AsyncClient(base_url=service.http) as client:
+    async with (
+        running(app, settings) as service,
+        httpx.AsyncClient(base_url=service.http, timeout=60) as client,
+    ):
         path = (await client.post("/api/v1/sessions", json={"seed": 5})).headers["location"]
         session = await app.state.context.manager.get(path.rpartition("/")[2])
         async with connect(f"{service.ws}{path}/stream", compression=None) as stream:
