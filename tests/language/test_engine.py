@@ -66,7 +66,7 @@ def test_a_foreign_word_anywhere_refuses_the_whole(row: object, place: int) -> N
 def test_long_text_is_answered_in_bounded_time(language: Language, text: str) -> None:
     start = time.thread_time()  # of the work alone: others may share the machine
     assert isinstance(language.parse(text), Refused)
-    assert time.thread_time() - start < 2
+    assert time.thread_time() - start < 20, "what grows without bounds takes hours"
 
 
 @pytest.mark.parametrize("row", [row for row in DEV if row.actions][:200:7], ids=lambda row: row.text)

@@ -166,4 +166,4 @@ def test_counting_is_cheap() -> None:
         for _ in range(5_000):
             lateness.observe(0.003)
         each.append((time.thread_time() - began) / 5_000)
-    assert min(each) < 5e-6, "thousands of ticks a second are counted one by one"
+    assert min(each) < 2e-5, "thousands of ticks a second are counted one by one"

@@ -65,7 +65,7 @@ async def test_an_undo_of_long_ago_leaves_the_loop_free() -> None:
         await asyncio.sleep(0.001)
         turns += 1
     await undoing
-    assert turns > 20
+    assert turns > 3, "in its way there would be one, or two"
     untouched = await Service(max_step_ticks=10_000).session()
     for _ in range(2):
         await do(untouched, {"do": "step", "ticks": 10_000})
