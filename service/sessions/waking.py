@@ -4,12 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import structlog
+
 from service.sessions.replaying import ReplayError, replay
 from service.sessions.session import Session, Surroundings
 from service.sessions.snapshots import UnfitError, opened
 from service.store import EntryRecord, SessionRecord, SnapshotRecord
 from sim.config import Config
 from sim.timeline import Timeline
+
+_LOG = structlog.get_logger(__name__)
+
+LONG_ENTRIES = 1_000
+"""A log of so many changes may take seconds to be done again, which whoever runs the service is told."""
 
 
 def woken(
@@ -31,6 +38,10 @@ def woken(
             unfit = error
         except ReplayError as error:
             unfit = UnfitError(f"what follows it cannot be done: {error}")
+    if len(entries) >= LONG_ENTRIES:
+        why = str(unfit) if unfit is not None else "there is no snapshot of it"
+        said = "a session is done again from all of its log; whoever asked for it waits, nobody else"
+        _LOG.info(said, session=record.id, entries=len(entries), reason=why)
     session = Session(record, Timeline(Config().with_parts(**record.config)), around)
     replay(session, around.words, entries, record.tick)
     return session, unfit
