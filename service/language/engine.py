@@ -96,19 +96,24 @@ class Language:
         parsed = Reading(self, text, plain, tokens, lattice, corrections, topic).parse(asking=asking)
         if not asking or tokens[0].text not in self._takes_back or lattice.uncovered():
             return parsed
-        sure = self._corrects(plain)
+        sure = self._corrects(tokens)
         return parsed if sure is None else corrected(self, text, plain, topic, parsed, sure)
 
     @cached_property
     def _takes_back(self) -> frozenset[str]:
         return takes_back(self.data)
 
-    def _corrects(self, plain: str) -> bool | None:
+    def _corrects(self, tokens: Sequence[Token]) -> bool | None:
         """Whether a sentence begins by taking something back for sure; None where it does not at all."""
-        tokens = tokenise(f", {plain}", self.data.contractions)
-        edges = [edge for edge in self._scanner.scan(tokens, {}).edges[0] if edge.concept == REPAIR]
-        edges = [edge for edge in edges if edge.sense.value != DROPPED and edge.end < len(tokens)]
-        return any(edge.sense.value == ALWAYS for edge in edges) if edges else None
+        after = [self._comma, *tokens]
+        matches = self._lexicon.matches(after, 0, {}, {})
+        senses = [sense for end, found, _ in matches if 1 < end < len(after) for sense in found]
+        kinds = {sense.value for sense in senses if sense.concept == REPAIR} - {DROPPED}
+        return ALWAYS in kinds if kinds else None
+
+    @cached_property
+    def _comma(self) -> Token:
+        return tokenise(",", self.data.contractions)[0]
 
     def _put_right(
         self, text: str, phrase: str, readings: list[Choice], lattice: Lattice, *, asking: bool

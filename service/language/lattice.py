@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from service.language.lexicon import Lexicon, Sense
+from service.language.lexicon import SECOND, Lexicon, Sense
 from service.language.numbers import Found, NumberWords
 from service.language.patterns import Words
 from service.language.tokens import Token
@@ -89,6 +89,22 @@ class Lattice:
                     if edge.sense.concept != nouns[outer.concept] or edge.end > outer.end
                 ]
 
+    def drop_halves(self) -> None:
+        """Drop first halves of split phrases whose second half is nowhere after them: "take", but no "away".
+
+        No path could hold them, and each would be tried.
+        """
+        last: dict[Words, int] = {}
+        for at, starting in enumerate(self.edges):
+            for edge in starting:
+                if edge[3] and edge[2][0] == SECOND:
+                    last[edge[3]] = at
+        for starting in self.edges:
+            if any(edge[3] for edge in starting):
+                starting[:] = [
+                    e for e in starting if not e[3] or e[2][0] == SECOND or last.get(e[3], -1) >= e[1]
+                ]
+
     def uncovered(self) -> list[int]:
         """The tokens that no edge contains: words that mean nothing here."""
         unknown: list[int] = []
@@ -140,6 +156,7 @@ class Scanner:
             if (number := numbers.get(at)) is not None and not _inside_number(numbers, at):
                 lattice.edges[at].extend(self._measures(tokens, at, number, numbers, ordinals))
             at += 1
+        lattice.drop_halves()
         return lattice
 
     def _measures(

@@ -49,10 +49,11 @@ def test_the_data_have_no_defects(german: Language) -> None:
     assert german.check() == []
 
 
-def test_fresh_sentences_are_never_misread(german: Language) -> None:
-    report = evaluate(german, HERE / "de" / "fresh.jsonl")
+@pytest.mark.parametrize(("file", "least_exact"), [("fresh.jsonl", 0.95), ("fresh_j.jsonl", 0.92)])
+def test_fresh_sentences_are_never_misread(german: Language, file: str, least_exact: float) -> None:
+    report = evaluate(german, HERE / "de" / file)
     assert report.total("wrong") == 0, render(report)
-    assert report.total("exact") >= 0.95 * report.total(), render(report)
+    assert report.total("exact") >= least_exact * report.total(), render(report)
 
 
 def test_every_frames_file_has_its_sentences() -> None:

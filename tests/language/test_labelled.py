@@ -25,6 +25,7 @@ from tests.language.beside import HERE
         ("fresh_f.jsonl", 0.99),
         ("fresh_g.jsonl", 0.94),
         ("fresh_i.jsonl", 0.98),
+        ("fresh_j.jsonl", 0.99),
     ],
 )
 def test_no_wrong_action_and_nearly_all_exact(language: Language, file: str, least_exact: float) -> None:
