@@ -22,6 +22,15 @@ class Follower:
         self._event: str | None = None
         self._read = 0
 
+    def come_back(self, wire: Any) -> None:
+        """Go on by another wire."""
+        self.wire, self._read = wire, 0
+
+    @property
+    def event(self) -> str | None:
+        """The latest that was heard of."""
+        return self._event
+
     def read(self) -> str | None:
         """Take in what has come; answers the latest event."""
         messages = self.wire.messages
@@ -36,12 +45,16 @@ class Follower:
             return
         if message["type"] not in ("hello", "tick", "changed", "state"):
             return
+        if message["type"] == "hello":
+            self._event = message["event"]
         self._follows(message["event"])
         self.told[message["event"]] = data
         if message["type"] == "hello":
             self.lines = message["log"]
         else:
-            self.lines = [*self.lines, *message.get("events", ())]
+            # Of a step that is played, the line that tells of all comes last, and stands before the others.
+            lines = [*self.lines, *message.get("events", ())]
+            self.lines = sorted(lines, key=lambda line: line["number"])
         if "state" in message:
             self.picture = {**message["state"], "sequence": message["state"]["sequence"]}
         else:
@@ -49,7 +62,7 @@ class Follower:
 
     def _follows(self, event: str) -> None:
         """Events come one after the other, in one numbering."""
-        if self._event is not None:
+        if self._event not in (None, event):
             token, _, number = self._event.partition(".")
             if event != f"{token}.{int(number) + 1}":
                 self.faults.append(f"event {event} came after {self._event}")

@@ -35,6 +35,7 @@ class Inside:
         self.settings = Settings(database="memory:", snapshot_work=NEVER, log_events=log_events)
         self.store = MemoryStore()
         self.followers: dict[str, list[Follower]] = {}
+        self._away: dict[str, list[Follower]] = {}
 
     async def __aenter__(self) -> Inside:
         await self._start()
@@ -115,13 +116,22 @@ class Inside:
         self.store._snapshots.clear()
 
     async def watch(self, path: str) -> None:
-        """Follow it from now on, by both wires."""
-        await self.let_go(path)
+        """Follow it by both wires; who does so already goes away, and who was away comes back."""
+        if path in self.followers:
+            away = self.followers[path]
+            await self.let_go(path)
+            self._away[path] = away
+            return
         live = self._live(path)
         if live is None:
             return
-        wires = (Socket(self.app, path), Events(self.app, path))
-        self.followers[path] = [Follower(wire) for wire in wires]
+        followers = self._away.pop(path, [])
+        if followers:
+            for each, wire in zip(followers, (Socket, Events), strict=True):
+                each.come_back(wire(self.app, path, f"?after={each.event}"))
+        else:
+            followers = [Follower(Socket(self.app, path)), Follower(Events(self.app, path))]
+        self.followers[path] = followers
         await until(lambda: len(live.watchers) >= 2)
         await self.heard(path)
 

@@ -44,7 +44,16 @@ async def all_of(walker: Any, path: str, share: float) -> None:
     compare_saved((await walker.get(f"{path}/saved"))["items"], plain)
     await pictures(walker, path)
     await sentence(walker, path)
+    await tags(walker, path)
     await walker.compare(path)
+
+
+async def tags(walker: Any, path: str) -> None:
+    """Who has an answer at hand is told that it holds."""
+    for url in (path, f"{path}/state", f"{path}/state?tick=0", f"{path}/saved"):
+        tag = (await walker.http.get(url)).headers["etag"]
+        again = await walker.http.get(url, headers={"If-None-Match": tag})
+        same(f"GET {url} with its own tag", (again.status_code, again.content), (304, b""))
 
 
 async def sentence(walker: Any, path: str) -> None:

@@ -23,7 +23,7 @@ PLANNERS = ("priority", "priority", "astar", "dijkstra", "exact")
 NAMES = ("a", "rush hour", "the third")
 PHRASES = ("zanzibar", "make it quibble", "brillig morning")
 SETTINGS: dict[str, tuple[Any, ...]] = {
-    "planner": ("priority", "astar", "dijkstra"),
+    "planner": ("priority", "astar", "dijkstra", "exact"),
     "courtesy": (0.0, 0.4, 1.0),
     "safety_buffer": (0, 1, 2),
     "step_seconds": (0.2, 0.5, 1.0),
@@ -72,7 +72,7 @@ class Planned:
             (2, lambda: ("text", self.which(), dice.choice(PHRASES))),
             (4, lambda: ("kill",)),
             (2, lambda: ("stop",)),
-            (4, lambda: ("watch", self.which())),
+            (7, lambda: ("watch", self.which())),
         ]
         if self.by_hand:
             many += [
@@ -109,6 +109,10 @@ class Planned:
             parts["pedestrians"] = dice.randint(0, 3)
         if self.rarely():
             parts["preferences"] = dice.sample(("avoid_potholes", "smooth_ride", "cautious"), 2)
+        if self.rarely():
+            parts |= {"potholes": dice.randint(0, 3), "vehicles": dice.randint(0, 3)}
+        if self.rarely() and self.rarely():
+            parts["solvable"] = True
         if self.rarely():
             parts["safety_buffer"] = dice.randint(0, 3)
         return parts

@@ -59,8 +59,9 @@ class Wire:
 class Socket(Wire):
     """A session's stream."""
 
-    def __init__(self, app: ASGIApp, path: str) -> None:
-        scope = {"type": "websocket", "scheme": "ws", "path": f"{path}/stream", "subprotocols": []}
+    def __init__(self, app: ASGIApp, path: str, asked: str = "") -> None:
+        """`asked`: what follows the address."""
+        scope = {"type": "websocket", "scheme": "ws", "path": f"{path}/stream{asked}", "subprotocols": []}
         super().__init__(app, scope, {"type": "websocket.connect"})
 
     @property
@@ -78,8 +79,9 @@ class Socket(Wire):
 class Events(Wire):
     """A session's events, as a browser reads them."""
 
-    def __init__(self, app: ASGIApp, path: str) -> None:
-        scope = {"type": "http", "method": "GET", "scheme": "http", "path": f"{path}/events/stream"}
+    def __init__(self, app: ASGIApp, path: str, asked: str = "") -> None:
+        """`asked`: what follows the address."""
+        scope = {"type": "http", "method": "GET", "scheme": "http", "path": f"{path}/events/stream{asked}"}
         super().__init__(app, scope, {"type": "http.request", "body": b"", "more_body": False})
 
     @property
