@@ -29,7 +29,8 @@ import { decode, encode, ProtocolError, streamUrl } from "./protocol.js";
 const FIRST_PAUSE_MS = 400;
 const LONGEST_PAUSE_MS = 10_000;
 const PING_AFTER_MS = 8_000;
-const PATIENCE_MS = 5_000;
+/** A busy service, or machine, may take its time; one that is gone closes the socket at once. */
+const PATIENCE_MS = 15_000;
 
 /**
  * How long to wait before a try: doubling from 0.4 s to 10 s, less up to a fifth so that many pages
