@@ -105,6 +105,25 @@ def test_the_bubble_goes_with_what_moves(road: Road) -> None:
     expect(road.bubble).to_contain_text("Car")
 
 
+def test_a_button_that_is_pressed_hears_its_click_whatever_comes_meanwhile(road: Road) -> None:
+    road.step()
+    road.page.mouse.click(*road.at(road.ego))
+    button = road.bubble.locator(".bubble-move", has_text="stay")
+    expect(button).to_be_visible()
+    lines = road.bubble.locator(".bubble-lines")
+    before = lines.inner_text()
+    box = button.bounding_box()
+    assert box is not None
+    road.page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    road.page.mouse.down()
+    road.step()
+    road.page.mouse.up()
+    expect(road.page.locator("#beside-title")).to_have_text("If it had waited at tick 0")
+    road.page.keyboard.press("Escape")
+    road.page.mouse.click(*road.at(road.ego))
+    expect(lines).not_to_have_text(before)
+
+
 def test_the_schematic_tells_too(road: Road) -> None:
     name = road.put("barrier", road.ahead(12))
     canvas = road.page.locator("#schematic canvas")

@@ -41,6 +41,9 @@ export function createBubble(host, page) {
   /** @type {Decision | null} the trace of the decision that is spoken of */ let trace = null;
   /** @type {AbortController | null} */ let asking = null;
   let written = "";
+  /** A button that is pressed stays until it is let go: made anew under the finger, it would hear no click. */
+  let pressed = false;
+  let late = false;
   let askedAt = -Infinity;
 
   /** @param {Target} next @param {boolean} [pin] */
@@ -95,6 +98,7 @@ export function createBubble(host, page) {
   function write() {
     const state = sceneOf(page.state());
     if (target === null) return;
+    if (pressed) return void (late = true);
     const decision = target.kind === "decision" ? trace : (trace ?? state.decision);
     const told = tellOf(target, state, decision);
     if (told === null) return;
@@ -196,6 +200,17 @@ export function createBubble(host, page) {
     clearTimeout(leaving);
     leaving = setTimeout(hide, LEAVE_MS);
   }
+
+  function release() {
+    pressed = false;
+    if (!late) return;
+    late = false;
+    write();
+    place();
+  }
+
+  host.addEventListener("pointerdown", () => (pressed = true));
+  for (const end of ["pointerup", "pointercancel"]) addEventListener(end, () => pressed && setTimeout(release)); // the click comes first
 
   const stay = () => clearTimeout(leaving);
   host.addEventListener("pointerenter", stay);
