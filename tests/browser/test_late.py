@@ -82,3 +82,16 @@ def test_a_jump_waits_for_the_part_of_the_run_that_is_not_known_yet(visit: Visit
     expect(visitor.page.locator(".notice-box")).to_be_hidden()
     held.let_go()
     expect(figure(visitor)).to_have_text("0")
+
+
+def test_the_moves_are_told_once_they_are_known(visit: Visit) -> None:
+    """Before that there are none, rather than buttons without a name."""
+    visitor = visit()
+    held = Held(visitor, r"/forecast\?", method="GET")
+    visitor.page.reload()
+    held.asked()
+    visitor.wait_live()
+    ways = visitor.page.get_by_role("list", name="The six moves")
+    expect(ways).to_be_hidden()
+    held.let_go()
+    expect(ways.get_by_role("button", name="Forward", exact=False).first).to_be_visible()

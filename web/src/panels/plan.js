@@ -35,7 +35,7 @@ import { egoOf } from "../world.js";
 export function createPlan(host, page) {
   const canvas = make("canvas", { class: "plan-canvas", role: "img", "aria-label": "The cells around the vehicle" });
   const frame = make("div", { class: "plan-frame" }, canvas);
-  const list = make("ul", { class: "ways", "aria-label": "The six moves" });
+  const list = make("ul", { class: "ways", "aria-label": "The six moves", hidden: true });
   host.append(frame, list);
   const when = make("span", { class: "panel-note" });
   host.parentElement?.querySelector(".panel-title")?.append(when);
