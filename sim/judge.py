@@ -14,21 +14,21 @@ def collisions(before: World, after: World) -> tuple[Cause, ...]:
     """Every collision of an autonomous vehicle in the tick from `before` to `after`."""
     found = []
     for number, (start, end) in enumerate(zip(before.avs, after.avs, strict=True)):
-        place = after.road.cell(end)
         if end in after.hazards:
             name = after.hazards[end]
-            found.append(Cause("hit", kind_of(name), (name,), place))
+            found.append(Cause("hit", kind_of(name), (name,), after.road.cell(end)))
         if end in after.movers:
             name = after.movers[end]
-            found.append(Cause("hit", kind_of(name), (name,), place))
+            found.append(Cause("hit", kind_of(name), (name,), after.road.cell(end)))
         passed = after.movers.get(start)
         if start != end and passed is not None and before.movers.get(end) == passed:
-            found.append(Cause("swap", kind_of(passed), (passed,), place))
+            found.append(Cause("swap", kind_of(passed), (passed,), after.road.cell(end)))
         for other in range(number):
             met = after.avs[other] == end
             if met or (after.avs[other] == start != end == before.avs[other]):
                 how = "hit" if met else "swap"
-                found.append(Cause(how, Kind.AV, (f"av-{other + 1}", f"av-{number + 1}"), place))
+                pair = (f"av-{other + 1}", f"av-{number + 1}")
+                found.append(Cause(how, Kind.AV, pair, after.road.cell(end)))
     return tuple(found)
 
 

@@ -1,23 +1,31 @@
 """One tick of all movers, computed once for all who ask about the same tick.
 
 What a planner expects of the next tick is, with perfect sight, what then happens: the same rule asked for the
-same boards twice, and for the same table of ids. Here the latest answers are kept, process-wide: a few
-boards and a table. The rules themselves are in `sim.rules`, which is compiled as well and stays free of this.
+same boards twice, and for the same table of ids. Here the latest answer of either kind is kept, process-wide.
+The rules themselves are in `sim.rules`, which is compiled as well and stays free of this.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from functools import lru_cache
-from typing import Final
+from collections.abc import Mapping
 
 from sim.road import Board
 from sim.rules import Motion, followed_table, move_movers
 
-move_movers_once: Final[Callable[[Board, Board, Board, Board, Board, Board, Board, Board], Motion]] = (
-    lru_cache(maxsize=8)(move_movers)
-)
-"""`move_movers`. Equal boards are answered with one and the same motion."""
+_moved: tuple[tuple[Board, ...], Motion] | None = None
+
+
+def move_movers_once(*boards: Board) -> Motion:
+    """`move_movers`; the boards of the latest question are answered with one and the same motion."""
+    global _moved
+    # As below. Comparing takes less than hashing does: most of the boards are the very same.
+    latest = _moved
+    if latest is not None and latest[0] == boards:
+        return latest[1]
+    motion = move_movers(*boards)
+    _moved = boards, motion
+    return motion
+
 
 _followed: tuple[Mapping[int, str], Motion, Mapping[int, str]] | None = None
 

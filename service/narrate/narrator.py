@@ -46,14 +46,16 @@ class Narrator:
         """What the vehicle does at a tick and why, in one line."""
         if decision.fault is not None:
             return self._say("fault", planner=decision.planner, fault=decision.fault)
+        asked, first = decision.asked, decision.options[0]
+        ranked = decision.measure is Measure.RANK
+        if first.move is decision.move and ranked and asked is None:
+            return self._straight_on(first, run)  # said most, by far
         naming = Naming(self._sayings, run)
-        if decision.asked is not None:
-            return self._asked(decision, decision.asked, naming)
-        if decision.measure is not Measure.RANK:
+        if asked is not None:
+            return self._asked(decision, asked, naming)
+        if not ranked:
             return self._weighed(decision, naming)
-        first, chosen = decision.options[0], decision.chosen
-        if chosen is first:
-            return self._straight_on(chosen, run, naming)
+        chosen = decision.chosen
         if decision.move is not Move.STAY:
             return self._other(decision.move, first, naming)
         if chosen.verdict == "free":
@@ -67,21 +69,36 @@ class Narrator:
         told = None if things is None else self._told.get(key)
         if told is None:
             told = self._say("other", move=self._named(move), reason=self._sayings.met(met, "now", naming))
-            if things is not None:
-                if len(self._told) >= REMEMBERED:
-                    self._told.clear()
-                self._told[key] = told
+            self._remember(None if things is None else key, told)
         return told
 
-    def _straight_on(self, chosen: Option, run: Run, naming: Naming) -> str:
+    def _straight_on(self, chosen: Option, run: Run) -> str:
         """Straight on, in a word; in a few more where something is passed closely, or the goal is near."""
         if chosen.cell is not None and chosen.cell[1] == 0:
             return self._say("into_the_goal")
-        world, road = run.world, run.world.road
-        movers = [world.movers[cell] for cell in _beside(road.columns, world.av) if cell in world.movers]
-        if movers:
-            return self._say("passing", who=naming.things(movers))
+        world = run.world
+        movers = world.movers
+        passed = [movers[cell] for cell in _beside(world.road.columns, world.avs[0]) if cell in movers]
+        if passed:
+            return self._passing(passed, Naming(self._sayings, run))
         return self._first_choice
+
+    def _passing(self, passed: list[str], naming: Naming) -> str:
+        """Straight on, closely past these."""
+        things = naming.kinds_and_places(passed)
+        key = ("passing", things)
+        told = None if things is None else self._told.get(key)
+        if told is None:
+            told = self._say("passing", who=naming.things(passed))
+            self._remember(None if things is None else key, told)
+        return told
+
+    def _remember(self, key: Hashable | None, told: str) -> None:
+        """Keep a sentence for being said again, where all is known that it is made of."""
+        if key is not None:
+            if len(self._told) >= REMEMBERED:
+                self._told.clear()
+            self._told[key] = told
 
     def lesson(self, lesson: Lesson) -> str:
         """The reply to a phrase that was taught or forgotten."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import lru_cache
 from typing import Any, Final
 
@@ -19,6 +19,9 @@ from sim.world import World
 
 PROTOCOL = 1
 """Raised when a message changes its meaning; new keys do not raise it."""
+
+_FIRST_AV: Final = f"{Kind.AV}-1"
+_SIDES: Final = {"1": "right", "0": "left"}
 
 _SMALL_ROAD: Final = 512
 """Roads of so many cells have a table of them; so do many sizes of road at once, in a few megabytes."""
@@ -52,23 +55,25 @@ def tick_message(
 ) -> bytes:
     """One tick: what moved, or the whole state, `standing` included, where a new road began."""
     world = after.world
-    message: Json = {
-        "type": "tick",
-        "tick": world.tick,
-        "sequence": sequence,
-        "episode": world.episode,
-        "status": world.outcome,
-    }
     if world.episode != before.world.episode:
-        message["state"] = state_json(standing(), after)
+        seen: Json = {"state": state_json(standing(), after)}
     else:
-        message.update(motion_json(before.world, world))
-    message["decision"] = None if decision is None else brief_decision_json(decision)
-    message["narration"] = narration
-    message["events"] = lines
-    message["metrics"] = metrics_json(after.metrics)
-    message["digest"] = world.digest()
-    return encoded(message)
+        seen = motion_json(before.world, world)
+    return encoded(
+        {
+            "type": "tick",
+            "tick": world.tick,
+            "sequence": sequence,
+            "episode": world.episode,
+            "status": world.outcome,
+            **seen,
+            "decision": None if decision is None else brief_decision_json(decision),
+            "narration": narration,
+            "events": lines,
+            "metrics": metrics_json(after.metrics),
+            "digest": world.digest(),
+        }
+    )
 
 
 def changed_message(
@@ -105,15 +110,17 @@ def state_message(standing: Standing, run: Run, missed: Missed | None) -> bytes:
 def motion_json(before: World, after: World) -> dict[str, Any]:
     """Where things went and which way they turned, by id; what stood still is left out."""
     road, movers = after.road, after.movers
-    names, olds = [*movers.values()], [*before.movers]
+    names = [*movers.values()]
+    olds: Iterable[int] = before.movers
     if names != [*before.movers.values()]:  # not two ticks of one road
         was = {name: index for index, name in before.movers.items()}
         olds = [was.get(name, -1) for name in names]
     small = road.columns * road.rows <= _SMALL_ROAD
     cells = _cells(road.columns, road.rows) if small else {index: road.cell(index) for index in movers}
     # As digits, lowest first: looking at one is much quicker than shifting a board.
-    faced_right = bin(before.right | road.all + 1)[:1:-1]
-    faces_right = bin(after.right | road.all + 1)[:1:-1]
+    top = road.all + 1
+    faced_right = bin(before.right | top)[:1:-1]
+    faces_right = bin(after.right | top)[:1:-1]
     moved: dict[str, Cell] = {}
     turned: dict[str, str] = {}
     for old, index, name in zip(olds, movers, names, strict=True):
@@ -122,8 +129,12 @@ def motion_json(before: World, after: World) -> dict[str, Any]:
             if old < 0:
                 continue  # it has come, and turned nowhere
         if faced_right[old] != faces_right[index]:
-            turned[name] = "right" if faces_right[index] == "1" else "left"
-    vehicles = {after.id_at(index, Kind.AV): road.cell(index) for index in after.avs}
+            turned[name] = _SIDES[faces_right[index]]
+    avs = after.avs
+    if len(avs) == 1:
+        vehicles = {_FIRST_AV: road.cell(avs[0])}
+    else:
+        vehicles = {after.id_at(index, Kind.AV): road.cell(index) for index in avs}
     return {"vehicles": vehicles, "moved": moved, "turned": turned}
 
 

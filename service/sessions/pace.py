@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Final, Literal, TypeAlias
@@ -87,12 +87,12 @@ def period_s(pace: Pace, step_seconds: float) -> float:
     return MAX_PERIOD_S if pace == MAX else step_seconds / float(pace) * _ticks_a_turn(pace, step_seconds)
 
 
-def turn(pace: Pace, step_seconds: float) -> Iterator[None]:
+def turn(pace: Pace, step_seconds: float) -> Iterable[object]:
     """Once for each tick of one turn; as fast as possible ends when the turn has become long."""
-    if pace != MAX:
-        for _ in range(_ticks_a_turn(pace, step_seconds)):
-            yield
-        return
+    return _hurried_turn() if pace == MAX else range(_ticks_a_turn(pace, step_seconds))
+
+
+def _hurried_turn() -> Iterator[None]:
     began = time.monotonic()
     for _ in range(MAX_TURN_TICKS):
         yield

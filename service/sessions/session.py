@@ -121,7 +121,7 @@ class Session:
     @property
     def period_s(self) -> float:
         """Seconds from one turn of the clock to the next."""
-        return period_s(self.pace, self.run.config.step_seconds)
+        return period_s(self.pace, self.timeline.run.config.step_seconds)
 
     def state(self) -> dict[str, Any]:
         """The present state as JSON values."""
@@ -152,14 +152,14 @@ class Session:
         if self._changing:
             self._tick_due = True
             return
-        for _ in turn(self.pace, self.run.config.step_seconds):
+        for _ in turn(self.pace, self.timeline.run.config.step_seconds):
             # In real time the words of an ending are done by the next tick; in a hurry they are waited for.
-            if self._changing or self.paused or (hurried(self.pace) and self._later.busy):
+            if self._changing or self.paused or (self._later.busy and hurried(self.pace)):
                 return
             self._tick_once()
 
     def _tick_once(self) -> None:
-        before = self.run
+        before = self.timeline.run
         try:
             tick = self.timeline.advance()
         except PlannerSilentError as silence:

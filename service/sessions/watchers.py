@@ -12,6 +12,8 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+from sim.changing import maker
+
 SLOT_MESSAGES = 16
 """A watcher that keeps up never has more than a few waiting; stepping plays through as many."""
 
@@ -35,6 +37,9 @@ class Notice:
     tick: int
     data: bytes
     number: int = 0
+
+
+_notice = maker(Notice, "tick", "data", "number")
 
 
 def stamped(data: bytes, event: str) -> bytes:
@@ -65,7 +70,9 @@ class Watcher:
     def put(self, notice: Notice) -> None:
         """Hand over a message; never waits."""
         self._last_tick = notice.tick
-        if self._straight is not None and self._idle and self._straight(notice.data):
+        wake, straight = self._wake, self._straight
+        # Who waits in `next` has been given all before: nothing can be overtaken.
+        if straight is not None and wake is not None and not wake.done() and straight(notice.data):
             return
         if self._missed_from is None:
             if len(self._waiting) < SLOT_MESSAGES:
@@ -97,11 +104,6 @@ class Watcher:
         notices, self._waiting = self._waiting, []
         return notices
 
-    @property
-    def _idle(self) -> bool:
-        """Whether all before has been passed on and `next` waits: nothing could be overtaken."""
-        return self._wake is not None and not self._wake.done()
-
     def _ready(self) -> None:
         if self._wake is not None and not self._wake.done():
             self._wake.set_result(None)
@@ -115,7 +117,9 @@ class Watchers:
         # Numbers begin anew when the session is brought back; the token tells one count from another.
         self._token = secrets.token_hex(4)
         self._last = 0
-        self._kept: deque[Notice] = deque(maxlen=SLOT_MESSAGES)
+        # As plain values, the latest last: rings are looked for in every notice that is kept.
+        self._kept: deque[bytes] = deque(maxlen=SLOT_MESSAGES)
+        self._kept_ticks: deque[int] = deque(maxlen=SLOT_MESSAGES)
         self._unheard = SLOT_MESSAGES
 
     @property
@@ -132,8 +136,11 @@ class Watchers:
         token, _, number = event.partition(".")
         if token != self._token or not number.isascii() or not number.isdecimal() or len(number) > 15:
             return None
-        since = [notice for notice in self._kept if notice.number > int(number)]
-        return since if len(since) == self._last - int(number) else None
+        first, after = self._last - len(self._kept) + 1, int(number) + 1
+        if not first <= after <= self._last + 1:
+            return None
+        kept = zip(range(first, self._last + 1), self._kept_ticks, self._kept, strict=True)
+        return [Notice(tick, data, each) for each, tick, data in kept if each >= after]
 
     def __len__(self) -> int:
         return len(self._watchers)
@@ -157,14 +164,20 @@ class Watchers:
 
     def made(self, tick: int, encode: Callable[[], bytes]) -> Notice | None:
         """The next message, made and kept but not yet told; None where nobody watches, nor has lately."""
-        self._last += 1
+        number = self._last + 1
         if not self._watchers:
             self._unheard += 1
             if self._unheard > SLOT_MESSAGES:
+                self._last = number
                 self._kept.clear()
+                self._kept_ticks.clear()
                 return None
-        notice = Notice(tick, stamped(encode(), self.event), self._last)
-        self._kept.append(notice)
+        notice = _notice(tick, stamped(encode(), f"{self._token}.{number}"), number)
+        self._last = (
+            number  # not before: what could not be made has no number, and leaves no gap in what is kept
+        )
+        self._kept.append(notice.data)
+        self._kept_ticks.append(tick)
         return notice
 
     def hand_out(self, notice: Notice) -> None:

@@ -27,7 +27,8 @@ def brief_decision_json(decision: Decision) -> dict[str, Any]:
     `reason` and `causes` are those of the most preferred move: why it was taken, or what kept the
     vehicle from it.
     """
-    preferred = decision.options[0]
+    options, free = decision.options, Verdict.FREE
+    preferred = options[0]
     return {
         "tick": decision.tick,
         "planner": decision.planner,
@@ -37,8 +38,8 @@ def brief_decision_json(decision: Decision) -> dict[str, Any]:
         "weight": decision.weight,
         "blocked": [
             {"move": option.move, "reason": option.reason, "causes": option.causes}
-            for option in decision.options
-            if option.reason is not Verdict.FREE
+            for option in options
+            if option.reason is not free
         ],
     }
 

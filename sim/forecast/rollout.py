@@ -49,9 +49,11 @@ class RollOut(Sequence[Motion]):
     @overload
     def __getitem__(self, ahead: slice) -> list[Motion]: ...
     def __getitem__(self, ahead: int | slice) -> Motion | list[Motion]:
+        slices = self._slices
+        if ahead == 0 and slices:
+            return slices[0]  # asked for most, by far
         if isinstance(ahead, slice):
             return [self[each] for each in range(*ahead.indices(self._horizon))]
-        slices = self._slices
         if not 0 <= ahead < len(slices):
             if not 0 <= ahead < self._horizon:
                 raise IndexError(f"{ahead} ticks ahead is beyond the horizon of {self._horizon}")
@@ -68,6 +70,7 @@ class RollOut(Sequence[Motion]):
 
     def _next(self) -> Motion:
         percept, ahead = self._percept, len(self._slices)
+        road = percept.road
         walking = pedestrians_walk(percept.episode_tick + ahead)
         # Only the first tick is asked for again: when it comes.
         move = move_movers if ahead else move_movers_once
@@ -76,10 +79,10 @@ class RollOut(Sequence[Motion]):
             self._left,
             self._disabled if walking else self._disabled | self._pedestrians,
             self._fixed,
-            percept.yielding if ahead == 0 else 0,
+            0 if ahead else percept.yielding,
             percept.vehicles,
-            percept.road.left_edge,
-            percept.road.right_edge,
+            road.left_edge,
+            road.right_edge,
         )
         self._right, self._left = motion.right, motion.left
         if self._pedestrians:

@@ -74,13 +74,14 @@ class Forecast:
 
     def steps(self, start: Board, ahead: int = 0) -> Steps:
         """Where vehicles in any cell of `start` may be one tick later, `ahead` ticks from now."""
-        road, slice_ = self.road, self.slices[ahead]
+        road = self.road
+        right, left, came_right, came_left = self.slices[ahead]
         return free_steps(
             start,
             start >> road.columns,
-            self.potholes | self.barriers | slice_.right | slice_.left,
-            slice_.came_right,
-            slice_.came_left,
+            self.potholes | self.barriers | right | left,
+            came_right,
+            came_left,
             road.left_edge,
             road.right_edge,
         )
@@ -92,18 +93,17 @@ class Forecast:
         """
         if end is None:
             return Verdict.OFF_ROAD, ()
-        slice_ = self.slices[ahead]
+        right, left, came_right, came_left = self.slices[ahead]
         bit = 1 << end
         verdict = Verdict.FREE
         who: tuple[str, ...] = ()
-        swap = swapped(1 << start, bit, slice_.came_right, slice_.came_left)
-        if swap:
+        if swapped(1 << start, bit, came_right, came_left):
             verdict, who = Verdict.MOVER_SWAPS, (self.slices.movers(ahead)[start],)
-        if bit & slice_.occupied:
+        if bit & (right | left):
             who = (self.slices.movers(ahead)[end], *who)
             if bit & self.disabled:
                 verdict = Verdict.DISABLED_MOVER
-            elif bit & (slice_.came_right | slice_.came_left):
+            elif bit & (came_right | came_left):
                 verdict = Verdict.MOVER_ENTERS
             else:
                 verdict = Verdict.MOVER_STAYS

@@ -76,9 +76,10 @@ class Decision:
     @property
     def weight(self) -> int:
         """How much there is to say: 0 nothing was in the way, 1 a way round, 2 a wait or worse."""
-        if self.fault is not None or self.held_back or self.move is Move.STAY:
+        move, asked = self.move, self.asked
+        if self.fault is not None or (asked is not None and asked is not move) or move is Move.STAY:
             return 2
-        return 2 if self.chosen.cost is None else 0 if self.move is Move.FORWARD else 1
+        return 2 if self.chosen.cost is None else 0 if move is Move.FORWARD else 1
 
     @property
     def preferred(self) -> tuple[Option, ...]:

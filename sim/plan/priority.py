@@ -31,6 +31,7 @@ ORDER: Final = (
 )
 
 _decided = maker(Decision, "tick", "av", "planner", "move", "options")
+_option = maker(Option, "move", "cell", "reason", "cost", "causes")
 
 
 def options_in_order(forecast: Forecast) -> tuple[Option, ...]:
@@ -48,7 +49,7 @@ def _met(forecast: Forecast, free: Option) -> Option:
     """A move that is not free, with what it would meet."""
     end = None if free.cell is None else forecast.road.index(free.cell)
     reason, causes = forecast.expect(forecast.ego, end)
-    return Option(free.move, free.cell, reason, None, causes)
+    return _option(free.move, free.cell, reason, None, causes)
 
 
 @lru_cache(maxsize=4_096)
