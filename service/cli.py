@@ -229,8 +229,11 @@ async def warmed(app: FastAPI) -> int:
 
 async def _serve(config: uvicorn.Config, store: Store, listener: socket.socket, deadline: Deadline) -> None:
     # In a task of its own, as requests are: else all that is logged later would bear its id.
-    await asyncio.create_task(warmed(cast(FastAPI, config.app)))
-    sweep = asyncio.create_task(garbage.begin().run())
+    app = cast(FastAPI, config.app)
+    await asyncio.create_task(warmed(app))
+    manager = app.state.context.manager
+    sweep = garbage.begin(lambda: manager.live, lambda: manager.watchers)
+    sweeping = asyncio.create_task(sweep.run())
     # Before the server starts, so that a database that cannot be opened is one clear line.
     await store.open()
     host, port = listener.getsockname()[:2]
@@ -239,7 +242,7 @@ async def _serve(config: uvicorn.Config, store: Store, listener: socket.socket, 
     try:
         await server.serve(sockets=[listener])
     finally:
-        sweep.cancel()
+        sweeping.cancel()
 
 
 class _Server(uvicorn.Server):

@@ -3,7 +3,9 @@
 Deadlines are rounded up to slots of 2 ms, so that sessions due together wake the loop once.
 Time is the monotonic clock, not the loop's own, which stands still during a turn of the loop;
 setting the wall clock does nothing here. A session that falls
-behind (a stalled machine) goes on from now; what it missed is not made up for in a burst.
+behind (a stalled machine) goes on from now; what it missed is not made up for in a burst. Where all together
+do not catch up soon, what is behind is given up: every deadline is put off by as much, so that a service
+near its limit is late once and not for minutes. How late a tick was is counted from when it was first due.
 
 Many that begin together would be due together for ever: where a slot is full, the next one begins a little
 later. Those that tick as often as can be have no deadline. They take turns in a share of the time that is
@@ -47,6 +49,12 @@ REST_S = 0.001
 
 PATIENCE_S = 0.1
 """After so long they have a turn even where what is due is never done."""
+
+BEHIND_S = 0.02
+"""So far behind and not more, all is caught up with."""
+
+CATCH_UP_S = 0.2
+"""Who is further behind for so long puts every deadline off."""
 
 TOGETHER = 32
 """So many are ticked before what they have to tell is told."""
@@ -141,6 +149,10 @@ class WheelClock:
         self._late = late
         self._loop: asyncio.AbstractEventLoop | None = None
         self._due: dict[Ticker, float] = {}
+        self._put_off_s = 0.0
+        self._owed: dict[Ticker, float] = {}
+        """how late those are already whose deadline was put off"""
+        self._behind_since: float | None = None
         self._slots: dict[int, list[Ticker]] = {}
         self._order: list[int] = []
         self._telling: list[tuple[Ticker, Stages]] = []
@@ -167,7 +179,7 @@ class WheelClock:
         """See `Clock.add`."""
         if ticker in self._due or ticker in self._hurried:
             return
-        now, period = self._now(), ticker.period_s
+        now, period = self._time(), ticker.period_s
         if period <= SLOT_S:
             if not self._hurried:
                 self._hurry_at = now + period
@@ -179,6 +191,7 @@ class WheelClock:
     def remove(self, ticker: Ticker) -> None:
         """See `Clock.remove`. Its place in the wheel is skipped when its slot comes."""
         self._due.pop(ticker, None)
+        self._owed.pop(ticker, None)
         self._hurried.pop(ticker, None)
 
     def lateness(self) -> Lateness:
@@ -187,11 +200,33 @@ class WheelClock:
 
     def serve(self) -> None:
         """Tick all that is due, for at most `TURN_S`; what is left comes next turn of the loop."""
-        began = self._now()
-        patience_s = 0.0 if self._serve_due(began) else PATIENCE_S
+        began = self._time()
+        if self._serve_due(began):
+            patience_s, self._behind_since = 0.0, None
+        else:
+            patience_s = PATIENCE_S
+            self._fall_behind(self._time())
         self._tell()
-        if self._hurried and self._hurry_at + patience_s <= self._now():
+        if self._hurried and self._hurry_at + patience_s <= self._time():
             self._hurry()
+
+    def _time(self) -> float:
+        """The time in which deadlines are: it has stood still wherever they were put off."""
+        return self._now() - self._put_off_s
+
+    def _fall_behind(self, now: float) -> None:
+        """Something due is left; where that goes on and on, put all off by as much as the first is late."""
+        late_s = now - self._order[0] * SLOT_S
+        if self._behind_since is None:
+            self._behind_since = now
+        elif late_s > BEHIND_S and now - self._behind_since > CATCH_UP_S:
+            self._behind_since = None
+            # Not all of it, since what is still due comes before who is in a hurry; and in whole slots.
+            given_up_s = SLOT_S * int((late_s - BEHIND_S / 2) / SLOT_S)
+            self._put_off_s += given_up_s
+            self._hurry_at -= given_up_s
+            for ticker in self._due:
+                self._owed[ticker] = self._owed.get(ticker, 0.0) + given_up_s
 
     def _serve_due(self, began: float) -> bool:
         """Whether all was ticked that is due."""
@@ -205,13 +240,13 @@ class WheelClock:
                 # A ticker that was removed, or added anew for another time, is not due here.
                 if due is not None and math.ceil(due / SLOT_S) == slot:
                     del due_at[ticker]
-                    self._record(now - due)
+                    self._record(now - due + (self._owed.pop(ticker, 0.0) if self._owed else 0.0))
                     # Put back first: a ticker that leaves the clock while ticking must find itself on it.
                     self._put_back(ticker, due, now)
                     self._tick(ticker, getattr(ticker, "stages", None))
                     if len(self._telling) >= TOGETHER:
                         self._tell()
-                now = self._now()  # once for each: when it ended is when the next one begins
+                now = self._time()  # once for each: when it ended is when the next one begins
                 if now - began > TURN_S:
                     return False
             heapq.heappop(order)
@@ -220,14 +255,14 @@ class WheelClock:
 
     def _hurry(self) -> None:
         """Each in its turn, and nobody twice."""
-        began = now = self._now()
+        began = now = self._time()
         for ticker in list(self._hurried):
             if ticker not in self._hurried:
                 continue  # what another did took it off the clock
             del self._hurried[ticker]
             self._put_back(ticker, now, now)
             self._tick(ticker)
-            now = self._now()
+            now = self._time()
             if now - began > HURRY_S:
                 break
         self._hurry_at = now + max(REST_S, now - began)
@@ -311,7 +346,7 @@ class WheelClock:
                 return
             self._timer.cancel()
         self._timer_at = at
-        wait_s = max(0.0, at - self._now())
+        wait_s = max(0.0, at - self._time())
         # Loops count in whole milliseconds. Waited for in parts of one, a slot was looked at ten times over
         # before it was due. Slots begin with a millisecond, so this is not late.
         self._timer = self._loop.call_later(wait_s if exact else math.ceil(wait_s * 1e3) / 1e3, self._fire)

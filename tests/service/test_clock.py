@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from service.sessions.clock import FULL, HURRY_S, SLOT_S, Lateness, WheelClock
+from service.sessions.clock import BEHIND_S, FULL, HURRY_S, SLOT_S, Lateness, WheelClock
 
 
 class Time:
@@ -185,6 +185,54 @@ def test_after_lost_time_those_that_were_spread_stay_spread() -> None:
     assert early.ticks[1] - early.ticks[0] >= 0.24, "none follows on the heels of a late one"
 
 
+EVERYWHERE = FULL * 250
+"""So many that tick every half a second are in all its slots alike."""
+
+
+class Laborious(Counter):
+    """Needs so much of its period for a tick."""
+
+    def __init__(self, time: Time, period_s: float, cost_s: float) -> None:
+        super().__init__(time, period_s)
+        self.cost_s = cost_s
+
+    def tick(self) -> None:
+        super().tick()
+        self.time.now_s += self.cost_s
+
+
+def stalled(load: float) -> tuple[list[float], int]:
+    """A service that is busy for this share of the time stands still for 0.3 s: lateness, and late ticks."""
+    time, late_s = Time(), list[float]()
+    clock = WheelClock(time, late_s.append)
+    for _ in range(EVERYWHERE):
+        clock.add(Laborious(time, 0.5, load * 0.5 / EVERYWHERE))
+    while time.now_s < 102.0:
+        time.now_s += SLOT_S / 4
+        clock.serve()
+    before = len(late_s)
+    time.now_s += 0.3
+    while time.now_s < 110.0:
+        time.now_s += SLOT_S / 4
+        clock.serve()
+    after_s = late_s[before:]
+    return after_s, sum(each > BEHIND_S for each in after_s)
+
+
+def test_what_is_caught_up_with_soon_is_no_lost_time() -> None:
+    late_s, too_late = stalled(0.2)
+    assert len(late_s) == pytest.approx(2 * EVERYWHERE * 8.0, abs=10)
+    assert too_late <= EVERYWHERE
+
+
+def test_near_its_limit_a_service_is_late_once_for_each_and_not_for_long() -> None:
+    late_s, too_late = stalled(0.8)
+    assert EVERYWHERE < too_late <= 2 * EVERYWHERE, "all of them, and those until it was given up"
+    assert max(late_s) == pytest.approx(0.3, abs=0.01), "counted from when it was first due"
+    assert max(late_s[2 * EVERYWHERE :]) <= BEHIND_S
+    assert len(late_s) == pytest.approx(2 * EVERYWHERE * 7.75, abs=EVERYWHERE / 5), "what was given up"
+
+
 class Busy(Counter):
     """Takes time to tick."""
 
@@ -251,7 +299,7 @@ def test_those_in_a_hurry_are_not_forgotten_where_what_is_due_is_never_done() ->
     while time.now_s < 103.0:
         clock.serve()
         time.now_s += 0.000_5
-    assert 15 <= sum(at > 100.2 for at in eager.ticks) <= 30
+    assert 15 <= sum(at > 100.2 for at in eager.ticks) <= 150, "of a millisecond each, in 2.8 s"
 
 
 def test_one_may_change_between_a_pace_and_a_hurry() -> None:

@@ -71,6 +71,17 @@ def test_an_old_one_after_some_minutes() -> None:
     assert (machine.sweep.turn(), ring() is None) == (2, True)
 
 
+def test_what_live_sessions_need_is_no_growth() -> None:
+    machine = Machine()
+    needed_mb = 0.0
+    machine.sweep = Sweep(lambda: machine.now_s, lambda: machine.memory_mb, lambda: needed_mb)
+    for more_mb, of_sessions, whole in ((200.0, 200.0, 0), (90.0, 0.0, 0), (20.0, 0.0, 2), (0.0, -200.0, 2)):
+        machine.memory_mb += more_mb
+        needed_mb += of_sessions
+        machine.now_s += LOOKED_AT_S
+        assert machine.sweep.turn() == whole
+
+
 def test_memory_that_shrinks_is_what_it_grows_from() -> None:
     machine = Machine()
     for held_now, whole in ((290.0, 0), (100.0, 0), (160.0, 2)):
