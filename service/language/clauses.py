@@ -181,7 +181,7 @@ class Divider:
                 found = self._matcher.match(self._stretch(start, end, again), verbless=False)
             if found is not None:
                 return Clause(start, end, found[0], [] if context.negated else found[1], context.negated)
-        if context.verbless and (not context.negated or not context.verb):
+        if context.verbless and not (context.negated and (context.verb or part.after == OR)):
             found = self._matcher.match(plain, verbless=True)
             if found is not None:
                 return Clause(start, end, *found)
