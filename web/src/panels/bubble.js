@@ -9,6 +9,7 @@
 import { make, setText } from "../dom.js";
 import { capital, moveName } from "../hits.js";
 import { fetchDecision } from "../otherwise.js";
+import { besides, meets } from "../spots.js";
 import { sceneOf } from "../state.js";
 import { tellOf, thingOf } from "../why.js";
 import { MOVES, reasonWords } from "../words.js";
@@ -25,7 +26,6 @@ import { alike, lay } from "./card.js";
 /** @typedef {Panel & Card} Bubble */
 
 const LEAVE_MS = 280;
-const GAP_PX = 10;
 /** A trace is asked for so often at most, however fast the ticks come. */
 const APART_MS = 400;
 
@@ -261,41 +261,4 @@ export function createBubble(host, page) {
       return false;
     },
   };
-}
-
-/**
- * Where a card goes: beside what it speaks of, or above or below; wholly in the window, and rather not on the vehicle.
- * @param {Place} anchor
- * @param {number} width
- * @param {number} height
- * @param {Place | null} ego
- * @returns {[number, number]}
- */
-function besides(anchor, width, height, ego) {
-  const middle = anchor.top + (anchor.height - height) / 2;
-  const centre = anchor.left + (anchor.width - width) / 2;
-  const spots = [
-    [anchor.left + anchor.width + GAP_PX, middle],
-    [anchor.left - GAP_PX - width, middle],
-    [centre, anchor.top - GAP_PX - height],
-    [centre, anchor.top + anchor.height + GAP_PX],
-  ].map(([x, y]) => [inside(x, width, innerWidth), inside(y, height, innerHeight)]);
-  const overlap = (/** @type {number[]} */ [left, top], /** @type {Place | null} */ other) =>
-    other === null
-      ? 0
-      : Math.max(0, Math.min(left + width, other.left + other.width) - Math.max(left, other.left)) *
-        Math.max(0, Math.min(top + height, other.top + other.height) - Math.max(top, other.top));
-  const badness = spots.map((spot) => 4 * overlap(spot, anchor) + overlap(spot, ego));
-  const [x, y] = spots[badness.indexOf(Math.min(...badness))];
-  return [x, y];
-}
-
-/** @param {number} at @param {number} size @param {number} room */
-function inside(at, size, room) {
-  return Math.round(Math.max(GAP_PX, Math.min(at, room - size - GAP_PX)));
-}
-
-/** @param {Place} place @param {DOMRect} frame */
-function meets({ left, top, width, height }, frame) {
-  return left < frame.right - 2 && left + width > frame.left + 2 && top < frame.bottom - 2 && top + height > frame.top + 2;
 }
