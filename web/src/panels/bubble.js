@@ -41,7 +41,7 @@ export function createBubble(host, page) {
   /** @type {Decision | null} the trace of the decision that is spoken of */ let trace = null;
   /** @type {AbortController | null} */ let asking = null;
   let written = "";
-  /** A button that is pressed stays until it is let go: made anew under the finger, it would hear no click. */
+  /** A button that is pressed stays where it is until it is let go: made anew, or moved, it would hear no click. */
   let pressed = false;
   let late = false;
   let askedAt = -Infinity;
@@ -169,7 +169,7 @@ export function createBubble(host, page) {
 
   /** Beside what it speaks of, and wholly in the window. */
   function place() {
-    if (target === null) return;
+    if (target === null || pressed) return;
     const anchor = anchorOf(target);
     const frame = (target.kind === "cell" ? target.frame : target.frame.parentElement)?.getBoundingClientRect();
     if (!anchor || !frame || !meets(anchor, frame)) return hide();
@@ -203,9 +203,8 @@ export function createBubble(host, page) {
 
   function release() {
     pressed = false;
-    if (!late) return;
+    if (late) write();
     late = false;
-    write();
     place();
   }
 
