@@ -208,6 +208,7 @@ class Reading:
             if isinstance(edge.sense.value, Amount):
                 noun = self._tokens[edge.end - 1]
                 said["noun"] = self._plain[noun.start : noun.end]
+                said |= self._language.sentences.names(edge.sense.value.of)
         start, end = self._tokens[clause.start].start, self._tokens[clause.end - 1].end
         choices: list[Choice] = []
         for template in ask.choices:

@@ -68,6 +68,11 @@ class Sentences:
         """`words`: the language's `sentences.yaml`."""
         self._words = words
 
+    def names(self, kind: str) -> dict[str, str]:
+        """What one thing of a kind and what many of it are called, as `one` and `many`; empty for other words."""
+        named = self._words.get("things", {}).get(kind)
+        return {} if named is None else {"one": named[0], "many": named[1]}
+
     def sentence(self, actions: Sequence[Action]) -> str:
         """One sentence for all of them, in order. Raises `Unsayable`."""
         if not actions or not self._words:
