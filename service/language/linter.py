@@ -41,7 +41,8 @@ AMOUNT_FORMS = frozenset(
         "the_one",
         "the_many",
     }
-    | {"the_counted", "bare_one", "bare_many", "more_bare", "more_bare_one", "post", "those_counted", "asked"}
+    | {"the_counted", "bare_one", "bare_many", "more_bare", "more_bare_one", "fewer_bare", "post"}
+    | {"those_counted", "asked"}
     | {"id", "last", "last_counted"}
 )
 DIMENSIONS = frozenset({"number", "length", "speed", "seconds", "fraction", "times", "real_times"})

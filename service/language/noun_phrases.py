@@ -183,6 +183,8 @@ def _form(gathered: _Gathered, many: bool, vague: int) -> tuple[str, int | float
         if "fewer" in said:
             return ("fewer", number)
         return ("the_counted", number) if said & {"the", OF_THE} else ("counted", number)
+    if "fewer" in said:
+        return _fewer(said, vague)
     if said & {"all", "every"}:
         return ("all", None)
     if "those" in said:
@@ -202,6 +204,15 @@ def _form(gathered: _Gathered, many: bool, vague: int) -> tuple[str, int | float
     if "the" in said:
         return ("the_many" if many else "the_one", None)
     return ("bare_many" if many else "bare_one", None)
+
+
+def _fewer(said: set[str], vague: int) -> tuple[str, int | None]:
+    """The kind of amount and the count of "fewer" without a number: "a few fewer", "one less", "fewer"."""
+    if said - {"fewer", "the", "vague", "a"}:
+        return (ODD, None)
+    if said & {"vague", "a"}:
+        return ("fewer", vague if "vague" in said else 1)
+    return ("fewer_bare", None)
 
 
 def _follows_noun(lattice: Lattice, at: int) -> bool:

@@ -22,7 +22,7 @@ from service.language.noun_phrases import QUANTITY, Amount, add_noun_phrases
 from service.language.parse_types import Ambiguous, Choice, Correction, Parse, Reason, Refused, Understood
 from service.language.paths import ALLOWS, SEPARATOR
 from service.language.references import Unclear, add_referents
-from service.language.sentences import Unsayable
+from service.language.sentences import Sentences, Unsayable
 from service.language.suggestions import Suggestions
 from service.language.tokens import Token
 from service.language.topic import Topic
@@ -38,6 +38,7 @@ class Tongue(Protocol):
 
     data: LanguageData
     frames: Frames
+    sentences: Sentences
 
     @property
     def suggestions(self) -> Suggestions:

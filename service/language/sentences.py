@@ -69,7 +69,7 @@ class Sentences:
         self._words = words
 
     def names(self, kind: str) -> dict[str, str]:
-        """What one thing of a kind and what many of it are called, as `one` and `many`; empty for other words."""
+        """What one thing of a kind is called (`one`), and what many are (`many`); empty for other words."""
         named = self._words.get("things", {}).get(kind)
         return {} if named is None else {"one": named[0], "many": named[1]}
 

@@ -99,7 +99,8 @@ def test_talking_from_a_terminal(database: Path) -> None:
         assert "No session" in unknown.stderr
 
         process.send_signal(signal.SIGINT)
-        assert process.wait(60) in (0, 130, -signal.SIGINT)
+        # 1: ended by the deadline of a stop, which a busy machine may pass.
+        assert process.wait(60) in (0, 1, 130, -signal.SIGINT)
 
 
 def test_nobody_there() -> None:
