@@ -51,7 +51,10 @@ PATIENCE_S = 0.1
 """After so long they have a turn even where what is due is never done."""
 
 BEHIND_S = 0.02
-"""So far behind and not more, all is caught up with."""
+"""About half of this is left when deadlines are put off."""
+
+FAR_BEHIND_S = 0.05
+"""So far behind and not more, all is caught up with: to put all off would make more ticks late than that."""
 
 CATCH_UP_S = 0.2
 """Who is further behind for so long puts every deadline off."""
@@ -219,7 +222,7 @@ class WheelClock:
         late_s = now - self._order[0] * SLOT_S
         if self._behind_since is None:
             self._behind_since = now
-        elif late_s > BEHIND_S and now - self._behind_since > CATCH_UP_S:
+        elif late_s > FAR_BEHIND_S and now - self._behind_since > CATCH_UP_S:
             self._behind_since = None
             # Not all of it, since what is still due comes before who is in a hurry; and in whole slots.
             given_up_s = SLOT_S * int((late_s - BEHIND_S / 2) / SLOT_S)
