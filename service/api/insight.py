@@ -87,13 +87,15 @@ async def forecast(
 ) -> Response:
     """What the vehicle decides at a tick, and the movers rolled out from there as the planners see it.
 
-    Their first tick is exact; later ones suppose that nobody gives way to the vehicle.
+    Their first tick is exact; later ones suppose that nobody gives way to the vehicle or brakes for it.
     """
     way = session.timeline.copy()
     if tick is not None and tick > way.tick:
         raise invalid([FieldProblem("tick", f"has not come yet: it is tick {way.tick}")])
     run, decision = await to_thread.run_sync(_decided, way, tick)
     expected = foretell(perceive(run.world, run.config), ticks)
+    if decision is not None:
+        expected = expected.after(decision.move)
     road, now = run.world.road, run.world.tick
     ahead = [
         {
@@ -103,7 +105,7 @@ async def forecast(
         for each in range(ticks)
     ]
     told = None if decision is None else told_decision(here.words, run, decision)
-    exact = ticks == 1 or run.config.courtesy == 0.0
+    exact = ticks == 1 or not run.config.reacting
     return json_response({"tick": now, "decision": told, "exact": exact, "ahead": ahead})
 
 

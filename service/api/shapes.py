@@ -59,7 +59,7 @@ class CrashCause(Answered):
     """What a crash was with: met in one cell (`hit`), or passing through one another (`swap`)."""
 
     kind: Kind
-    how: Literal["hit", "swap"]
+    how: Literal["hit", "swap", "cross"]
     ids: list[str]
     cell: CellPair
 

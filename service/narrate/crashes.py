@@ -56,6 +56,8 @@ class Crashes:
         stood = decision.move is Move.STAY
         if cause.how == "swap":
             key = "swap"
+        elif cause.how == "cross":
+            key = "cross"
         elif kind_of(ids[0]).fixed:
             key = "into"
         else:

@@ -1,7 +1,7 @@
 """How sure it is that the vehicle arrives in this episode, over all that is drawn only later.
 
-On a road that is seen whole, one thing is not known yet: who will give way (`sim.courtesy`). So the
-futures form a tree that branches only where a mover beside the vehicle has a reason to be courteous. Where
+On a road that is seen whole, one thing is not known yet: who will give way or brake (`sim.courtesy`). So the
+futures form a tree that branches only where a mover beside the vehicle has a reason to react. Where
 the branches meet again, which is soon, they are one: rows that lie behind take no part any more. Mostly the
 tree is then small enough to be walked whole, and the share of futures that arrive is exact. Where it is
 not, futures are drawn from it, with seeds of their own, and the share has Wilson's interval ("Probable
@@ -21,12 +21,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from itertools import chain, combinations, count
+from itertools import chain, combinations, count, product
 from math import sqrt
 from typing import Final, TypeAlias
 
 from sim.config import Config
-from sim.courtesy import yielding
+from sim.courtesy import attentive, yielding
 from sim.explain.facts import QuestionError
 from sim.forecast import foretell
 from sim.kinds import Mode, Move, Outcome
@@ -110,7 +110,7 @@ class Confidence:
     decisions: int
     """decisions taken for this answer"""
     chance: bool
-    """whether who gives way is drawn at all"""
+    """whether who gives way or brakes is drawn at all"""
     by_hand: bool
     """whether a person drives at present, and it is told how it goes if the vehicle took over"""
     clarity: Clarity | None
@@ -157,7 +157,7 @@ def confidence(timeline: Timeline) -> Confidence:
         end_ticks=(min(waited), max(waited)) if waited else None,
         futures=drawn,
         decisions=futures.work,
-        chance=0.0 < run.config.courtesy < 1.0,
+        chance=0.0 < run.config.courtesy < 1.0 or 0.0 < run.config.attentive < 1.0,
         by_hand=run.mode is Mode.MANUAL,
         clarity=_clarity(timeline),
     )
@@ -208,8 +208,8 @@ class _Futures:
     _known: bool = field(init=False)
     _buffer: int = field(init=False)
     _leading_on: list[Board] | None = None
-    _none: Config = field(init=False)
     _all: Config = field(init=False)
+    """everybody reacts who has a reason to"""
 
     def __post_init__(self) -> None:
         config = self.start.config
@@ -217,8 +217,10 @@ class _Futures:
         # Planners of others may look at anything; the project's own at what their charges reach.
         self._known = config.planner in BUILT_IN
         self._buffer = weights(config).buffer if config.planner in WEIGHING else 0
-        self._none = config.with_parts(courtesy=0.0)
-        self._all = config.with_parts(courtesy=1.0)
+        # A tick that is drawn to be certain proves nothing about those that come again.
+        self._all = config.with_parts(
+            courtesy=1.0, attentive=1.0, repetition=config.repetition and config.certain
+        )
 
     def walked(self) -> Ends | None:
         """The chance of each end, by outcome and ticks from now; None if the tree is too large to walk."""
@@ -287,30 +289,35 @@ class _Futures:
         What makes no difference to where anything goes is one way. The tick that comes next is seen already,
         which is why the root has no ways to choose from.
         """
-        world, courtesy = run.world, run.config.courtesy
-        near = yielding(world, self._all) if courtesy else 0
-        if not near:
-            yield 1.0, self._none
+        world, config = run.world, run.config
+        giving = _drawn(yielding(world, self._all), config.courtesy)
+        braking = _drawn(attentive(world, self._all), config.attentive)
+        if len(giving) == len(braking) == 1:
+            yield 1.0, config
             return
         ways: dict[object, tuple[float, Config]] = {}
-        cells = list(bits(near))
-        for chosen in chain.from_iterable(combinations(cells, size) for size in range(len(cells) + 1)):
-            giving = board_of(chosen)
-            chance = courtesy ** len(chosen) * (1.0 - courtesy) ** (len(cells) - len(chosen))
-            config = self._drawing(world, near, giving)
-            motion = foretell(perceive(world, config), 1).slices[0] if self._known else giving
-            before, first = ways.get(motion, (0.0, config))
-            ways[motion] = before + chance, first
+        for (gives, chance), (brakes, other) in product(giving, braking):
+            drawing = self._drawing(world, gives, brakes)
+            if self._known:
+                forecast = foretell(perceive(world, drawing), 1)
+                standing = forecast.standing
+                key: object = forecast.slices[0], None if standing is None else standing.slices[0]
+            else:
+                key = gives, brakes
+            before, first = ways.get(key, (0.0, drawing))
+            ways[key] = before + chance * other, first
         yield from (way for way in ways.values() if way[0] > 0.0)
 
-    def _drawing(self, world: World, near: Board, giving: Board) -> Config:
-        """A configuration under which exactly these movers of those near give way in the coming tick."""
-        if giving == 0:
-            return self._none
-        if giving == near:
-            return self._all
-        tried = (self._none.with_parts(courtesy=0.5, seed=seed) for seed in count())
-        return next(config for config in tried if yielding(world, config) == giving)
+    def _drawing(self, world: World, gives: Board, brakes: Board) -> Config:
+        """A configuration under which exactly these movers give way, and these brake, in the coming tick."""
+        near = yielding(world, self._all)
+        base = self._all.with_parts(courtesy=_share(gives, near), attentive=_share(brakes, near))
+        tried = (base.with_parts(seed=seed) for seed in count())
+        return next(
+            config
+            for config in tried
+            if (yielding(world, config), attentive(world, config)) == (gives, brakes)
+        )
 
     def _step(self, run: Run, config: Config) -> _Node:
         self.work += 1
@@ -332,11 +339,27 @@ class _Futures:
         return world.tick, tuple(Outcome).index(world.outcome), *world.avs, *boards
 
 
+def _drawn(near: Board, share: float) -> list[tuple[Board, float]]:
+    """Which of the movers near may be drawn, each for itself with this chance, and the chance of it."""
+    if share in (0.0, 1.0) or not near:
+        return [(near if share == 1.0 else 0, 1.0)]
+    cells = list(bits(near))
+    chosen = chain.from_iterable(combinations(cells, size) for size in range(len(cells) + 1))
+    return [
+        (board_of(some), share ** len(some) * (1.0 - share) ** (len(cells) - len(some))) for some in chosen
+    ]
+
+
+def _share(drawn: Board, near: Board) -> float:
+    """A chance under which these of the movers near can be drawn."""
+    return 0.0 if not drawn else 1.0 if drawn == near else 0.5
+
+
 def _leading_on(run: Run) -> list[Board]:
     """The cells from which the goal may still be reached, by ticks from now.
 
-    Cells left out are proved hopeless, whoever gives way: courtesy changes only the row the vehicle is in. So
-    the rows before it go on as foretold until it enters them, and its own row is taken to be free of movers.
+    Cells left out are proved hopeless, whoever reacts: that changes only the row the vehicle is in. So the
+    rows before it go on as foretold until it enters them, and its own row is taken to be free of movers.
     """
     percept = perceive(run.world, run.config)
     road, limit = percept.road, steps_left(run.config, percept.episode_tick)

@@ -106,7 +106,7 @@ def why_crashed(timeline: Timeline, tick: int | None = None) -> Crash:
     assert decision is not None
     after = advance(run).run.world
     assert after.cause is not None
-    certain = run.config.courtesy == 0.0
+    certain = run.config.certain
     rerun = Rerun(run, decision)
     explanation = _last_tick(rerun)
     looked_back, whole, saving = _saving(timeline, run) if certain else (0, False, None)

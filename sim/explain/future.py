@@ -182,11 +182,11 @@ def way_ahead(run: Run, ticks: int = NEXT_TICKS) -> Way:
     """The next decision and the way from there; empty while a result stands.
 
     Where a person drives and has asked for nothing, it is what the planner would do, were it let. Movers
-    that may give way are a matter of chance that no driver knows beforehand, so with courtesy the way is
+    that may give way or brake are a matter of chance that no driver knows beforehand, so then the way is
     not told beyond the next decision.
     """
     offered = run.mode is Mode.MANUAL and not run.queue
-    chance = run.config.courtesy > 0.0
+    chance = not run.config.certain
     seen = replace(run, mode=Mode.AUTO) if offered else run
     decisions: list[Decision] = []
     detours: list[Detour] = []

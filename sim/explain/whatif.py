@@ -74,7 +74,7 @@ def what_if(timeline: Timeline, change: Sequence[WorldAction], tick: int | None 
     real, other = told(run, real_ticks), told(changed, changed_ticks)
     same_road = not _new_road(done)
     difference = _first_difference(real_ticks, changed_ticks) if same_road else None
-    lost, certain = None, run.config.courtesy == 0.0
+    lost, certain = None, run.config.certain
     if difference is not None:
         before = next(run for run, _ in real_ticks if run.world.tick == difference.tick)
         lost = regret(before, difference.real)

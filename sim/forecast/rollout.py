@@ -13,6 +13,7 @@ from typing import overload
 
 from sim.moving import followed_table_once, move_movers_once
 from sim.perceive import Percept
+from sim.road import Board
 from sim.rules import Motion, brake, followed_board, move_movers, pedestrians_walk
 
 
@@ -30,6 +31,7 @@ class RollOut(Sequence[Motion]):
         "_slices",
         "_stands",
         "_tables",
+        "_walked",
     )
 
     def __init__(self, percept: Percept, horizon: int, *, stands: bool = False) -> None:
@@ -45,6 +47,7 @@ class RollOut(Sequence[Motion]):
         self._fixed = percept.potholes | percept.barriers
         self._disabled = (percept.right | percept.left) & percept.potholes
         self._slices: list[Motion] = []
+        self._walked: list[Board] = []
         self._tables: list[Mapping[int, str]] = []
         self._right, self._left, self._pedestrians = percept.right, percept.left, percept.pedestrians
 
@@ -74,6 +77,11 @@ class RollOut(Sequence[Motion]):
             before = self._tables[-1] if self._tables else self._percept.movers
             self._tables.append(followed_table_once(before, self[len(self._tables)]))
         return self._tables[ahead]
+
+    def pedestrians(self, ahead: int) -> Board:
+        """Where pedestrians are expected, `ahead` + 1 ticks from now."""
+        self[ahead]  # rolls out that far
+        return self._walked[ahead]
 
     def if_standing(self) -> RollOut | None:
         """The roll-out where the vehicle does not move in the first tick; None where that changes nothing."""
@@ -105,4 +113,5 @@ class RollOut(Sequence[Motion]):
         self._right, self._left = motion.right, motion.left
         if self._pedestrians:
             self._pedestrians = followed_board(self._pedestrians, motion)
+        self._walked.append(self._pedestrians)
         return motion

@@ -1,6 +1,6 @@
 """The best that could be done: least ticks and cost, whether a road can be driven (proved), regret."""
 
-from sim.optimum.certificate import Blocked, Certificate, Drivable, Undecided, certify
+from sim.optimum.certificate import Blocked, Certificate, Drivable, certify
 from sim.optimum.least import least_cost, least_ticks
 from sim.optimum.regret import Regret, regret, regrets
 
@@ -9,7 +9,6 @@ __all__ = [
     "Certificate",
     "Drivable",
     "Regret",
-    "Undecided",
     "certify",
     "least_cost",
     "least_ticks",

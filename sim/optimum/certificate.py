@@ -10,8 +10,8 @@ The first candidate is the set of things that a way with the fewest collisions m
 search by sets of cells); where its removal does not open the road, all things are thinned out (Zeller &
 Hildebrandt, "Simplifying and isolating failure-inducing input", 2002).
 
-With courtesy above 0 movers react to the vehicle. A plan that arrives when played is still a proof;
-where none is found nothing is claimed (`Undecided`).
+Movers that react to the vehicle, by giving way or by braking, are searched with their reactions
+(`sim.search.reactive`), so that both answers are proofs for them as well.
 """
 
 from __future__ import annotations
@@ -23,12 +23,11 @@ from typing import Final
 
 from sim.forecast import Forecast
 from sim.kinds import Move, Outcome
-from sim.optimum.least import foreseen, least_ticks
+from sim.optimum.least import can_arrive, foreseen, quickest_plan
 from sim.optimum.thin import spared
 from sim.road import Board, bits
 from sim.rules import beside
 from sim.run import Run
-from sim.search.reach import shortest_plan
 from sim.transition import transition
 
 MAX_TRIED: Final = 8
@@ -56,24 +55,17 @@ class Blocked:
     """whether every proper part was tried; else only the parts that lack one member"""
 
 
-@dataclass(frozen=True, slots=True)
-class Undecided:
-    """Movers may give way, and no plan that assumes they do not arrives: neither is proved."""
-
-
-Certificate = Drivable | Blocked | Undecided
+Certificate = Drivable | Blocked
 
 
 def certify(run: Run) -> Certificate:
     """Prove that the goal can be reached from here, or that it cannot. Raises `ValueError` after the end."""
     forecast, limit = foreseen(run)
-    plan = shortest_plan(forecast, limit)
-    if plan is not None and arrives(run, plan):
-        return Drivable(plan)
-    if run.config.courtesy > 0:
-        return Undecided()
+    plan = quickest_plan(run)
     if plan is not None:
-        raise AssertionError("a plan that the forecast allows was not as it said")
+        if not arrives(run, plan):
+            raise AssertionError("a plan that was searched does not arrive when it is played")
+        return Drivable(plan)
     if limit == 0:
         return Blocked((), True)
     return _blocked(run, forecast, limit)
@@ -91,7 +83,7 @@ def arrives(run: Run, plan: Iterable[Move]) -> bool:
 
 def opens(run: Run, ids: Iterable[str]) -> bool:
     """Whether the goal can be reached once these things are gone."""
-    return least_ticks(replace(run, world=run.world.without(frozenset(ids)))) is not None
+    return can_arrive(replace(run, world=run.world.without(frozenset(ids))))
 
 
 def _blocked(run: Run, forecast: Forecast, limit: int) -> Blocked:

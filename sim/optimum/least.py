@@ -1,18 +1,19 @@
 """The least ticks and the least cost from a moment to the goal, as the rules and the charges say.
 
-Exact where movers do not react to the vehicle; with courtesy above 0 the first tick is exact and later
-ones assume that nobody gives way.
+The least ticks are exact: movers that give way or brake are searched with the reactions they are drawn to
+have. The least cost assumes that nobody reacts to the vehicle after the first tick.
 """
 
 from __future__ import annotations
 
 from sim.forecast import Forecast, foretell
-from sim.kinds import Outcome
+from sim.kinds import Move, Outcome
 from sim.perceive import perceive
 from sim.plan.costs import weights
 from sim.run import Run
 from sim.search.astar import cheapest
-from sim.search.reach import reach, steps_left
+from sim.search.reach import flooded, reach, shortest_plan, steps_left
+from sim.search.reactive import ReactiveSearch
 from sim.search.spacetime import SpaceTime
 
 
@@ -31,16 +32,72 @@ def least_ticks(run: Run) -> int | None:
     if run.world.outcome is not Outcome.RUNNING:
         return None
     forecast, limit = foreseen(run)
-    return reach(forecast, 1 << forecast.ego, limit).ticks
+    ticks = reach(forecast, 1 << forecast.ego, limit).ticks
+    if _settled(run, ticks):
+        return ticks
+    bound = _bound(run, ticks, limit)
+    quicker = _search(run, forecast).least_ticks(bound) if _passable(forecast) else None
+    return ticks if quicker is None and run.config.courtesy == 0.0 else quicker
+
+
+def quickest_plan(run: Run) -> tuple[Move, ...] | None:
+    """The moves of a way of `least_ticks` from here; None: there is no way in time.
+
+    Raises `ValueError` after the end.
+    """
+    forecast, limit = foreseen(run)
+    plan = shortest_plan(forecast, limit)
+    ticks = None if plan is None else len(plan)
+    if _settled(run, ticks):
+        return plan
+    bound = _bound(run, ticks, limit)
+    quicker = _search(run, forecast).plan(bound) if _passable(forecast) else None
+    return plan if quicker is None and run.config.courtesy == 0.0 else quicker
+
+
+def can_arrive(run: Run) -> bool:
+    """Whether the goal can be reached from here in time."""
+    if run.world.outcome is not Outcome.RUNNING:
+        return run.world.outcome is Outcome.SUCCESS
+    forecast, limit = foreseen(run)
+    if run.config.courtesy == 0.0 and reach(forecast, 1 << forecast.ego, limit).ticks is not None:
+        return True
+    if not run.config.reacting or not _passable(forecast):
+        return False
+    return _search(run, forecast).least_ticks(limit) is not None
 
 
 def least_cost(run: Run) -> int | None:
-    """The cheapest way from here to row 0 by the configuration's charges; None: there is no way in time."""
+    """The cheapest way from here to row 0 by the configuration's charges; None: none is known."""
     if run.world.outcome is Outcome.SUCCESS:
         return 0
-    if least_ticks(run) is None:
+    if run.world.outcome is not Outcome.RUNNING:
         return None
     forecast, limit = foreseen(run)
+    if reach(forecast, 1 << forecast.ego, limit).ticks is None:
+        return None  # a heuristic search would try everything before it gave up
     terrain = SpaceTime(forecast, weights(run.config), limit)
     way = cheapest(terrain, terrain.start)
     return None if way is None else way.cost
+
+
+def _settled(run: Run, ticks: int | None) -> bool:
+    """Whether reactions of movers cannot lead to the goal sooner than a way found without them."""
+    # A way that meets nothing in the roll-out without reactions causes none, unless movers give way. No way
+    # takes less than a tick a row.
+    rows = run.world.av // run.world.road.columns
+    return not run.config.reacting or (run.config.courtesy == 0.0 and ticks == rows)
+
+
+def _bound(run: Run, ticks: int | None, limit: int) -> int:
+    """Ticks within which a quicker way would have to arrive."""
+    return limit if ticks is None or run.config.courtesy else ticks - 1
+
+
+def _passable(forecast: Forecast) -> bool:
+    """Whether a way leads past the fixed hazards, were there no movers."""
+    return bool(flooded(forecast, 1 << forecast.ego) & forecast.road.row(0))
+
+
+def _search(run: Run, forecast: Forecast) -> ReactiveSearch:
+    return ReactiveSearch(run.world, run.config, forecast)

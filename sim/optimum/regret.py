@@ -25,7 +25,7 @@ class Regret:
     ticks: int | None
     """ticks lost; None also if the move lost the road altogether"""
     cost: int | None
-    """cost lost, by the configuration's charges; None as for ticks"""
+    """cost lost, by the charges; None as for ticks, and where every way relies on a reaction of movers"""
     lost: bool
     """whether the goal could be reached before the move and cannot after it"""
 
@@ -40,12 +40,11 @@ def regret(run: Run, move: Move) -> Regret:
     if ticks is None:
         return Regret(None, None, lost=True)
     forecast, limit = foreseen(run)
-    terrain = SpaceTime(forecast, weights(run.config), limit)
+    terrain = SpaceTime(forecast.after(move), weights(run.config), limit)
     paid = next(cost for taken, _, cost in terrain.steps(terrain.start) if list(Move)[taken] is move)
     best, rest = least_cost(run), least_cost(after)
-    if best is None or rest is None:
-        raise AssertionError("what can be reached has a cost")
-    return Regret(1 + ticks - best_ticks, paid + rest - best, lost=False)
+    lost = None if best is None or rest is None else max(0, paid + rest - best)
+    return Regret(1 + ticks - best_ticks, lost, lost=False)
 
 
 def regrets(timeline: Timeline, first: int, stop: int) -> Iterator[tuple[int, Regret]]:

@@ -16,6 +16,7 @@ from sim.config import Config
 from sim.forecast import Forecast
 from sim.kinds import Move
 from sim.road import Board
+from sim.rules import spread
 
 MOVES = tuple(Move)
 
@@ -53,6 +54,16 @@ def reach(forecast: Forecast, start: Board, limit: int, *, after: int = 0) -> Re
         if not start:
             break
     return Reach(tuple(layers), None)
+
+
+def flooded(forecast: Forecast, start: Board) -> Board:
+    """Every cell that can be reached from `start` past the fixed hazards, were there no movers."""
+    road, fixed = forecast.road, forecast.fixed
+    while True:
+        wider = spread(start, start >> road.columns, fixed, 0, 0, 0, 0, road.left_edge, road.right_edge)
+        if wider | start == start:
+            return start
+        start |= wider
 
 
 def on_shortest(forecast: Forecast, found: Reach, *, after: int = 0) -> list[Board]:

@@ -22,8 +22,18 @@ def road(*rows: str, tick: int = 0, lines: tuple[str, ...] = ()) -> World:
 
 
 def run_on(world: World, **parts: Any) -> Run:
-    """A run on a given road, with a configuration of its size."""
-    config = Config(columns=world.road.columns, rows=world.road.rows, vehicles=0, potholes=0)
+    """A run on a given road, with a configuration of its size.
+
+    Unless a test says otherwise the rule of the source study drives, and nobody brakes.
+    """
+    config = Config(
+        columns=world.road.columns,
+        rows=world.road.rows,
+        vehicles=0,
+        potholes=0,
+        planner="priority",
+        attentive=0.0,
+    )
     return Run(config.with_parts(**parts), world)
 
 

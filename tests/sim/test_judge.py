@@ -43,41 +43,41 @@ ROAD = road(
 )
 def test_two_bodies_in_one_cell(cell: tuple[int, int], cause: Cause) -> None:
     after = av_at(ROAD, cell)
-    assert collisions(ROAD, after) == (cause,)
+    assert collisions(ROAD, after, "swept") == (cause,)
     assert outcome(after, (cause,), 50) is Outcome.CRASH
 
 
 def test_a_mover_that_comes_to_a_waiting_vehicle() -> None:
     after = mover_at(ROAD, "vehicle-1", (2, 2))
-    assert collisions(ROAD, after) == (Cause("hit", Kind.VEHICLE, ("vehicle-1",), (2, 2)),)
+    assert collisions(ROAD, after, "swept") == (Cause("hit", Kind.VEHICLE, ("vehicle-1",), (2, 2)),)
 
 
 def test_passing_through_a_mover() -> None:
     after = av_at(mover_at(ROAD, "vehicle-1", (2, 2)), (3, 2))
-    assert collisions(ROAD, after) == (Cause("swap", Kind.VEHICLE, ("vehicle-1",), (3, 2)),)
+    assert collisions(ROAD, after, "swept") == (Cause("swap", Kind.VEHICLE, ("vehicle-1",), (3, 2)),)
 
 
 def test_following_a_mover_or_crossing_behind_it_is_no_collision() -> None:
     follows = av_at(mover_at(ROAD, "vehicle-1", (4, 2)), (3, 2))
-    assert collisions(ROAD, follows) == ()
+    assert collisions(ROAD, follows, "swept") == ()
     leaves = av_at(mover_at(ROAD, "vehicle-1", (2, 2)), (3, 1))
-    assert collisions(ROAD, leaves) == ()
+    assert collisions(ROAD, leaves, "swept") == ()
 
 
 def test_two_autonomous_vehicles_in_one_cell_or_swapped() -> None:
     both = av_at(ROAD, (4, 3), (5, 3))
     met = Cause("hit", Kind.AV, ("av-1", "av-2"), (5, 3))
     passed = Cause("swap", Kind.AV, ("av-1", "av-2"), (4, 3))
-    assert collisions(both, av_at(both, (5, 3), (5, 3))) == (met,)
-    assert collisions(both, av_at(both, (5, 3), (4, 3))) == (passed,)
-    assert collisions(both, av_at(both, (5, 2), (4, 3))) == ()
-    assert collisions(both, both) == ()
+    assert collisions(both, av_at(both, (5, 3), (5, 3)), "swept") == (met,)
+    assert collisions(both, av_at(both, (5, 3), (4, 3)), "swept") == (passed,)
+    assert collisions(both, av_at(both, (5, 2), (4, 3)), "swept") == ()
+    assert collisions(both, both, "swept") == ()
 
 
 def test_all_defects_are_listed() -> None:
     before = av_at(ROAD, (2, 2), (4, 2), (0, 4))
     after = av_at(mover_at(ROAD, "vehicle-1", (2, 2)), (3, 2), (3, 2), (1, 1))
-    assert collisions(before, after) == (
+    assert collisions(before, after, "swept") == (
         Cause("swap", Kind.VEHICLE, ("vehicle-1",), (3, 2)),
         Cause("hit", Kind.AV, ("av-1", "av-2"), (3, 2)),
         Cause("hit", Kind.POTHOLE, ("pothole-1",), (1, 1)),
@@ -87,7 +87,7 @@ def test_all_defects_are_listed() -> None:
 def test_a_mover_held_by_the_pothole_is_listed_beside_it() -> None:
     before = road("....", ".}..", ".A..", "....")
     after = av_at(before, (1, 1))
-    assert [cause.ids for cause in collisions(before, after)] == [("pothole-1",), ("vehicle-1",)]
+    assert [cause.ids for cause in collisions(before, after, "swept")] == [("pothole-1",), ("vehicle-1",)]
 
 
 def test_arriving_is_success_and_a_crash_in_the_goal_row_is_not() -> None:

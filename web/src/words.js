@@ -21,6 +21,7 @@ const REASONS = /** @type {Record<string, string>} */ ({
   mover_enters: "something moves in",
   mover_stays: "something stands there",
   mover_swaps: "something comes the other way",
+  mover_crosses: "something cuts across the way there",
   disabled_mover: "a disabled vehicle",
 });
 

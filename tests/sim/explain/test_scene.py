@@ -27,7 +27,7 @@ def met_by_driving(run: Run, reach: int) -> dict[str, int]:
     world = run.world
     for tick in range(1, reach + 1):
         after = commit(world, Move.FORWARD, run.config)
-        for cause in collisions(world, after):
+        for cause in collisions(world, after, run.config.collision):
             for name in cause.ids:
                 met.setdefault(name, tick)
         world = after

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from sim.config import Config
 from sim.generate import GenerationError, generate
 from sim.kinds import Move, Outcome
-from sim.optimum import Blocked, Drivable, Undecided, certify, least_cost, least_ticks, regret, regrets
+from sim.optimum import Blocked, Drivable, certify, least_cost, least_ticks, regret, regrets
 from sim.optimum.certificate import arrives
 from sim.run import Run, advance, next_episode
 from sim.timeline import Timeline
@@ -78,9 +78,10 @@ def test_after_the_end_there_is_nothing_to_certify() -> None:
         certify(run_on(world))
 
 
-def test_courtesy_leaves_some_roads_undecided() -> None:
+def test_a_wall_is_proved_to_be_one_with_courtesy_as_well() -> None:
     found = certify(run_on(road("....", "####", "....", "..A."), courtesy=0.5))
-    assert found == Undecided()
+    assert isinstance(found, Blocked)
+    assert len(found.ids) == 1
 
 
 @settings(max_examples=60)

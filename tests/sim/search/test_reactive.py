@@ -1,0 +1,63 @@
+"""The search with reacting movers, against every world that the transition itself leads to."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from sim.config import Config
+from sim.kinds import Move, Outcome
+from sim.optimum import Blocked, Drivable, certify, least_ticks
+from sim.run import Run
+from sim.transition import transition
+
+REACTIONS = [(courtesy, attentive) for courtesy in (0.0, 0.5, 1.0) for attentive in (0.0, 0.5, 1.0)]
+
+
+def slowest(run: Run, limit: int) -> int | None:
+    """Least ticks by making every move in every world, one tick after the other."""
+    layer = {run.world.digest(): run.world}
+    for ticks in range(1, limit + 1):
+        after = {}
+        for world in layer.values():
+            for move in Move:
+                if world.road.moved(world.av, move) is None:
+                    continue
+                there = transition(world, move, run.config)
+                if there.outcome is Outcome.SUCCESS:
+                    return ticks
+                if there.outcome is Outcome.RUNNING:
+                    after[there.digest()] = there
+        layer = after
+    return None
+
+
+@pytest.mark.parametrize(("courtesy", "attentive"), REACTIONS)
+def test_least_ticks_are_those_of_an_exhaustive_search(courtesy: float, attentive: float) -> None:
+    blocked = quicker = 0
+    for seed in range(30):
+        config = Config(
+            columns=3,
+            rows=6,
+            vehicles=seed % 7,
+            pedestrians=seed % 3,
+            potholes=seed % 5,
+            courtesy=courtesy,
+            attentive=attentive,
+            seed=seed,
+        )
+        run = Run.start(config)
+        found = least_ticks(run)
+        truth = slowest(run, 16)
+        assert found == truth if truth is not None else found is None or found > 16
+        blocked += truth is None
+        unreacting = least_ticks(replace(run, config=config.with_parts(courtesy=0.0, attentive=0.0)))
+        quicker += found != unreacting
+        match certify(run):
+            case Drivable(plan):
+                assert len(plan) == found
+            case Blocked():
+                assert found is None
+    assert blocked
+    assert (quicker > 0) is (courtesy > 0 or attentive > 0)
