@@ -14,8 +14,8 @@ import numpy as np
 from sim.config import Config
 from sim.forecast import foretell
 from sim.perceive import perceive
-from sim.plan.costs import weights
 from sim.run import Run
+from sim.search.costs import weights
 from sim.search.spacetime import SpaceTime
 
 SECONDS = 2.0

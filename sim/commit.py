@@ -31,7 +31,7 @@ def commit(world: World, move: Move, config: Config) -> World:
         road.left_edge,
         road.right_edge,
     )
-    if move is Move.STAY and config.attentive:
+    if move is Move.STAY and motion.occupied >> world.av & 1:
         motion = brake(motion, 1 << world.av, attentive(world, config))
     target = road.moved(world.av, move)
     if target is None:

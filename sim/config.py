@@ -22,6 +22,8 @@ class Problem:
 
     field: str
     message: str
+    available: bool = True
+    """False where the value is one that this version knows by name only"""
 
 
 class ConfigError(ValueError):
@@ -60,9 +62,15 @@ CHOICES: Final[dict[str, tuple[str, ...]]] = {
     "collision": get_args(Collision),
     "road": get_args(RoadType),
     "traffic": get_args(Traffic),
-    "sensor": get_args(SensorName),
+    "sensor": ("perfect",),
 }
 """The words that may stand where a word is asked for."""
+
+PROMISED: Final[dict[str, tuple[str, ...]]] = {
+    "planner": planner_names.PROMISED,
+    "sensor": tuple(name for name in get_args(SensorName) if name != "perfect"),
+}
+"""Values that people may ask for and this version has not."""
 
 LISTS: Final[dict[str, tuple[str, ...]]] = {"preferences": get_args(Preference)}
 """The words that may stand in a list."""
@@ -117,7 +125,7 @@ class Config:
     traffic: Traffic | None = None
     planner: str = "priority"
     preferences: tuple[Preference, ...] = ()
-    """how planners that weigh costs should weigh them; the balance is in `sim.plan.costs`"""
+    """how planners that weigh costs should weigh them; the balance is in `sim.search.costs`"""
     safety_buffer: int = 1
     """cells around a mover that cost something to be in, for planners that weigh costs"""
     sensor: SensorName = "perfect"
@@ -189,12 +197,13 @@ class Config:
 
     def _word_problems(self) -> list[Problem]:
         problems = [
-            Problem(name, f"must be one of {', '.join(choices)}")
+            _not_one_of(name, getattr(self, name), choices)
             for name, choices in CHOICES.items()
             if getattr(self, name) not in choices and not (name in _OPTIONAL and getattr(self, name) is None)
         ]
-        if not planner_names.may_be_named(self.planner):
-            problems.append(Problem("planner", f"must be one of {', '.join(planner_names.names())}"))
+        planner = self.planner
+        if not isinstance(planner, str) or planner in PROMISED["planner"] or not planner_names.known(planner):
+            problems.append(_not_one_of("planner", planner, planner_names.names()))
         for name, choices in LISTS.items():
             words = getattr(self, name)
             fit = isinstance(words, tuple) and all(word in choices for word in words)
@@ -225,3 +234,10 @@ def _unknown(name: str) -> str:
     """That a setting is none, and which may have been meant."""
     near = get_close_matches(str(name).lower(), [field.name for field in fields(Config)], n=1)
     return "is not a setting of a road" + (f"; did you mean {near[0]}" if near else "")
+
+
+def _not_one_of(name: str, value: object, choices: tuple[str, ...]) -> Problem:
+    there = f"must be one of {', '.join(choices)}" if len(choices) > 1 else f"must be {choices[0]}"
+    if value in PROMISED.get(name, ()):
+        return Problem(name, f"{there}; {value} is not available yet", available=False)
+    return Problem(name, there)

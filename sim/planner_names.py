@@ -18,7 +18,7 @@ BUILT_IN: Final = ("priority", "astar", "dijkstra", "exact")
 LOCAL: Final = ("priority",)
 """Those of them that decide from the fixed hazards and from the movers of the vehicle's row and the next."""
 WEIGHING: Final = ("astar", "dijkstra")
-"""Those of them that charge for what is near, and so heed preferences (`sim.plan.costs`)."""
+"""Those of them that charge for what is near, and so heed preferences (`sim.search.costs`)."""
 PROMISED: Final = ("dwa", "rl", "cooperative")
 """Names that people may say and this version has not."""
 
@@ -50,6 +50,6 @@ def names() -> tuple[str, ...]:
     )
 
 
-def may_be_named(name: object) -> bool:
-    """Whether a configuration may name this planner; promised ones are refused where they are asked for."""
-    return isinstance(name, str) and (name in PROMISED or name in names())
+def known(name: str) -> bool:
+    """Whether there is a planner of that name."""
+    return name in BUILT_IN or name in names()

@@ -50,13 +50,6 @@ def unavailable(scenario: Scenario) -> Problem | None:
     return None
 
 
-def unavailable_setting(config: Config) -> Problem | None:
-    """The first setting of a configuration that this version has not, and what it is called."""
-    if config.planner in PROMISED:
-        return Problem("planner", f"The planner {config.planner}")
-    return unavailable(Scenario(sensor=config.sensor))
-
-
 def configured(config: Config, scenario: Scenario) -> Config:
     """The configuration of a scenario, everything it does not name at its default.
 

@@ -54,9 +54,19 @@ def nodes(tree: ast.AST, *, whole: bool) -> Iterator[ast.AST]:
 
 
 def loaded_by(name: str) -> set[str]:
-    """The project's modules that a module needs when it is loaded, other than itself and its parents."""
-    needed = {other for other in imports(MODULES[name], whole=False) if other in MODULES}
+    """The project's modules that a module needs when it is loaded, other than itself and its parents.
+
+    Loading a module loads the packages that it is in first.
+    """
+    named = {other for other in imports(MODULES[name], whole=False) if other in MODULES}
+    needed = {other for each in named for other in (each, *packages_of(each))}
     return {other for other in needed if other != name and not f"{name}.".startswith(f"{other}.")}
+
+
+def packages_of(name: str) -> list[str]:
+    """The packages that a module is in."""
+    parts = name.split(".")
+    return [".".join(parts[:end]) for end in range(1, len(parts))]
 
 
 def test_there_is_something_to_check() -> None:

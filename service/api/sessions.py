@@ -39,7 +39,7 @@ from service.store import EntryRecord
 from sim.actions import Scenario
 from sim.config import Config, ConfigError, Problem
 from sim.generate import GenerationError
-from sim.scenario import configured, unavailable, unavailable_setting
+from sim.scenario import configured, unavailable
 
 router = APIRouter(tags=["sessions"], route_class=StrictRoute)
 
@@ -178,10 +178,14 @@ async def _config(here: Context, body: bodies.NewSession) -> Config:
             config = configured(config, scenario).with_parts(planner=planner)
     except ConfigError as error:
         beside = [name for name in ("seed", "planner") if getattr(body, name) is not None]
-        raise invalid(
+        problems = [
             FieldProblem(each.field if each.field in beside else f"config.{each.field}", each.message)
             for each in error.problems
-        ) from error
+        ]
+        missing = [f"{each.field} {each.message}." for each in error.problems if not each.available]
+        if missing:
+            raise NotAvailable(" ".join(missing), errors=problems) from error
+        raise invalid(problems) from error
     _check_offered(here.settings, config)
     return config
 
@@ -205,7 +209,6 @@ def _check_offered(settings: Settings, config: Config) -> None:
     if config.columns * config.rows > settings.max_road_cells:
         message = f"makes a road of more than {settings.max_road_cells} cells, the most there can be here"
         raise invalid([FieldProblem("config.rows", message)])
-    _check_available(unavailable_setting(config), "config")
 
 
 def _check_available(missing: Problem | None, field: str) -> None:

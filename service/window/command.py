@@ -44,7 +44,7 @@ def play(
     Example: roadtalk play --potholes 12
     """
     room = _size(size)
-    if planner is not None and not planner_names.may_be_named(planner):
+    if planner is not None and not planner_names.known(planner):
         _refuse(f"There is no planner called {planner}. There are: {', '.join(planner_names.names())}.")
     given: dict[str, object] = {"seed": secrets.randbits(32) if seed is None else seed}
     given |= {} if obstacles is None else {"vehicles": obstacles}

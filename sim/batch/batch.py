@@ -56,10 +56,10 @@ from sim.batch.tick import END_FIELD, MAX_TICKS_A_CALL, MOVE_FIELD, ticks_kernel
 from sim.config import Config
 from sim.generate import GenerationError, named
 from sim.kinds import Kind, Outcome
-from sim.plan.costs import weights
 from sim.randomness import Stream
 from sim.road import Board, bits
 from sim.run import Run
+from sim.search.costs import weights
 from sim.world import World
 
 After = Literal["next", "restart", "stop"]

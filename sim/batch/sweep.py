@@ -3,7 +3,7 @@
 Structure: the exact search (`sim.batch.reach`) gives one way; its cost bounds how long a cheaper way can
 be, so that a backward sweep over (tick, row, column) within that horizon is exact (dynamic programming in
 topological order; every step goes one tick on). Rows the vehicle cannot have reached yet are left out.
-The charges are those of `sim.plan.costs`, in whole numbers. Guarantees and simplifications as there.
+The charges are those of `sim.search.costs`, in whole numbers. Guarantees and simplifications as there.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from sim.batch.reach import (
 )
 
 TICK, SIDEWAYS, DIAGONAL, WAITING, NEAR_FIXED, NEAR_MOVER, BUFFER = range(7)
-"""Columns of a batch's table of charges (int64), as in `sim.plan.costs.Weights`."""
+"""Columns of a batch's table of charges (int64), as in `sim.search.costs.Weights`."""
 
 _ZERO: Final = np.uint64(0)
 _ONE: Final = np.uint64(1)

@@ -32,12 +32,12 @@ from sim.forecast import foretell
 from sim.kinds import Mode, Move, Outcome
 from sim.perceive import perceive
 from sim.plan import Decision
-from sim.plan.costs import weights
 from sim.planner_names import BUILT_IN, WEIGHING
 from sim.randomness import Stream
 from sim.road import Board, bits, board_of
 from sim.rules import beside
 from sim.run import Run, advance, decide
+from sim.search.costs import weights
 from sim.search.reach import steps_left
 from sim.timeline import Timeline
 from sim.world import World

@@ -9,9 +9,9 @@ from __future__ import annotations
 from sim.forecast import Forecast, foretell
 from sim.kinds import Move, Outcome
 from sim.perceive import perceive
-from sim.plan.costs import weights
 from sim.run import Run
 from sim.search.astar import cheapest
+from sim.search.costs import weights
 from sim.search.reach import flooded, reach, shortest_plan, steps_left
 from sim.search.reactive import ReactiveSearch
 from sim.search.spacetime import SpaceTime

@@ -10,9 +10,9 @@ from dataclasses import dataclass, replace
 
 from sim.kinds import Move, Outcome
 from sim.optimum.least import foreseen, least_cost, least_ticks
-from sim.plan.costs import weights
 from sim.repetition import NOTHING_KEPT
 from sim.run import Run, decide
+from sim.search.costs import weights
 from sim.search.spacetime import SpaceTime
 from sim.timeline import Timeline
 from sim.transition import transition

@@ -15,10 +15,10 @@ from __future__ import annotations
 from sim.config import Config
 from sim.forecast import Forecast
 from sim.kinds import Move
-from sim.plan.costs import weights
 from sim.plan.decision import Decision, Measure
 from sim.plan.weighted import decided
 from sim.search.astar import Lessons, cheapest
+from sim.search.costs import weights
 from sim.search.reach import MOVES, least_ticks_by_move, steps_left
 from sim.search.spacetime import SpaceTime
 from sim.search.standing import cost_of_staying

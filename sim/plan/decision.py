@@ -43,7 +43,7 @@ class Measure(StrEnum):
     RANK = "rank"
     """a move's place in a fixed order"""
     COST = "cost"
-    """the charges (`sim.plan.costs`) of the move and the cheapest way on, to the goal"""
+    """the charges (`sim.search.costs`) of the move and the cheapest way on, to the goal"""
     TICKS = "ticks"
     """ticks of the quickest way to the goal that begins with the move"""
 

@@ -11,9 +11,9 @@ from __future__ import annotations
 
 from sim.config import Config
 from sim.forecast import Forecast
-from sim.plan.costs import weights
 from sim.plan.decision import Decision, Measure
 from sim.plan.weighted import decided
+from sim.search.costs import weights
 from sim.search.reach import steps_left
 
 

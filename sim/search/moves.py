@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from sim.kinds import Move
-from sim.plan.costs import Weights
+from sim.search.costs import Weights
 
 
 @dataclass(frozen=True, slots=True)

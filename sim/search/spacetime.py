@@ -1,4 +1,4 @@
-"""A forecast as a terrain: a state is a cell at a tick, charges are those of `sim.plan.costs`.
+"""A forecast as a terrain: a state is a cell at a tick, charges are those of `sim.search.costs`.
 
 A state is `ticks from now · cells of the road + cell index`. Layers of what is blocked, met and charged
 for are made once per tick, when the search first gets there.
@@ -10,9 +10,9 @@ from dataclasses import dataclass
 
 from sim.forecast import Forecast
 from sim.kinds import Move
-from sim.plan.costs import Weights
 from sim.road import Board, Road
 from sim.rules import beside
+from sim.search.costs import Weights
 from sim.search.moves import vehicle
 from sim.search.terrain import State
 

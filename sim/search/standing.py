@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from sim.forecast import Forecast
 from sim.kinds import Move
-from sim.plan.costs import Weights
 from sim.search.astar import cheapest
+from sim.search.costs import Weights
 from sim.search.reach import reach
 from sim.search.spacetime import SpaceTime
 

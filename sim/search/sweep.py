@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 
 from sim.forecast import Forecast
 from sim.kinds import Move
-from sim.plan.costs import Weights
 from sim.road import Board
+from sim.search.costs import Weights
 from sim.search.reach import MOVES, on_shortest, reach
 from sim.search.spacetime import SpaceTime
 from sim.search.standing import cost_of_staying

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from sim.kinds import Cell, Move
-from sim.plan.costs import Weights
+from sim.search.costs import Weights
 from tests.sim.twin import STEPS, Body, Position, moved_bodies, will_be_free
 
 

@@ -57,11 +57,21 @@ def test_passing_through_a_mover() -> None:
     assert collisions(ROAD, after, "swept") == (Cause("swap", Kind.VEHICLE, ("vehicle-1",), (3, 2)),)
 
 
-def test_following_a_mover_or_crossing_behind_it_is_no_collision() -> None:
+def test_following_a_mover_or_leaving_straight_before_it_is_no_collision() -> None:
     follows = av_at(mover_at(ROAD, "vehicle-1", (4, 2)), (3, 2))
     assert collisions(ROAD, follows, "swept") == ()
-    leaves = av_at(mover_at(ROAD, "vehicle-1", (2, 2)), (3, 1))
+    leaves = av_at(mover_at(ROAD, "vehicle-1", (2, 2)), (2, 1))
     assert collisions(ROAD, leaves, "swept") == ()
+
+
+@pytest.mark.parametrize(("end", "met"), [((3, 1), True), ((1, 1), False)])
+def test_a_diagonal_is_met_by_a_mover_that_comes_from_that_side_into_the_cell_it_leaves(
+    end: tuple[int, int], met: bool
+) -> None:
+    after = av_at(mover_at(ROAD, "vehicle-1", (2, 2)), end)
+    cause = Cause("cross", Kind.VEHICLE, ("vehicle-1",), (2, 2))
+    assert collisions(ROAD, after, "swept") == ((cause,) if met else ())
+    assert collisions(ROAD, after, "cell") == ()
 
 
 def test_two_autonomous_vehicles_in_one_cell_or_swapped() -> None:

@@ -94,7 +94,9 @@ def test_every_world(world: Any) -> None:
 
 def test_ends_and_what_stood_before_them() -> None:
     seen, outcomes = [], set()
-    run = Run.start(Config(seed=3, rows=8, columns=4, potholes=4, vehicles=6, planner="priority"))
+    run = Run.start(
+        Config(seed=3, rows=8, columns=4, potholes=4, vehicles=6, planner="priority", attentive=0.0)
+    )
     for number in range(400):
         if number % 7 == 3:
             run = apply(run, Drive(move=tuple(Move)[number % 6])).run

@@ -16,8 +16,8 @@ from sim.forecast import foretell
 from sim.kinds import Mode, Move, Outcome
 from sim.perceive import perceive
 from sim.plan import Decision, planner_named
-from sim.plan.costs import BALANCED, weights
 from sim.run import Run, advance, decide
+from sim.search.costs import BALANCED, weights
 from sim.search.reach import reach
 from sim.world import World
 from tests.sim.roads import road, run_on, worlds
