@@ -60,7 +60,9 @@ def loaded_by(name: str) -> set[str]:
     """
     named = {other for other in imports(MODULES[name], whole=False) if other in MODULES}
     needed = {other for each in named for other in (each, *packages_of(each))}
-    return {other for other in needed if other != name and not f"{name}.".startswith(f"{other}.")}
+    return {
+        other for other in needed & set(MODULES) if other != name and not f"{name}.".startswith(f"{other}.")
+    }
 
 
 def packages_of(name: str) -> list[str]:

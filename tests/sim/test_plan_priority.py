@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from hypothesis import given, settings
 
+from sim import planner_names
 from sim.config import Config
 from sim.forecast import Verdict, foretell
 from sim.kinds import Move, kind_of
@@ -127,8 +128,9 @@ def test_one_name_one_planner() -> None:
         register(PriorityPlanner())
 
 
-def test_a_planner_that_is_not_there_is_named() -> None:
-    decision = decide(Run.start(Config(planner="dwa")))
+def test_a_planner_that_is_not_there_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(planner_names, "known", lambda _: True)  # as one that is no longer installed was
+    decision = decide(Run.start(Config(planner="gone")))
     assert decision is not None
     assert (decision.move, decision.fault) == (Move.STAY, "is not installed")
 
