@@ -75,7 +75,7 @@ def test_every_move_has_its_reason() -> None:
         (Move.LEFT, (0, 2), "free", Verdict.FREE, 1.0, ()),
         (Move.RIGHT, (2, 2), "blocked", Verdict.MOVER_SWAPS, None, ("vehicle-2",)),
         (Move.FORWARD_LEFT, (0, 1), "blocked", Verdict.DISABLED_MOVER, None, ("pothole-1", "vehicle-1")),
-        (Move.FORWARD_RIGHT, (2, 1), "free", Verdict.FREE, 4.0, ()),
+        (Move.FORWARD_RIGHT, (2, 1), "blocked", Verdict.MOVER_CROSSES, None, ("vehicle-2",)),
         (Move.STAY, (1, 2), "blocked", Verdict.MOVER_ENTERS, None, ("vehicle-2",)),
     ]
 
