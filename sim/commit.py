@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from sim.changing import changer
 from sim.config import Config
-from sim.courtesy import yielding
+from sim.courtesy import attentive, yielding
 from sim.kinds import Move
 from sim.moving import followed_table_once, move_movers_once
-from sim.rules import followed_board, pedestrians_walk
+from sim.rules import brake, followed_board, pedestrians_walk
 from sim.world import World
 
 _moved = changer(World, "tick", "avs", "right", "left", "pedestrians", "movers")
@@ -31,6 +31,8 @@ def commit(world: World, move: Move, config: Config) -> World:
         road.left_edge,
         road.right_edge,
     )
+    if move is Move.STAY and config.attentive:
+        motion = brake(motion, 1 << world.av, attentive(world, config))
     target = road.moved(world.av, move)
     if target is None:
         raise ValueError(f"{move} leads off the road")

@@ -7,12 +7,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
 from difflib import get_close_matches
-from typing import Any, Final, get_args
+from typing import Any, Final, Literal, get_args
 
 from sim import planner_names
 from sim.actions import Preference, RoadType, SensorName, Traffic
 from sim.randomness import MAX_SEED
 from sim.road import Road
+from sim.rules_version import RULES
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,13 +45,19 @@ RANGES: Final[dict[str, tuple[float, float]]] = {
     "barriers": (0, 10_000),
     "pedestrians": (0, 10_000),
     "courtesy": (0.0, 1.0),
+    "attentive": (0.0, 1.0),
     "reset_delay_s": (0.0, 60.0),
     "safety_buffer": (0, 3),
+    "rules": (1, RULES),
     "seed": (0, MAX_SEED),
 }
 """Inclusive limits of every number."""
 
+Collision = Literal["swept", "cell"]
+"""How a collision within a tick is judged."""
+
 CHOICES: Final[dict[str, tuple[str, ...]]] = {
+    "collision": get_args(Collision),
     "road": get_args(RoadType),
     "traffic": get_args(Traffic),
     "sensor": get_args(SensorName),
@@ -70,10 +77,11 @@ _WHOLE: Final = frozenset(
         "barriers",
         "pedestrians",
         "safety_buffer",
+        "rules",
         "seed",
     )
 )
-_SWITCHES: Final = frozenset(("solvable",))
+_SWITCHES: Final = frozenset(("solvable", "repetition"))
 _OPTIONAL: Final = frozenset(("potholes", "vehicles", "road", "traffic"))
 
 
@@ -97,6 +105,13 @@ class Config:
     barriers: int = 0
     pedestrians: int = 0
     courtesy: float = 0.0
+    """chance that a mover beside the vehicle counts its cell as blocked and turns round"""
+    attentive: float = 1.0
+    """chance that a mover brakes for a vehicle that stands still before it"""
+    collision: Collision = "swept"
+    """`swept`: bodies of stated size that move linearly within a tick (`sim.bodies`); `cell`: cells alone"""
+    repetition: bool = True
+    """whether a vehicle whose situation repeats is STUCK at once, and not at the limit of ticks"""
     reset_delay_s: float = 2.0
     road: RoadType | None = None
     traffic: Traffic | None = None
@@ -106,6 +121,8 @@ class Config:
     safety_buffer: int = 1
     """cells around a mover that cost something to be in, for planners that weigh costs"""
     sensor: SensorName = "perfect"
+    rules: int = RULES
+    """version of the rules that defaults come from (`sim.rules_version`)"""
     solvable: bool = False
     """draw roads until one can be driven"""
     seed: int = 0
@@ -124,6 +141,16 @@ class Config:
         if unknown:
             raise ConfigError(tuple(Problem(name, _unknown(name)) for name in unknown))
         return replace(self, **parts)
+
+    @property
+    def certain(self) -> bool:
+        """Whether nothing about the movers is left to chance once the road is drawn."""
+        return self.courtesy == 0.0 and self.attentive in (0.0, 1.0)
+
+    @property
+    def reacting(self) -> bool:
+        """Whether movers react to the vehicle, so that where they go depends on where it is."""
+        return self.courtesy > 0.0 or self.attentive > 0.0
 
     @property
     def max_ticks(self) -> int:

@@ -1,7 +1,7 @@
-"""Which movers give way to autonomous vehicles in a tick.
+"""Which movers react to autonomous vehicles in a tick: those that give way, and those that brake.
 
-Drawn by cell, episode and tick of the episode, so that neither edits elsewhere nor a restart of
-the episode change who is courteous. Only a mover next to a vehicle can have a reason to be.
+Both are drawn by cell, episode and tick of the episode, so that neither edits elsewhere nor a restart of the
+episode change who reacts. Only a mover next to a vehicle can have a reason to.
 """
 
 from __future__ import annotations
@@ -14,9 +14,18 @@ from sim.world import World
 
 def yielding(world: World, config: Config) -> Board:
     """The movers that count an autonomous vehicle's cell as blocked in the coming tick."""
-    if config.courtesy == 0.0:
-        return 0
+    return _drawn(world, config, "courtesy", config.courtesy) if config.courtesy else 0
+
+
+def attentive(world: World, config: Config) -> Board:
+    """The movers that brake in the coming tick for an autonomous vehicle that stands still before them."""
+    return _drawn(world, config, "attentive", config.attentive) if config.attentive else 0
+
+
+def _drawn(world: World, config: Config, purpose: str, share: float) -> Board:
     vehicles = world.driven
     near = (vehicles >> 1 | vehicles << 1) & world.moving
-    draws = Stream.of(config.seed, "courtesy", world.episode, world.episode_tick)
-    return board_of([cell for cell in bits(near) if draws.uniform(cell) < config.courtesy])
+    if not near or share == 1.0:
+        return near
+    draws = Stream.of(config.seed, purpose, world.episode, world.episode_tick)
+    return board_of([cell for cell in bits(near) if draws.uniform(cell) < share])

@@ -30,6 +30,7 @@ from sim.generate import GenerationError, lowest_ranked, named
 from sim.kinds import PLACEABLE, Kind, Outcome
 from sim.place import PlaceError, nearest_first, place_for_adding, place_for_finding
 from sim.randomness import Stream
+from sim.repetition import NOTHING_KEPT
 from sim.road import Board, bits, board_of
 from sim.run import Run, next_episode, reconfigured, restarted
 from sim.scenario import configured, unavailable
@@ -80,7 +81,8 @@ def apply(run: Run, action: WorldAction) -> Applied:
         events = (event,)
     done = _apply(begun, action)
     changes = () if done.run is run else differences(run, done.run)
-    return Applied(done.action, done.run, changes, done.added, done.removed, (*events, *done.events))
+    after = replace(done.run, watch=NOTHING_KEPT) if done.run.watch is not NOTHING_KEPT else done.run
+    return Applied(done.action, after, changes, done.added, done.removed, (*events, *done.events))
 
 
 def _apply(run: Run, action: WorldAction) -> Applied:

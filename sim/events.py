@@ -37,4 +37,4 @@ class Event:
     move: Move | None = None
     how: str | None = None
     """for a crash `hit` or `swap`, for a move held back what it would have met (`Verdict`),
-    for a planner that failed what it did"""
+    for a planner that failed what it did, for STUCK `limit` or `repetition`"""

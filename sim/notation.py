@@ -29,7 +29,7 @@ MAX_CELLS = 64 * 512
 _HEAD = re.compile(
     r"road (\d+)x(\d+) tick (\d+) episode (\d+) from (\d+) (running|success|crash|stuck)(?: at (\d+))?"
 )
-_CAUSE = re.compile(r"cause (hit|swap) (\S+(?: \S+)*) at (\d+),(\d+)")
+_CAUSE = re.compile(r"cause (hit|swap|cross) (\S+(?: \S+)*) at (\d+),(\d+)")
 
 _SIGNS: dict[str, tuple[str, ...]] = {
     ".": (),

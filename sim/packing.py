@@ -17,6 +17,7 @@ from sim.config import Config
 from sim.course import Course, Sake
 from sim.kinds import Kind, Mode, Move, Outcome
 from sim.metrics import Metrics
+from sim.repetition import Situation, Watch
 from sim.road import Road
 from sim.run import Run
 from sim.world import Cause, World
@@ -96,6 +97,7 @@ class Packer:
                 [[*each] for each in course.sakes],
                 None if course.last is None else self._world(course.last),
             ],
+            _watch(run.watch),
         ]
 
     def _world(self, world: World) -> int:
@@ -191,8 +193,24 @@ def _cause(how: str, kind: str, ids: Sequence[str], cell: Sequence[int]) -> Caus
     return Cause(how, Kind(kind), tuple(ids), (column, row))
 
 
+def _watch(watch: Watch) -> list[Any]:
+    kept, ticks, span = watch
+    if kept is None:
+        return [None, ticks, span]
+    cell, beat, *boards = kept
+    return [[cell, beat, *(f"{board:x}" for board in boards)], ticks, span]
+
+
+def _read_watch(parts: Sequence[Any]) -> Watch:
+    kept, ticks, span = parts
+    if kept is None:
+        return Watch(None, ticks, span)
+    cell, beat, *boards = kept
+    return Watch(Situation(cell, beat, *(int(board, 16) for board in boards)), ticks, span)
+
+
 def _run(parts: Sequence[Any], configs: Sequence[Config], worlds: Sequence[World]) -> Run:
-    config, world, mode, queue, metrics, edits, fault, course = parts
+    config, world, mode, queue, metrics, edits, fault, course, watch = parts
     start, seen, changed, certain, moves, sakes, last = course
     return Run(
         configs[config],
@@ -211,4 +229,5 @@ def _run(parts: Sequence[Any], configs: Sequence[Config], worlds: Sequence[World
             tuple((Sake(sake), count) for sake, count in sakes),
             None if last is None else worlds[last],
         ),
+        _read_watch(watch),
     )

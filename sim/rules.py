@@ -88,12 +88,24 @@ def move_movers(
     )
 
 
-def swapped(start: Board, end: Board, came_right: Board, came_left: Board) -> Board:
-    """`start` if a vehicle going from `start` to `end` (one cell each) passes through a mover.
+def brake(motion: Motion, standing: Board, attentive: Board) -> Motion:
+    """The motion where movers in `attentive` brake for the vehicles that stand still in `standing`.
 
-    Movers only move sideways, so only a sideways move can be met: the mover enters `start`
-    from `end` in the same tick.
+    A mover that would enter the cell of a vehicle which does not move in this tick keeps its cell and
+    its heading instead. Nothing else changes: a cell with a mover in it is never entered by another.
     """
+    held_right = motion.came_right & standing & attentive << 1
+    held_left = motion.came_left & standing & attentive >> 1
+    return Motion(
+        motion.right ^ held_right | held_right >> 1,
+        motion.left ^ held_left | held_left << 1,
+        motion.came_right ^ held_right,
+        motion.came_left ^ held_left,
+    )
+
+
+def swapped(start: Board, end: Board, came_right: Board, came_left: Board) -> Board:
+    """`start` if a vehicle that moves sideways from there to `end` passes through a mover on the way."""
     return end << 1 & start & came_right | end >> 1 & start & came_left
 
 
@@ -114,19 +126,24 @@ def free_steps(
     blocked: Board,
     came_right: Board,
     came_left: Board,
+    cut_left: Board,
+    cut_right: Board,
     left_edge: Board,
     right_edge: Board,
 ) -> Steps:
     """Where vehicles standing in `start` may be next, meeting nothing.
 
-    `ahead` is `start` one row on (a caller with boards cut into words carries it over), `blocked`
-    the fixed hazards and the movers after the tick, `came_*` the cells they entered. The sideways
-    steps leave out those that pass through a mover (`swapped`, said of sets).
+    `ahead` is `start` one row on (a caller with boards cut into words carries it over), `blocked` the fixed
+    hazards and the movers after the tick, `came_*` the cells they entered. The sideways steps leave out those
+    that pass through a mover (`swapped`, said of sets). `cut_left` holds the cells straight ahead of vehicles
+    whose diagonal to the left a mover cuts off: by a step to the right it entered that cell, or the vehicle's
+    own behind it (`came_right | came_right >> columns`); `cut_right` is the mirror image. Both are empty
+    under the rule `collision: cell`.
     """
     left = (start ^ start & (left_edge | came_right)) >> 1
     right = (start ^ start & (right_edge | came_left)) << 1
-    ahead_left = (ahead ^ ahead & left_edge) >> 1
-    ahead_right = (ahead ^ ahead & right_edge) << 1
+    ahead_left = (ahead ^ ahead & (left_edge | cut_left)) >> 1
+    ahead_right = (ahead ^ ahead & (right_edge | cut_right)) << 1
     return Steps(
         ahead ^ ahead & blocked,
         left ^ left & blocked,
@@ -143,6 +160,8 @@ def spread(
     blocked: Board,
     came_right: Board,
     came_left: Board,
+    cut_left: Board,
+    cut_right: Board,
     left_edge: Board,
     right_edge: Board,
 ) -> Board:
@@ -152,34 +171,32 @@ def spread(
         | ahead
         | (start ^ start & (left_edge | came_right)) >> 1
         | (start ^ start & (right_edge | came_left)) << 1
-        | (ahead ^ ahead & left_edge) >> 1
-        | (ahead ^ ahead & right_edge) << 1
+        | (ahead ^ ahead & (left_edge | cut_left)) >> 1
+        | (ahead ^ ahead & (right_edge | cut_right)) << 1
     )
     return reached ^ reached & blocked
 
 
 def spread_back(
     end: Board,
-    behind: Board,
     came_right: Board,
     came_left: Board,
+    cut_left: Board,
+    cut_right: Board,
     left_edge: Board,
     right_edge: Board,
-) -> Board:
+) -> tuple[Board, Board]:
     """The reverse of `spread`: every cell from which one move leads into `end`, whose cells are free.
 
-    `behind` is `end` one row back.
+    In two parts: the cells in the rows of `end`, and the cells straight ahead of the others (a caller shifts
+    them one row back).
     """
     ending_left = end ^ end & right_edge
     ending_right = end ^ end & left_edge
     by_left, by_right = ending_left << 1, ending_right >> 1
     return (
-        end
-        | behind
-        | by_left ^ by_left & came_right
-        | by_right ^ by_right & came_left
-        | (behind ^ behind & right_edge) << 1
-        | (behind ^ behind & left_edge) >> 1
+        end | by_left ^ by_left & came_right | by_right ^ by_right & came_left,
+        end | by_left ^ by_left & cut_left | by_right ^ by_right & cut_right,
     )
 
 

@@ -13,13 +13,15 @@ from sim.config import Config
 from sim.course import Course
 from sim.events import Event, EventType
 from sim.generate import GenerationError, generate
-from sim.judge import collisions, outcome
 from sim.kinds import Mode, Move, Outcome
 from sim.metrics import Metrics
 from sim.perceive import perceive
 from sim.plan import Decision
 from sim.plan.guard import is_foreign, planned, stayed
 from sim.plan.manual import obey
+from sim.planner_names import LOCAL
+from sim.repetition import NOTHING_KEPT, Watch, watched
+from sim.transition import transition
 from sim.world import World
 
 _END_EVENTS = {
@@ -58,6 +60,8 @@ class Run:
     """what the planner did instead of answering at the latest decision"""
     course: Course = field(default_factory=Course)
     """what the episode has come to so far"""
+    watch: Watch = NOTHING_KEPT
+    """for a cycle that the vehicle is in (`sim.repetition`)"""
 
     @staticmethod
     def start(config: Config) -> Run:
@@ -74,7 +78,7 @@ class Tick:
     events: tuple[Event, ...]
 
 
-_advanced = changer(Run, "world", "metrics", "queue", "fault", "course")
+_advanced = changer(Run, "world", "metrics", "queue", "fault", "course", "watch")
 _ticked = maker(Tick, "run", "decision", "events")
 
 
@@ -119,6 +123,8 @@ def advance(run: Run) -> Tick:
         cause = after.cause
         ids, cell, how = (cause.ids, cause.cell, cause.how) if cause else ((), None, None)
         event = _END_EVENTS[after.outcome]
+        if after.outcome is Outcome.STUCK:
+            how = "limit" if after.episode_tick > run.config.max_ticks else "repetition"
         events.append(Event(after.tick, event, after.episode, ids, cell, decision.move, how))
     return _ticked(moved, decision, tuple(events))
 
@@ -126,26 +132,32 @@ def advance(run: Run) -> Tick:
 def repeated(run: Run, move: Move, *, by_person: bool, fault: str | None = None) -> Run:
     """The run one tick on, where it is known what was decided: to this move, asked for by a person or not."""
     before, config = run.world, run.config
-    after = commit(before, move, config)
-    crashes = collisions(before, after)
-    result = outcome(after, crashes, config.max_ticks)
+    after = transition(before, move, config)
+    watch: Watch | None = NOTHING_KEPT
+    if after.outcome is Outcome.RUNNING and not by_person and fault is None and _recurs(config):
+        watch = watched(run.watch, after)
+        if watch is None:
+            after = replace(after, outcome=Outcome.STUCK, ended=after.tick)
     metrics = run.metrics.after_move(move, config.cell_m)
-    ended = result is not Outcome.RUNNING
+    ended = after.outcome is not Outcome.RUNNING
     if ended:
-        cause = crashes[0] if crashes else None
-        after = replace(after, outcome=result, ended=after.tick, cause=cause)
-        metrics = metrics.after_end(result, after.episode_tick)
+        metrics = metrics.after_end(after.outcome, after.episode_tick)
     course = run.course.after(
         before,
         after,
         move,
         edits=run.edits,
-        certain=config.courtesy == 0.0,
+        certain=config.certain,
         by_person=by_person,
         faulty=fault is not None,
         ended=ended,
     )
-    return _advanced(run, after, metrics, run.queue[1:], fault, course)
+    return _advanced(run, after, metrics, run.queue[1:], fault, course, watch or NOTHING_KEPT)
+
+
+def _recurs(config: Config) -> bool:
+    """Whether a situation that repeats ends the episode."""
+    return config.repetition and config.planner in LOCAL and config.certain
 
 
 def next_episode(run: Run) -> tuple[Run, Event]:
@@ -173,7 +185,7 @@ def reconfigured(run: Run, config: Config) -> tuple[Run, Event]:
 def _begin(run: Run, config: Config, episode: int) -> tuple[Run, Event]:
     world = generate(config, episode, tick=run.world.tick, numbered=run.world.numbered)
     event = Event(world.tick, EventType.EPISODE_STARTED, episode)
-    return replace(run, config=config, world=world, queue=(), course=Course()), event
+    return replace(run, config=config, world=world, queue=(), course=Course(), watch=NOTHING_KEPT), event
 
 
 def _hold(run: Run) -> Tick:

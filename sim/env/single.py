@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from sim import notation
 from sim.config import Config
 from sim.env.observation import PLANES, observed, rewards
-from sim.judge import collisions, outcome
 from sim.kinds import Move, Outcome
-from sim.run import Run, commit, next_episode
+from sim.run import Run, next_episode
+from sim.transition import transition
 
 MOVES: Final = tuple(Move)
 SEEDS: Final = 2**32
@@ -64,10 +64,8 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
         move = MOVES[int(action)]
         if before.road.moved(before.av, move) is None:
             move = Move.STAY
-        after = commit(before, move, run.config)
-        result = outcome(after, collisions(before, after), run.config.max_ticks)
-        ended = None if result is Outcome.RUNNING else after.tick
-        after = replace(after, outcome=result, ended=ended)
+        after = transition(before, move, run.config)
+        result = after.outcome
         self._run = replace(run, world=after)
         gained = before.av // before.road.columns - after.av // after.road.columns
         reward = rewards(

@@ -8,18 +8,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from sim.commit import commit
 from sim.explain.future import followed
-from sim.judge import collisions, outcome
 from sim.kinds import Mode, Move, Outcome
 from sim.optimum import least_ticks
 from sim.plan import Decision
-from sim.rules import PEDESTRIAN_PERIOD
+from sim.planner_names import LOCAL
+from sim.repetition import NOTHING_KEPT, Situation, situation
 from sim.run import Run
-from sim.world import World
-
-TIMELESS_PLANNERS = frozenset(("priority",))
-"""Planners to whom the time does not matter: what has been once comes again for ever."""
+from sim.transition import transition
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,45 +62,26 @@ def stakes(run: Run, decision: Decision, foil: Move) -> Stakes | None:
 
 def after_move(run: Run, move: Move) -> Run:
     """The state after a move, judged."""
-    after = commit(run.world, move, run.config)
-    crashes = collisions(run.world, after)
-    result = outcome(after, crashes, run.config.max_ticks)
-    if result is not Outcome.RUNNING:
-        after = replace(after, outcome=result, ended=after.tick, cause=crashes[0] if crashes else None)
-    return replace(run, world=after, queue=())
+    return replace(run, world=transition(run.world, move, run.config), queue=(), watch=NOTHING_KEPT)
 
 
 def _end(run: Run) -> Future | None:
     """How the episode ends if nobody says anything more; None if it waits for a person or is not told."""
     if run.mode is Mode.MANUAL and run.world.outcome is Outcome.RUNNING:
         return None
-    recurs = run.config.planner in TIMELESS_PLANNERS and not run.config.courtesy
-    seen: set[tuple[object, ...]] = set()
+    # With `repetition` the run itself ends there.
+    recurs = run.config.planner in LOCAL and run.config.certain and not run.config.repetition
+    seen: set[Situation] = set()
     last = run
     if run.world.outcome is Outcome.RUNNING:
         for before, tick in followed(run):
-            if recurs and _again(before.world, seen):
-                return Future(Outcome.STUCK, run.config.max_ticks + 1)
+            if recurs:
+                now = situation(before.world)
+                if now in seen:
+                    return Future(Outcome.STUCK, run.config.max_ticks + 1)
+                seen.add(now)
             last = tick.run
     world = last.world
     if world.outcome is Outcome.RUNNING:
         return None
     return Future(world.outcome, world.episode_tick, world.cause.ids if world.cause else ())
-
-
-def _again(world: World, seen: set[tuple[object, ...]]) -> bool:
-    """Whether what matters has been so before, at the same beat of walking; it is remembered.
-
-    What matters are the vehicle's row and the one before it: movers keep to their rows, and the vehicle,
-    which never goes back, has stayed in its own since. So what has come again will come for ever.
-    """
-    road = world.road
-    row = road.cell(world.av)[1]
-    first = max(0, row - 1) * road.columns
-    rows = ((1 << (row + 1) * road.columns) - 1) >> first << first
-    beat = world.episode_tick % PEDESTRIAN_PERIOD
-    state = (beat, world.avs, *(board & rows for board in (world.right, world.left, world.pedestrians)))
-    if state in seen:
-        return True
-    seen.add(state)
-    return False

@@ -14,7 +14,6 @@ from sim.forecast import foretell
 from sim.kinds import Move, Outcome
 from sim.optimum.least import least_ticks
 from sim.perceive import perceive
-from sim.rules import spread_back
 from sim.run import Run
 from sim.search.reach import steps_left
 from sim.world import Cause
@@ -69,7 +68,7 @@ def summary(run: Run) -> Summary:
         best = least_ticks(_at_first(run, course))
     if world.outcome is Outcome.CRASH and course.last is not None:
         before = replace(run, world=course.last, queue=())
-        free = any(foretell(perceive(before.world, run.config), 1).steps(1 << before.world.av))
+        free = any(foretell(perceive(before.world, run.config), 1).own_steps())
         open_before = least_ticks(before) is not None if course.certain else None
     if world.outcome is Outcome.STUCK and certain:
         open_until = _open_until(run, course)
@@ -113,16 +112,8 @@ def _open_until(run: Run, course: Course) -> int | None:
     goal = road.row(0)
     reaching = goal
     for tick in range(limit - 1, -1, -1):
-        slice_ = forecast.slices[tick]
-        free = reaching & ~(forecast.fixed | slice_.occupied)
-        reaching = goal | spread_back(
-            free,
-            free << road.columns & road.all,
-            slice_.came_right,
-            slice_.came_left,
-            road.left_edge,
-            road.right_edge,
-        )
+        free = reaching & ~forecast.blocked(tick)
+        reaching = goal | forecast.spread_back(free, tick)
         if tick < len(cells) and reaching >> cells[tick] & 1:
             return tick
     return None

@@ -1,7 +1,9 @@
 """Movers rolled out by the rules, as far ahead as is read and no further than was asked for.
 
-With perfect sight and no courtesy the roll-out *is* what will happen, since movers do not react to
-vehicles; with courtesy the first tick is exact and later ones assume that nobody gives way.
+The roll-out assumes that movers do not react to the vehicle after the first tick: nobody gives way and
+nobody brakes. With perfect sight and no courtesy it *is* what happens along every way that meets nothing,
+since a mover only brakes for a vehicle that stands where it would be hit. `if_standing` is the roll-out where
+it brakes in the first tick.
 """
 
 from __future__ import annotations
@@ -11,7 +13,7 @@ from typing import overload
 
 from sim.moving import followed_table_once, move_movers_once
 from sim.perceive import Percept
-from sim.rules import Motion, followed_board, move_movers, pedestrians_walk
+from sim.rules import Motion, brake, followed_board, move_movers, pedestrians_walk
 
 
 class RollOut(Sequence[Motion]):
@@ -26,15 +28,20 @@ class RollOut(Sequence[Motion]):
         "_percept",
         "_right",
         "_slices",
+        "_stands",
         "_tables",
     )
 
-    def __init__(self, percept: Percept, horizon: int) -> None:
-        """The next `horizon` ticks (at least one) from what is seen."""
+    def __init__(self, percept: Percept, horizon: int, *, stands: bool = False) -> None:
+        """The next `horizon` ticks (at least one) from what is seen.
+
+        With `stands`, the vehicle does not move in the first of them, and attentive movers brake for it.
+        """
         if horizon < 1:
             raise ValueError("a horizon is at least one tick")
         self._percept = percept
         self._horizon = horizon
+        self._stands = stands
         self._fixed = percept.potholes | percept.barriers
         self._disabled = (percept.right | percept.left) & percept.potholes
         self._slices: list[Motion] = []
@@ -68,6 +75,15 @@ class RollOut(Sequence[Motion]):
             self._tables.append(followed_table_once(before, self[len(self._tables)]))
         return self._tables[ahead]
 
+    def if_standing(self) -> RollOut | None:
+        """The roll-out where the vehicle does not move in the first tick; None where that changes nothing."""
+        percept, motion = self._percept, self[0]
+        held = percept.attentive & (motion.came_right >> 1 | motion.came_left << 1)
+        if self._stands or not held or not motion.occupied >> percept.ego & 1:
+            return None
+        other = RollOut(percept, self._horizon, stands=True)
+        return None if other[0] == motion else other
+
     def _next(self) -> Motion:
         percept, ahead = self._percept, len(self._slices)
         road = percept.road
@@ -84,6 +100,8 @@ class RollOut(Sequence[Motion]):
             road.left_edge,
             road.right_edge,
         )
+        if self._stands and not ahead:
+            motion = brake(motion, 1 << percept.ego, percept.attentive)
         self._right, self._left = motion.right, motion.left
         if self._pedestrians:
             self._pedestrians = followed_board(self._pedestrians, motion)

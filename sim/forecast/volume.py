@@ -6,14 +6,15 @@ Risk and preferences enter as further terms beside `fixed` and the slices.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from sim.changing import maker
 from sim.forecast.rollout import RollOut
+from sim.kinds import Move
 from sim.perceive import Percept
 from sim.road import Board, Road
-from sim.rules import Steps, free_steps, spread, swapped
+from sim.rules import Steps, free_steps, spread, spread_back, swapped
 
 
 class Verdict(StrEnum):
@@ -27,6 +28,8 @@ class Verdict(StrEnum):
     MOVER_STAYS = "mover_stays"
     MOVER_ENTERS = "mover_enters"
     MOVER_SWAPS = "mover_swaps"
+    MOVER_CROSSES = "mover_crosses"
+    """a mover cuts off a diagonal: from that side it enters the vehicle's cell or the one straight ahead"""
 
     @property
     def blocks(self) -> bool:
@@ -46,6 +49,8 @@ class Forecast:
     potholes: Board
     barriers: Board
     disabled: Board
+    swept: bool
+    """whether bodies collide by what they sweep within a tick"""
     hazards: Mapping[int, str]
     slices: RollOut
 
@@ -58,8 +63,29 @@ class Forecast:
         """Every cell that anything stands in, `ahead` + 1 ticks from now."""
         return self.fixed | self.slices[ahead].occupied
 
+    @property
+    def standing(self) -> Forecast | None:
+        """What to expect if the vehicle stays now and a mover brakes for it; None where none would."""
+        slices = self.slices.if_standing()
+        return None if slices is None else replace(self, slices=slices)
+
+    def after(self, move: Move) -> Forecast:
+        """The forecast that holds once the vehicle has made this move now."""
+        return self.standing or self if move is Move.STAY else self
+
+    def cut_off(self, ahead: int = 0) -> tuple[Board, Board]:
+        """The cells straight ahead of vehicles whose diagonal to the left, or to the right, is cut off."""
+        if not self.swept:
+            return 0, 0
+        _, _, came_right, came_left = self.slices[ahead]
+        columns = self.road.columns
+        return came_right | came_right >> columns, came_left | came_left >> columns
+
     def spread(self, start: Board, ahead: int = 0) -> Board:
-        """Every cell a vehicle in any cell of `start` may be in one tick later, `ahead` ticks from now."""
+        """Every cell a vehicle in any cell of `start` may be in one tick later, `ahead` ticks from now.
+
+        Nobody brakes: `standing` is the forecast for a vehicle that stays where it would be hit.
+        """
         road = self.road
         right, left, came_right, came_left = self.slices[ahead]
         return spread(
@@ -68,12 +94,25 @@ class Forecast:
             self.potholes | self.barriers | right | left,
             came_right,
             came_left,
+            *self.cut_off(ahead),
             road.left_edge,
             road.right_edge,
         )
 
+    def spread_back(self, end: Board, ahead: int = 0) -> Board:
+        """Every cell from which one move, made `ahead` ticks from now, leads into a cell of `end`.
+
+        The cells of `end` are taken to be free.
+        """
+        road = self.road
+        _, _, came_right, came_left = self.slices[ahead]
+        beside, on = spread_back(
+            end, came_right, came_left, *self.cut_off(ahead), road.left_edge, road.right_edge
+        )
+        return beside | on << road.columns & road.all
+
     def steps(self, start: Board, ahead: int = 0) -> Steps:
-        """Where vehicles in any cell of `start` may be one tick later, `ahead` ticks from now."""
+        """Where vehicles in `start` may be one tick later, `ahead` ticks from now. Nobody brakes."""
         road = self.road
         right, left, came_right, came_left = self.slices[ahead]
         return free_steps(
@@ -82,9 +121,18 @@ class Forecast:
             self.potholes | self.barriers | right | left,
             came_right,
             came_left,
+            *self.cut_off(ahead),
             road.left_edge,
             road.right_edge,
         )
+
+    def own_steps(self) -> Steps:
+        """Where the forecast's own vehicle may be after the coming tick; a mover may brake for it."""
+        start = 1 << self.ego
+        found = self.steps(start)
+        if not found.stay and (standing := self.standing) is not None:
+            return found._replace(stay=standing.steps(start).stay)
+        return found
 
     def expect(self, start: int, end: int | None, ahead: int = 0) -> tuple[Verdict, tuple[str, ...]]:
         """What a step from `start` to `end` meets, `ahead` ticks from now, and the ids of who is met.
@@ -93,12 +141,16 @@ class Forecast:
         """
         if end is None:
             return Verdict.OFF_ROAD, ()
+        if start == end == self.ego and ahead == 0 and (standing := self.standing) is not None:
+            return standing.expect(start, end)
         right, left, came_right, came_left = self.slices[ahead]
         bit = 1 << end
         verdict = Verdict.FREE
         who: tuple[str, ...] = ()
         if swapped(1 << start, bit, came_right, came_left):
             verdict, who = Verdict.MOVER_SWAPS, (self.slices.movers(ahead)[start],)
+        elif crossing := self._crossing(start, end, ahead):
+            verdict, who = Verdict.MOVER_CROSSES, tuple(self.slices.movers(ahead)[cell] for cell in crossing)
         if bit & (right | left):
             who = (self.slices.movers(ahead)[end], *who)
             if bit & self.disabled:
@@ -112,6 +164,15 @@ class Forecast:
             if not bit & self.disabled:
                 verdict = Verdict.POTHOLE if bit & self.potholes else Verdict.BARRIER
         return verdict, who
+
+    def _crossing(self, start: int, end: int, ahead: int) -> tuple[int, ...]:
+        """The cells of the movers that cut off a diagonal, after the tick; empty for any other step."""
+        on = start - self.road.columns
+        if not self.swept or end not in (on - 1, on + 1):
+            return ()
+        motion = self.slices[ahead]
+        came = motion.came_right if end < on else motion.came_left
+        return tuple(cell for cell in (on, start) if came >> cell & 1)
 
     def will_be_free(self, start: int, end: int | None, ahead: int = 0) -> bool:
         """Whether a step meets nothing."""
@@ -128,6 +189,7 @@ _expected = maker(
     "potholes",
     "barriers",
     "disabled",
+    "swept",
     "hazards",
     "slices",
 )
@@ -144,6 +206,7 @@ def foretell(percept: Percept, horizon: int) -> Forecast:
         percept.potholes,
         percept.barriers,
         (percept.right | percept.left) & percept.potholes,
+        percept.swept,
         percept.hazards,
         RollOut(percept, horizon),
     )

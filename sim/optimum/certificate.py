@@ -22,14 +22,14 @@ from itertools import combinations
 from typing import Final
 
 from sim.forecast import Forecast
-from sim.judge import collisions, outcome
 from sim.kinds import Move, Outcome
 from sim.optimum.least import foreseen, least_ticks
 from sim.optimum.thin import spared
 from sim.road import Board, bits
 from sim.rules import beside
-from sim.run import Run, commit
+from sim.run import Run
 from sim.search.reach import shortest_plan
+from sim.transition import transition
 
 MAX_TRIED: Final = 8
 """Sets up to this size have every part of them tried."""
@@ -85,8 +85,7 @@ def arrives(run: Run, plan: Iterable[Move]) -> bool:
     for move in plan:
         if world.outcome is not Outcome.RUNNING or world.road.moved(world.av, move) is None:
             return False
-        after = commit(world, move, run.config)
-        world = replace(after, outcome=outcome(after, collisions(world, after), run.config.max_ticks))
+        world = transition(world, move, run.config)
     return world.outcome is Outcome.SUCCESS
 
 

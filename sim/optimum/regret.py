@@ -8,13 +8,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from sim.judge import collisions, outcome
 from sim.kinds import Move, Outcome
 from sim.optimum.least import foreseen, least_cost, least_ticks
 from sim.plan.costs import weights
-from sim.run import Run, commit, decide
+from sim.repetition import NOTHING_KEPT
+from sim.run import Run, decide
 from sim.search.spacetime import SpaceTime
 from sim.timeline import Timeline
+from sim.transition import transition
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,6 +59,5 @@ def regrets(timeline: Timeline, first: int, stop: int) -> Iterator[tuple[int, Re
 def _after(run: Run, move: Move) -> Run:
     if run.world.outcome is not Outcome.RUNNING:
         raise ValueError("the episode has ended")
-    after = commit(run.world, move, run.config)
-    result = outcome(after, collisions(run.world, after), run.config.max_ticks)
-    return replace(run, world=replace(after, outcome=result), queue=run.queue[1:])
+    after = transition(run.world, move, run.config)
+    return replace(run, world=after, queue=run.queue[1:], watch=NOTHING_KEPT)

@@ -25,7 +25,11 @@ class Percept:
     pedestrians: Board
     yielding: Board
     """movers seen to give way to autonomous vehicles in this tick"""
+    attentive: Board
+    """movers beside an autonomous vehicle that brake in this tick if it stands still"""
     vehicles: Board
     """autonomous vehicles, the one that looks included"""
+    swept: bool
+    """whether bodies collide by what they sweep within a tick (`Config.collision`)"""
     movers: Mapping[int, str]
     hazards: Mapping[int, str]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from sim.changing import maker
 from sim.config import Config
-from sim.courtesy import yielding
+from sim.courtesy import attentive, yielding
 from sim.kinds import Kind
 from sim.perceive.percept import Percept
 from sim.world import World
@@ -22,7 +22,9 @@ _seen = maker(
     "left",
     "pedestrians",
     "yielding",
+    "attentive",
     "vehicles",
+    "swept",
     "movers",
     "hazards",
 )
@@ -42,7 +44,9 @@ def perceive(world: World, config: Config, av: int = 0) -> Percept:
         world.left,
         world.pedestrians,
         yielding(world, config),
+        attentive(world, config),
         world.driven,
+        config.collision == "swept",
         world.movers,
         world.hazards,
     )

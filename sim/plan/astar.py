@@ -14,12 +14,16 @@ from __future__ import annotations
 
 from sim.config import Config
 from sim.forecast import Forecast
+from sim.kinds import Move
 from sim.plan.costs import weights
 from sim.plan.decision import Decision, Measure
 from sim.plan.weighted import decided
 from sim.search.astar import Lessons, cheapest
 from sim.search.reach import MOVES, least_ticks_by_move, steps_left
 from sim.search.spacetime import SpaceTime
+from sim.search.standing import cost_of_staying
+
+STAY = MOVES.index(Move.STAY)
 
 
 class AStarPlanner:
@@ -44,4 +48,6 @@ class AStarPlanner:
             way = cheapest(terrain, there, lessons=lessons)
             if way is not None:
                 totals[move] = cost + way.cost
+        if totals[STAY] is None:
+            totals[STAY] = cost_of_staying(forecast, terrain.weights, limit)
         return decided(self.name, Measure.COST, forecast, totals, limit)

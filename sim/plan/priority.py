@@ -37,7 +37,7 @@ _option = maker(Option, "move", "cell", "reason", "cost", "causes")
 def options_in_order(forecast: Forecast) -> tuple[Option, ...]:
     """Every move with what it would meet; its cost is its place in the order."""
     # Most moves of most ticks are free: all that are, are found at once, and only the others looked into.
-    steps = forecast.steps(1 << forecast.ego)
+    steps = forecast.own_steps()
     road = forecast.road
     ready = _free_options(road.columns, road.rows, forecast.ego)
     if all(steps):

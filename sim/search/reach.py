@@ -16,7 +16,6 @@ from sim.config import Config
 from sim.forecast import Forecast
 from sim.kinds import Move
 from sim.road import Board
-from sim.rules import spread_back
 
 MOVES = tuple(Move)
 
@@ -66,16 +65,7 @@ def on_shortest(forecast: Forecast, found: Reach, *, after: int = 0) -> list[Boa
     road = forecast.road
     needed = [found.layers[found.ticks] & road.row(0)]
     for ahead in range(found.ticks - 1, -1, -1):
-        end, slice_ = needed[-1], forecast.slices[ahead + after]
-        before = spread_back(
-            end,
-            end << road.columns,
-            slice_.came_right,
-            slice_.came_left,
-            road.left_edge,
-            road.right_edge,
-        )
-        needed.append(before & found.layers[ahead])
+        needed.append(forecast.spread_back(needed[-1], ahead + after) & found.layers[ahead])
     return needed[::-1]
 
 
@@ -103,16 +93,23 @@ def shortest_plan(forecast: Forecast, limit: int) -> tuple[Move, ...] | None:
 def least_ticks_by_move(forecast: Forecast, limit: int) -> tuple[int | None, ...]:
     """Least ticks to the goal beginning with each move, in the order of `Move`; None: no way."""
     found = []
-    for there in forecast.steps(1 << forecast.ego) if limit else (0,) * len(MOVES):
-        ticks = reach(forecast, there, limit - 1, after=1).ticks if there else None
+    for move, there in zip(MOVES, _first_steps(forecast, limit), strict=True):
+        ticks = reach(forecast.after(move), there, limit - 1, after=1).ticks if there else None
         found.append(None if ticks is None else ticks + 1)
     return tuple(found)
 
 
 def survival_by_move(forecast: Forecast, limit: int) -> tuple[int, ...]:
     """For how many ticks one can keep clear of collisions beginning with each move (0: not even for one)."""
-    starts = forecast.steps(1 << forecast.ego) if limit else (0,) * len(MOVES)
-    return tuple(reach(forecast, there, limit - 1, after=1).lasted + 1 if there else 0 for there in starts)
+    return tuple(
+        reach(forecast.after(move), there, limit - 1, after=1).lasted + 1 if there else 0
+        for move, there in zip(MOVES, _first_steps(forecast, limit), strict=True)
+    )
+
+
+def _first_steps(forecast: Forecast, limit: int) -> Sequence[Board]:
+    """Where each move leads now, in the order of `Move`; nowhere once no step is left."""
+    return forecast.own_steps() if limit else (0,) * len(MOVES)
 
 
 def first_longest(ticks: Sequence[int]) -> Move:

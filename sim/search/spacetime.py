@@ -33,6 +33,9 @@ class Layer:
     no_left: Board
     """cells from which a step to the left leads off the road or through a mover"""
     no_right: Board
+    no_forward_left: Board
+    """cells from which a diagonal to the left leads off the road or is cut off by a mover"""
+    no_forward_right: Board
     near: tuple[Board, ...]
     """cells within 1, 2, … cells of a mover after the tick"""
 
@@ -76,7 +79,7 @@ class SpaceTime:
         layer, columns = self.layer(ahead), self._columns
         # The two rows that matter, brought to the lowest bits: short numbers are quick.
         low = cell - columns - 1 if cell > columns else 0
-        blocked, column = layer.blocked >> low, cell % columns
+        blocked = layer.blocked >> low
         here = cell - low
         on = here - columns
         ends = []
@@ -86,9 +89,9 @@ class SpaceTime:
             ends.append((_LEFT, here - 1))
         if not (layer.no_right >> cell | blocked >> here + 1) & 1:
             ends.append((_RIGHT, here + 1))
-        if column and not blocked >> on - 1 & 1:
+        if not (layer.no_forward_left >> cell & 1) and not blocked >> on - 1 & 1:
             ends.append((_FORWARD_LEFT, on - 1))
-        if column < columns - 1 and not blocked >> on + 1 & 1:
+        if not (layer.no_forward_right >> cell | blocked >> on + 1) & 1:
             ends.append((_FORWARD_RIGHT, on + 1))
         if not blocked >> here & 1:
             ends.append((_STAY, here))
@@ -122,9 +125,12 @@ class SpaceTime:
         for _ in range(self.weights.buffer if self.weights.mover else 0):
             spread = around(spread, road)
             near.append(spread)
+        cut_left, cut_right = forecast.cut_off(ahead)
         return Layer(
             forecast.fixed | motion.occupied,
             road.left_edge | motion.came_right,
             road.right_edge | motion.came_left,
+            road.left_edge | cut_left << road.columns,
+            road.right_edge | cut_right << road.columns,
             tuple(near),
         )

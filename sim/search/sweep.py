@@ -17,6 +17,7 @@ from sim.plan.costs import Weights
 from sim.road import Board
 from sim.search.reach import MOVES, on_shortest, reach
 from sim.search.spacetime import SpaceTime
+from sim.search.standing import cost_of_staying
 
 if TYPE_CHECKING:
     import numpy as np
@@ -29,19 +30,21 @@ FAR = 1 << 40
 def totals_by_move(forecast: Forecast, weights: Weights, limit: int) -> tuple[int | None, ...]:
     """What every move now costs with the cheapest way on, in the order of `Move`; None: no way."""
     terrain = SpaceTime(forecast, weights, limit)
+    staying = cost_of_staying(forecast, weights, limit)
     horizon = _horizon(forecast, terrain, limit)
     if horizon == 0:
-        return (None,) * len(MOVES)
+        return tuple(staying if move is Move.STAY else None for move in MOVES)
     first_entering = _sweep(forecast, terrain, horizon)
     columns = forecast.road.columns
     totals: list[int | None] = []
-    for move, there, step in zip(MOVES, forecast.steps(1 << forecast.ego), terrain.moves, strict=True):
+    for there, step in zip(forecast.steps(1 << forecast.ego), terrain.moves, strict=True):
         total = FAR
         if there:
             row, column = divmod(there.bit_length() - 1, columns)
             total = int(first_entering[row, column + 1]) + step.cost
         totals.append(total if total < FAR else None)
-        assert there or total == FAR, move
+    if staying is not None:
+        totals[MOVES.index(Move.STAY)] = staying
     return tuple(totals)
 
 
@@ -98,6 +101,8 @@ def _sweep(forecast: Forecast, terrain: SpaceTime, horizon: int) -> NDArray[np.i
     entering[inside] = charges
     no_left = FAR * fields([layer.no_left & road.all for layer in layers]).astype(np.int64)
     no_right = FAR * fields([layer.no_right & road.all for layer in layers]).astype(np.int64)
+    no_forward_left = FAR * fields([layer.no_forward_left & road.all for layer in layers]).astype(np.int64)
+    no_forward_right = FAR * fields([layer.no_forward_right & road.all for layer in layers]).astype(np.int64)
 
     cost = {move: weights.of(move) for move in MOVES}
     value = np.full((rows, road.columns + 2), FAR, np.int64)
@@ -111,8 +116,8 @@ def _sweep(forecast: Forecast, terrain: SpaceTime, horizon: int) -> NDArray[np.i
         best = on[:, 1:-1] + cost[Move.FORWARD]
         np.minimum(best, here[:, :-2] + no_left[ahead, 1:] + cost[Move.LEFT], out=best)
         np.minimum(best, here[:, 2:] + no_right[ahead, 1:] + cost[Move.RIGHT], out=best)
-        np.minimum(best, on[:, :-2] + cost[Move.FORWARD_LEFT], out=best)
-        np.minimum(best, on[:, 2:] + cost[Move.FORWARD_RIGHT], out=best)
+        np.minimum(best, on[:, :-2] + no_forward_left[ahead, 1:] + cost[Move.FORWARD_LEFT], out=best)
+        np.minimum(best, on[:, 2:] + no_forward_right[ahead, 1:] + cost[Move.FORWARD_RIGHT], out=best)
         np.minimum(best, here[:, 1:-1] + cost[Move.STAY], out=best)
         np.minimum(best, FAR, out=value[1:, 1:-1])
     first: NDArray[np.int64] = entering[0]
