@@ -299,9 +299,11 @@ class NotRestorable(ProblemError):
 
     status, slug, title = 503, "not-restorable", "Could not be brought back"
 
-    def __init__(self, entry: int | None = None) -> None:
+    def __init__(self, entry: int | None = None, reason: str | None = None) -> None:
+        """`reason` is told where it is for whoever asks, and not for the service's log alone."""
         at = "" if entry is None else f" It stops at entry {entry}."
-        super().__init__(f"What is kept of this session cannot be replayed; the service's log says why.{at}")
+        told = f"What is kept of this session cannot be replayed; the service's log says why.{at}"
+        super().__init__(told if reason is None else reason)
 
 
 KINDS: tuple[type[ProblemError], ...] = (

@@ -74,6 +74,6 @@ def _scenario(config: Config) -> Scenario:
         vehicles=vehicles,
         barriers=None if config.barriers == preset.barriers else config.barriers,
         pedestrians=None if config.pedestrians == preset.pedestrians else config.pedestrians,
-        planner=None if config.planner == "priority" else config.planner,  # type: ignore[arg-type]
+        planner=None if config.planner == Config().planner else config.planner,  # type: ignore[arg-type]
         sensor=None if config.sensor == "perfect" else config.sensor,
     )

@@ -1,9 +1,82 @@
-"""The version of the rules, so that what was kept under older ones is replayed as it was."""
+"""The version of the rules, so that what was kept under older ones is replayed as it was.
+
+A session keeps its configuration, and in it the version that its defaults come from. Parts that were kept
+without a version are of the first: `completed` gives them what was the default then, for every field whose
+default has changed since. This knows no `Config`, which imports it.
+"""
 
 from __future__ import annotations
 
-from typing import Final
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Any, Final, TypeVar
+
+Value = TypeVar("Value")
 
 RULES: Final = 2
 """1: cells alone collide, nobody brakes, STUCK comes at the limit of ticks. 2: bodies collide by what they
 sweep within a tick, movers brake for a standing vehicle, and a situation that repeats is STUCK."""
+
+FIRST: Final = 1
+"""The version of what names none."""
+
+LEFT: Final[Mapping[int, Mapping[str, Any]]] = MappingProxyType(
+    {
+        1: MappingProxyType(
+            {"attentive": 0.0, "collision": "cell", "planner": "priority", "repetition": False},
+        ),
+    }
+)
+"""By version, the defaults that held under it and were changed with the next one, by field of `Config`."""
+
+
+class NewerRulesError(ValueError):
+    """Something was made under rules that this program does not know."""
+
+    def __init__(self, what: str, rules: int) -> None:
+        """`what` begins the sentence: "This recording"."""
+        super().__init__(
+            f"{what} was made by a newer version of Roadtalk (rules {rules}). "
+            f"This one knows rules up to {RULES}."
+        )
+        self.rules = rules
+
+
+def version_of(parts: Mapping[str, Any]) -> Any:
+    """The version that kept parts name, as it stands there; the first where they name none."""
+    return parts.get("rules", FIRST)
+
+
+def check_known(what: str, rules: Any) -> None:
+    """Raise `NewerRulesError` for a version after this program's; what is no version passes."""
+    if isinstance(rules, int) and rules > RULES:
+        raise NewerRulesError(what, rules)
+
+
+def default_under(rules: int, name: str, today: Value) -> Value:
+    """What the default of a field is under a version, where `today` is the present one."""
+    return held_under(rules).get(name, today)  # type: ignore[no-any-return]
+
+
+def held_under(rules: int) -> dict[str, Any]:
+    """The defaults under a version that are not, or not surely, those of today, by field."""
+    held: dict[str, Any] = {}
+    for version in sorted(LEFT, reverse=True):
+        if version >= rules:
+            held |= LEFT[version]
+    return held
+
+
+def completed(parts: Mapping[str, Any]) -> dict[str, Any]:
+    """Parts of a configuration with their version, and the defaults of that time which were changed since.
+
+    What they name themselves stays. What is no version stays as well, for `Config` to refuse.
+    """
+    rules = version_of(parts)
+    known = isinstance(rules, int) and not isinstance(rules, bool)
+    return {**(held_under(rules) if known else {}), **parts, "rules": rules}
+
+
+def note_on(rules: int) -> str | None:
+    """What is told of a session under these rules when it is opened; None where they are today's."""
+    return f"Made under rules {rules}: it replays as it did then." if rules < RULES else None

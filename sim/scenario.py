@@ -12,6 +12,7 @@ from typing import Final
 from sim.actions import RoadType, Scenario, Traffic
 from sim.config import Config, Problem
 from sim.planner_names import PROMISED
+from sim.rules_version import default_under
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +35,8 @@ ROADS: Final[dict[RoadType | None, RoadPreset]] = {
 TRAFFIC: Final[dict[Traffic, float]] = {"none": 0.0, "light": 0.34, "normal": 0.68, "heavy": 0.90}
 """Spawn probability of an obstacle vehicle in each row."""
 
+_PLANNER: Final = Config().planner
+
 
 def unavailable(scenario: Scenario) -> Problem | None:
     """The first thing named that this version has not, and what it is called; None if it has all."""
@@ -51,7 +54,7 @@ def unavailable(scenario: Scenario) -> Problem | None:
 
 
 def configured(config: Config, scenario: Scenario) -> Config:
-    """The configuration of a scenario, everything it does not name at its default.
+    """The configuration of a scenario, everything it does not name at its default under the same rules.
 
     Raises `ConfigError` where the road cannot hold what was asked.
     """
@@ -66,6 +69,6 @@ def configured(config: Config, scenario: Scenario) -> Config:
         vehicles=scenario.vehicles,
         barriers=preset.barriers if scenario.barriers is None else scenario.barriers,
         pedestrians=preset.pedestrians if scenario.pedestrians is None else scenario.pedestrians,
-        planner=scenario.planner or "priority",
+        planner=scenario.planner or default_under(config.rules, "planner", _PLANNER),
         sensor=scenario.sensor or "perfect",
     )

@@ -57,6 +57,9 @@ class Recording(Sent):
 
     format: Literal["roadtalk-recording"]
     version: Literal[1]
+    rules: int | None = Field(
+        None, ge=1, description="Of which version; recordings from before there were several name none."
+    )
     name: Name | None = None
     config: ConfigParts
     entries: list[RecordedEntry] = Field(max_length=10_000)

@@ -38,6 +38,7 @@ from service.problems import (
 from service.sessions.utterance import Outcome, Utterance
 from sim.actions import Prefer, Set
 from sim.config import LISTS, Config, ConfigError
+from sim.kept import defaults_under
 from sim.settings import NEEDS_A_NEW_ROAD, STEPS
 
 MERGE_PATCH = "application/merge-patch+json"
@@ -113,7 +114,8 @@ async def patch(
 
 def actions_for(config: Config, patch: Mapping[str, Any], most_cells: int) -> list[tuple[str, Set | Prefer]]:
     """What makes a configuration so, each action with its field. Raises `Invalid`, for all bad fields."""
-    wanted = {name: _wanted(name, value) for name, value in patch.items()}
+    defaults = asdict(defaults_under(config.rules))
+    wanted = {name: _wanted(value, defaults.get(name)) for name, value in patch.items()}
     now = asdict(config)
     changed = {
         name: value for name, value in wanted.items() if name not in now or not _same(now[name], value)
@@ -130,16 +132,12 @@ def actions_for(config: Config, patch: Mapping[str, Any], most_cells: int) -> li
     if problems:
         raise invalid(FieldProblem(name, problems[name]) for name in sorted(problems))
     # What begins a new road comes last, so that it is made with all that was asked for.
-    ordered = sorted(fitting, key=lambda name: (name in NEEDS_A_NEW_ROAD, list(_DEFAULTS).index(name)))
+    ordered = sorted(fitting, key=lambda name: (name in NEEDS_A_NEW_ROAD, list(defaults).index(name)))
     return [step for name in ordered for step in _steps(name, fitting[name])]
 
 
-_DEFAULTS = asdict(Config())
-
-
-def _wanted(name: str, value: Any) -> Any:
+def _wanted(value: Any, default: Any) -> Any:
     """A value as it is meant: null is the default, and 20.0 is a whole number where one is wanted."""
-    default = _DEFAULTS.get(name)
     if value is None:
         return default
     whole = isinstance(value, float) and value.is_integer() and isinstance(default, int)

@@ -90,6 +90,7 @@ def _carried(timeline: Timeline, tick: int) -> str:
     recording = {
         "format": FORMAT,
         "version": VERSION,
+        "rules": timeline.config.rules,
         "name": None,
         "config": asdict(timeline.config),
         "entries": entries,

@@ -40,6 +40,11 @@ class Session(Answered):
     sequence: int
     seed: int
     config: dict[str, Any]
+    rules: int = Field(description="The version of the rules that it runs under.", examples=[2])
+    rules_note: str | None = Field(
+        description="What to tell whoever opens it, where these are not the rules of today.",
+        examples=["Made under rules 1: it replays as it did then."],
+    )
     sentence: str | None = Field(description="What to say for a road like this one; null where nothing does.")
     parent: Parent | None = Field(description="Of a fork, or a session that a link opened; else null.")
     links: dict[str, str]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import secrets
-from typing import Annotated
+from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Query, Request, Response
 
@@ -39,6 +39,8 @@ from service.store import EntryRecord
 from sim.actions import Scenario
 from sim.config import Config, ConfigError, Problem
 from sim.generate import GenerationError
+from sim.kept import kept_config, new_config
+from sim.rules_version import NewerRulesError
 from sim.scenario import configured, unavailable
 
 router = APIRouter(tags=["sessions"], route_class=StrictRoute)
@@ -171,7 +173,7 @@ async def _config(here: Context, body: bodies.NewSession) -> Config:
             parts[name] = value
     parts.setdefault("seed", secrets.randbits(32))
     try:
-        config = Config().with_parts(**parts)
+        config = new_config(parts)
         if body.scenario is not None:
             scenario = await _scenario(here, body.scenario)
             planner = scenario.planner or config.planner
@@ -229,6 +231,14 @@ def _linked(settings: Settings, body: bodies.NewSession) -> tuple[bodies.Recordi
     return (None, found) if isinstance(found, Named) else (found, None)
 
 
+def _of_rules(recording: bodies.Recording) -> dict[str, Any]:
+    """The configuration of a recording with the version it is of. Raises `Invalid` where it names two."""
+    parts = dict(recording.config)
+    if recording.rules is not None and parts.setdefault("rules", recording.rules) != recording.rules:
+        raise invalid([FieldProblem("recording.rules", "is another than in its config")])
+    return parts
+
+
 def _recorded(
     settings: Settings, body: bodies.NewSession, recording: bodies.Recording
 ) -> tuple[Config, Recorded]:
@@ -243,7 +253,9 @@ def _recorded(
     if late:
         raise invalid(FieldProblem(f"recording.entries.{each}.tick", f"is more than {most}") for each in late)
     try:
-        config = Config().with_parts(**recording.config)
+        config = kept_config(_of_rules(recording), "This recording")
+    except NewerRulesError as error:
+        raise Invalid(str(error), errors=[FieldProblem("recording.rules", str(error))]) from error
     except ConfigError as error:
         raise invalid(
             FieldProblem(f"recording.config.{each.field}", each.message) for each in error.problems

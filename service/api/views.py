@@ -10,6 +10,7 @@ from service.sessions.words import Words
 from service.store import SessionRecord
 from service.wire.decision import decision_json
 from sim.plan import Decision
+from sim.rules_version import note_on
 from sim.run import Run, decide
 
 PREFIX = "/api/v1"
@@ -62,6 +63,8 @@ def session_json(session: Session, sentence: str | None) -> dict[str, Any]:
         "sequence": session.sequence,
         "seed": run.config.seed,
         "config": asdict(run.config),
+        "rules": run.config.rules,
+        "rules_note": note_on(run.config.rules),
         "sentence": sentence,
         "parent": parent_json(record),
         "links": links_json(session.id),

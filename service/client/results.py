@@ -202,6 +202,8 @@ class SessionInfo(Result):
     sequence: int
     seed: int
     config: Json
+    rules: int = 1
+    rules_note: str | None = None
     sentence: str | None
     parent: Parent | None = None
     links: Mapping[str, str]

@@ -17,6 +17,9 @@ from service.commands.terminal import ApiKey, fail, plain, service_at
 NAME = "http://replay"
 """The address of the service that lives inside the command."""
 
+_Replayed = tuple[State, str | None]
+"""Where it ends, and what is told of the rules it is of."""
+
 
 def replay(
     file: Annotated[Path, typer.Argument(help="A recording, as saved from a session.")],
@@ -36,12 +39,14 @@ def replay(
     typer.echo(f"recorded  {plain(recording['digest'])}  tick {recording.get('tick')}")
     try:
         with Console(stderr=True).status("Replaying ..."):
-            state = _here(recording) if url is None else _there(recording, url, api_key)
+            state, note = _here(recording) if url is None else _there(recording, url, api_key)
     except Refused as refused:
         fail(plain(refused.detail))
     except RoadtalkError as error:
         fail(plain(str(error)))
     typer.echo(f"replayed  {state.digest}  tick {state.tick}")
+    if note is not None:
+        typer.echo(plain(note))
     if state.digest != recording["digest"]:
         fail("The digests differ.")
     typer.echo("The digests are the same." + (f" Session {state.session}" if url is not None else ""))
@@ -59,16 +64,17 @@ def _read(file: Path) -> dict[str, Any]:
     return values
 
 
-def _there(recording: dict[str, Any], url: str, api_key: str | None) -> State:
+def _there(recording: dict[str, Any], url: str, api_key: str | None) -> _Replayed:
     with service_at(url, api_key) as client:
         return _replayed(client, recording)
 
 
-def _replayed(client: Client, recording: dict[str, Any]) -> State:
-    return client.create(recording=recording, paused=True).state()
+def _replayed(client: Client, recording: dict[str, Any]) -> _Replayed:
+    session = client.create(recording=recording, paused=True)
+    return session.state(), session.info().rules_note
 
 
-def _here(recording: dict[str, Any]) -> State:
+def _here(recording: dict[str, Any]) -> _Replayed:
     """By the service itself, in this process and in memory."""
     from service.app import create_app
     from service.settings import Settings
@@ -76,12 +82,12 @@ def _here(recording: dict[str, Any]) -> State:
     size = len(json.dumps(recording).encode()) + 65_536
     app = create_app(Settings(database="memory:", max_recording_bytes=size))
 
-    async def replayed() -> State:
+    async def replayed() -> _Replayed:
         async with (
             app.router.lifespan_context(app),
             AsyncClient(NAME, transport=httpx.ASGITransport(app), timeout_s=600) as client,
         ):
             session = await client.create(recording=recording, paused=True)
-            return await session.state()
+            return await session.state(), (await session.info()).rules_note
 
     return asyncio.run(replayed())

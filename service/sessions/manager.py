@@ -40,6 +40,7 @@ from service.sessions.waking import woken
 from service.store import EntryRecord, KeptAnswer, MomentRecord, SessionRecord, StoreError
 from sim.actions import Set
 from sim.config import Config, ConfigError
+from sim.rules_version import NewerRulesError
 from sim.timeline import Timeline
 
 _LOG = structlog.get_logger(__name__)
@@ -332,6 +333,9 @@ class SessionManager:
                 "a kept session cannot be replayed", session=session_id, entry=sequence, error=str(error)
             )
             raise NotRestorable(sequence) from error
+        except NewerRulesError as error:
+            _LOG.error("a kept session is of newer rules", session=session_id, rules=error.rules)
+            raise NotRestorable(reason=str(error)) from error
         except (ConfigError, TypeError, StoreError) as error:
             _LOG.error("a kept session cannot be replayed", session=session_id, error=str(error))
             raise NotRestorable from error

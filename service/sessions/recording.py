@@ -1,7 +1,8 @@
 """A session as one small file: configuration with seed, and the changes with their ticks.
 
 Whoever replays it comes to the same digest. Recordings are read strictly: what is not understood
-is refused, never skipped. Entries of older recordings name no digests, and those of forks not always.
+is refused, never skipped. Entries of older recordings name no digests, and those of forks not always. Those
+that name no version of the rules are of the first.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ def recording_json(session: Session, entries: Sequence[EntryRecord]) -> dict[str
     return {
         "format": FORMAT,
         "version": VERSION,
+        "rules": session.timeline.config.rules,
         "name": session.record.name,
         "config": asdict(session.timeline.config),
         "entries": [_entry(entry) for entry in kept],

@@ -10,7 +10,7 @@ from service.sessions.replaying import ReplayError, replay
 from service.sessions.session import Session, Surroundings
 from service.sessions.snapshots import UnfitError, opened
 from service.store import EntryRecord, SessionRecord, SnapshotRecord
-from sim.config import Config
+from sim.kept import kept_config
 from sim.timeline import Timeline
 
 _LOG = structlog.get_logger(__name__)
@@ -28,7 +28,7 @@ def woken(
     """The session, paused, and why its snapshot was not used if it was not; in any thread.
 
     Raises `ReplayError` where the log cannot be done again, `ConfigError` or `TypeError` for a configuration
-    that cannot be.
+    that cannot be, `NewerRulesError` for one of rules that are not known here.
     """
     unfit: UnfitError | None = None
     if snapshot is not None:
@@ -42,7 +42,7 @@ def woken(
         why = str(unfit) if unfit is not None else "there is no snapshot of it"
         said = "a session is done again from all of its log; whoever asked for it waits, nobody else"
         _LOG.info(said, session=record.id, entries=len(entries), reason=why)
-    session = Session(record, Timeline(Config().with_parts(**record.config)), around)
+    session = Session(record, Timeline(kept_config(record.config)), around)
     replay(session, around.words, entries, record.tick)
     return session, unfit
 

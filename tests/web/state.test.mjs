@@ -150,3 +150,14 @@ test("an earlier tick is shown while the present goes on", () => {
   assert.equal(sceneOf(reduce(later, { type: "highlight", highlight: null })).world, scene.world, "not drawn anew");
   assert.equal(sceneOf(reduce(later, { type: "past", past: null })).world, later.world);
 });
+
+test("a session of older rules is told of when it is opened, and not with each connection", () => {
+  const note = "Made under rules 1: it replays as it did then.";
+  const old = hello();
+  old.session.rules_note = note;
+  const state = after(old);
+  assert.deepEqual([state.notice, state.announcement], [{ text: note }, note]);
+  const later = [{ type: "notice", notice: null }, old].reduce(reduce, state);
+  assert.equal(later.notice, null);
+  assert.equal(after(hello()).notice, null);
+});

@@ -69,7 +69,7 @@
  */
 
 /** @typedef {{number: number, tick: number, type: string, text: string, ids: string[], cell: Cell | null}} LogEvent */
-/** @typedef {{id: string, name: string | null, paused: boolean, config?: Record<string, unknown>}} Session */
+/** @typedef {{id: string, name: string | null, paused: boolean, config?: Record<string, unknown>, rules_note?: string | null}} Session */
 /** @typedef {{path: string, before: unknown, after: unknown}} Change */
 /** @typedef {{text: string, actions: Action[]}} Choice */
 

@@ -194,8 +194,10 @@ function arranged(state, change, large = state.large) {
 
 /** @param {State} state @param {HelloMessage} hello @returns {State} */
 function afterHello(state, hello) {
+  const note = state.world === null ? (hello.session.rules_note ?? null) : null; // once, not with each connection
   return {
     ...state,
+    ...(note === null ? {} : { notice: { text: note }, announcement: note }),
     session: hello.session.id,
     trouble: null,
     world: worldOf(hello.state),

@@ -1,0 +1,212 @@
+"""Recordings, databases and links that older rules made are what they were: each tick, and how they go on.
+
+The folders under `tests/data` are named by the version of the rules; each was written once, by the code of
+that time (`tests.compat.make`), and nothing in it may change.
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+import sqlite3
+from collections.abc import AsyncIterator, Iterator
+from contextlib import asynccontextmanager
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+
+from service.api.views import PREFIX
+from service.app import create_app
+from service.settings import Settings
+from sim.timeline import Timeline
+from tests.compat.make import summed
+
+DATA = Path(__file__).parents[1] / "data" / "v1"
+RECORDINGS = sorted(
+    path.stem for path in (DATA / "recordings").glob("*.json") if not path.stem.endswith(".expected")
+)
+LINKS = json.loads((DATA / "links.json").read_text())
+KEPT = json.loads((DATA / "kept.expected.json").read_text())
+
+Json = dict[str, Any]
+
+
+class Opened:
+    """A service with sessions of before, and what is asked of it."""
+
+    def __init__(self, client: httpx.AsyncClient, manager: Any) -> None:
+        self.client = client
+        self._manager = manager
+
+    async def make(self, **body: Any) -> Json:
+        made = await self.client.post(f"{PREFIX}/sessions", json=body)
+        assert made.status_code == 201, made.text
+        return dict(made.json())
+
+    async def timeline(self, session: str) -> Timeline:
+        return (await self._manager.get(session)).timeline.copy()  # type: ignore[no-any-return]
+
+    async def ask(self, session: str, part: str, **body: Any) -> Json:
+        path = f"{PREFIX}/sessions/{session}/{part}"
+        answer = await (self.client.post(path, json=body) if body else self.client.get(path))
+        assert answer.is_success, answer.text
+        return dict(answer.json())
+
+
+@asynccontextmanager
+async def opened(database: str = "memory:") -> AsyncIterator[Opened]:
+    app = create_app(Settings(database=database))
+    transport = httpx.ASGITransport(app)
+    async with (
+        app.router.lifespan_context(app),
+        httpx.AsyncClient(transport=transport, base_url="http://service") as client,
+    ):
+        yield Opened(client, app.state.context.manager)
+
+
+@pytest.fixture
+def database(tmp_path: Path) -> Iterator[Path]:
+    """A copy of the kept file, which itself stays as it is."""
+    kept, copy = DATA / "kept.sqlite", tmp_path / "kept.sqlite"
+    before = kept.read_bytes()
+    shutil.copy(kept, copy)
+    yield copy
+    assert kept.read_bytes() == before
+
+
+def check(timeline: Timeline, wanted: Json) -> None:
+    """Tick by tick; the first that differs is named, to the nearest that is written down."""
+    digests = [run.world.digest() for run in timeline.between(0, timeline.tick + 1)]
+    every = wanted["every"]
+    apart = [
+        number * every
+        for number, (found, was) in enumerate(zip(digests[::every], wanted["digests"], strict=False))
+        if found != was
+    ]
+    assert not apart, f"apart from what it was by tick {apart[0]}"
+    assert timeline.tick == wanted["tick"]
+    assert summed(digests) == wanted["all"]
+
+
+async def check_onwards(service: Opened, session: str, wanted: Json) -> None:
+    """Where it stands, how it goes on, and what it is when its latest change is taken back there."""
+    state = await service.ask(session, "state")
+    stood = {name: state[name] for name in ("tick", "digest", "episode", "planner", "metrics")}
+    assert stood == {name: wanted[name] for name in stood}
+    then = wanted["then"]
+    await service.ask(session, "step", ticks=then["ticks"])
+    timeline = await service.timeline(session)
+    digests = [run.world.digest() for run in timeline.between(wanted["tick"] + 1, timeline.tick + 1)]
+    assert summed(digests) == then["all"]
+    assert (await service.ask(session, "state"))["metrics"] == then["metrics"]
+    if "undone" in then:
+        await service.ask(session, "actions", actions=[{"do": "undo"}])
+        state = await service.ask(session, "state")
+        assert {name: state[name] for name in ("tick", "digest")} == then["undone"]
+
+
+def test_there_are_recordings_of_every_kind() -> None:
+    """Crashes, successes and livelocks, under every planner there was."""
+    ends = dict.fromkeys(("crashes", "successes", "stuck"), 0)
+    planners = set()
+    for name in RECORDINGS:
+        wanted = json.loads((DATA / "recordings" / f"{name}.expected.json").read_text())
+        recording = json.loads((DATA / "recordings" / f"{name}.json").read_text())
+        planners.add(recording["config"].get("planner"))
+        for end in ends:
+            ends[end] += wanted["metrics"][end]
+    assert min(ends.values()) >= 10, ends
+    assert planners == {None, "priority", "astar", "dijkstra", "exact"}
+
+
+@pytest.mark.parametrize("name", RECORDINGS)
+async def test_a_recording_replays_as_it_was(name: str) -> None:
+    recording = json.loads((DATA / "recordings" / f"{name}.json").read_text())
+    wanted = json.loads((DATA / "recordings" / f"{name}.expected.json").read_text())
+    async with opened() as service:
+        session = (await service.make(recording=recording))["id"]
+        check(await service.timeline(session), wanted)
+        await check_onwards(service, session, wanted)
+
+
+@pytest.mark.parametrize("name", RECORDINGS)
+async def test_what_is_recorded_of_a_replay_replays_as_well(name: str) -> None:
+    recording = json.loads((DATA / "recordings" / f"{name}.json").read_text())
+    wanted = json.loads((DATA / "recordings" / f"{name}.expected.json").read_text())
+    async with opened() as service:
+        first = (await service.make(recording=recording))["id"]
+        again = (await service.make(recording=await service.ask(first, "recording")))["id"]
+        check(await service.timeline(again), wanted)
+
+
+@pytest.mark.parametrize("name", LINKS)
+async def test_a_link_replays_as_it_was(name: str) -> None:
+    wanted = LINKS[name]
+    async with opened() as service:
+        session = (await service.make(link=wanted["link"]))["id"]
+        check(await service.timeline(session), wanted)
+        share = await service.ask(session, "link")
+        again = (await service.make(link=share["link"]))["id"]
+        check(await service.timeline(again), wanted)
+        await check_onwards(service, session, wanted)
+
+
+@pytest.mark.parametrize("shortcuts", [True, False])
+@pytest.mark.parametrize("name", KEPT)
+async def test_a_kept_session_comes_back_as_it_was(name: str, shortcuts: bool, database: Path) -> None:
+    """With the snapshots that are in the file, whether they fit this code or not, and without any."""
+    wanted = KEPT[name]
+    if not shortcuts:
+        connection = sqlite3.connect(database)
+        connection.execute("DELETE FROM snapshots")
+        connection.commit()
+        connection.close()
+    async with opened(f"sqlite:///{database}") as service:
+        check(await service.timeline(wanted["id"]), wanted)
+        assert (await service.ask(wanted["id"], "saved"))["items"] == wanted["saved"]
+        for moment, digest in zip(wanted["saved"], wanted["at_saved"], strict=True):
+            state = await service.ask(wanted["id"], f"state?tick={moment['tick']}")
+            assert state["digest"] == digest
+        await check_onwards(service, wanted["id"], wanted)
+    async with opened(f"sqlite:///{database}") as service:
+        # Kept by this code meanwhile: ticks, an undo, a snapshot.
+        state = await service.ask(wanted["id"], "state")
+        assert {name: state[name] for name in ("tick", "digest")} == wanted["then"]["undone"]
+
+
+@pytest.mark.parametrize("name", KEPT)
+async def test_a_fork_of_a_kept_session_goes_the_same_way(name: str, database: Path) -> None:
+    """Taken half way, here and by a link that names the session, and after it was let go of."""
+    wanted = KEPT[name]
+    half = wanted["tick"] // 2
+    reached = [digest for number, digest in enumerate(wanted["digests"]) if number * wanted["every"] <= half]
+    async with opened(f"sqlite:///{database}") as service:
+        forks = [
+            (await service.ask(wanted["id"], "forks", at_tick=half))["id"],
+            (await service.make(link=f"#/s/{wanted['id']}/{half}"))["id"],
+        ]
+    async with opened(f"sqlite:///{database}") as service:
+        for fork in forks:
+            timeline = await service.timeline(fork)
+            digests = [run.world.digest() for run in timeline.between(0, half + 1)]
+            assert digests[:: wanted["every"]] == reached
+
+
+async def test_all_of_a_kept_file_is_listed(database: Path) -> None:
+    async with opened(f"sqlite:///{database}") as service:
+        listed = (await service.client.get(f"{PREFIX}/sessions")).json()["items"]
+        named = {each["name"]: each for each in listed if each["name"] is not None}
+        assert {name: each["id"] for name, each in named.items()} == {
+            name: wanted["id"] for name, wanted in KEPT.items()
+        }
+        assert {name: each["parent"] for name, each in named.items()} == {
+            name: wanted["parent"] for name, wanted in KEPT.items()
+        }
+        moments = (await service.client.get(f"{PREFIX}/saved")).json()["items"]
+        assert sorted(each["name"] for each in moments) == sorted(
+            each["name"] for wanted in KEPT.values() for each in wanted["saved"]
+        )
+        taught = (await service.client.get(f"{PREFIX}/language")).json()["taught"]
+        assert [each["phrase"] for each in taught] == ["rush hour"]
