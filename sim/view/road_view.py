@@ -87,7 +87,7 @@ def _draw_impact(picture: pygame.Surface, camera: Camera, touch: tuple[float, fl
     for share, colour in zip((1.0, 0.74, 0.48), theme.IMPACT, strict=True):
         points = []
         for n in range(24):
-            radius = camera.cell_px * 0.42 * share * (1 - 0.12 * (n * 5 % 3) if n % 2 == 0 else 0.58)
+            radius = camera.cell_px * 0.5 * share * (1 - 0.12 * (n * 5 % 3) if n % 2 == 0 else 0.58)
             points.append((x + radius * cos(pi * n / 12), y + radius * sin(pi * n / 12)))
         pygame.draw.polygon(picture, colour, points)
 

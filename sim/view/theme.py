@@ -47,7 +47,7 @@ CRACK: Final[Colour] = (30, 32, 36)
 CRUMBLE: Final[Colour] = (66, 69, 76)
 RIM: Final[Colour] = (92, 96, 104)
 IMPACT: Final[tuple[Colour, Colour, Colour]] = ((240, 84, 78), (250, 176, 72), (255, 244, 214))
-BOX: Final[Colour] = (255, 255, 255)
+BOX: Final[Colour] = (204, 208, 214)
 MOVE: Final[Colour] = (96, 220, 140)
 
 PANEL: Final = (18, 20, 24, 205)

@@ -21,8 +21,8 @@ import { drawWalker, paintWalkerShadow } from "./walker.js";
  */
 
 /** Which way shadows fall, in cells. */
-const SHADOW = { x: 0.045, y: 0.06 };
-const SPRITE_CELLS = 1.3;
+const SHADOW = { x: 0.025, y: 0.035 };
+const SPRITE_CELLS = 1;
 const BEAM_CELLS = 3;
 
 /** @param {{kind: string}} thing */
@@ -57,15 +57,19 @@ const PAINTERS = {
 
   vehicle({ pen, sprites, palette }, { thing, facing }) {
     const look = lookOf(thing.id, thing.disabled);
-    const skew = thing.disabled ? 0.22 : 0;
-    shadowed(pen, facing + skew, () =>
-      sprites.stamp(pen, `shadow ${look.body}`, SPRITE_CELLS, (brush) => paintVehicleShadow(brush, look.body, palette)),
-    );
-    pen.save();
-    pen.rotate(facing + skew);
-    if (palette.lamps > 0 && !thing.disabled) beams(pen, sprites, palette);
-    sprites.stamp(pen, look.key, SPRITE_CELLS, (brush) => paintVehicle(brush, look));
-    pen.restore();
+    shadowed(pen, 0, () => sprites.stamp(pen, "shadow vehicle", SPRITE_CELLS, (brush) => paintVehicleShadow(brush, palette)));
+    // Front and rear change places without the body leaving its box, as it would if it swung round.
+    const turned = facing / Math.PI;
+    const { globalAlpha } = pen;
+    for (const [angle, share] of [[0, turned < 1 ? 1 : 0], [Math.PI, turned]]) {
+      if (share === 0) continue;
+      pen.save();
+      pen.rotate(angle);
+      pen.globalAlpha = globalAlpha * share;
+      if (palette.lamps > 0 && !thing.disabled) beams(pen, sprites, palette);
+      sprites.stamp(pen, look.key, SPRITE_CELLS, (brush) => paintVehicle(brush, look));
+      pen.restore();
+    }
     if (thing.disabled) sprites.stamp(pen, "warning", SPRITE_CELLS, paintWarning);
   },
 
@@ -79,12 +83,10 @@ const PAINTERS = {
     pen.restore();
   },
 
-  av({ pen, sprites, palette, progress }, { facing }, move) {
-    const heading = facing - Math.PI / 2;
-    shadowed(pen, heading, () =>
-      sprites.stamp(pen, "shadow ego", SPRITE_CELLS, (brush) => paintVehicleShadow(brush, "ego", palette)),
-    );
-    pen.rotate(heading);
+  av({ pen, sprites, palette, progress }, _, move) {
+    const up = -Math.PI / 2;
+    shadowed(pen, up, () => sprites.stamp(pen, "shadow vehicle", SPRITE_CELLS, (brush) => paintVehicleShadow(brush, palette)));
+    pen.rotate(up);
     if (palette.lamps > 0) beams(pen, sprites, palette);
     sprites.stamp(pen, "ego", SPRITE_CELLS, paintEgo);
     if (move === "stay") drawSignal(pen, "brake");

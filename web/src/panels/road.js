@@ -118,9 +118,8 @@ export function createRoad(host) {
       if (views.path && egoPose && world.status === "running") drawIntent(egoPose, progress);
       if (views.forecast) drawForecast(pen, seen, aheadOf(state), palette);
       const signal = state.decision?.move ?? null;
-      if (world.status === "crash" && egoPose) {
-        at(egoPose.column, egoPose.row, () => drawImpact(pen, ease(progress), palette));
-      }
+      const hit = world.status === "crash" ? stage.touch(now) : null;
+      if (hit) at(...hit, () => drawImpact(pen, ease(progress), palette));
       for (const pose of seen) if (!isFixed(pose.thing)) drawThing(scene, pose, signal);
       if (views.boxes) drawBoxes(pen, seen, palette);
       drawHighlight(seen);
