@@ -144,7 +144,7 @@ def _cells(px: int) -> pygame.Surface:
 
 
 def _symbol(px: int) -> int:
-    """Of what size a cell would be whose thing is drawn in a cell of `px`: the plan shows cells, not bodies."""
+    """How large a cell the things in one of `px` are drawn for: the plan shows cells, not bodies."""
     return px * 4 // 3
 
 

@@ -24,6 +24,8 @@ import { drawWalker, paintWalkerShadow } from "./walker.js";
 const SHADOW = { x: 0.025, y: 0.035 };
 const SPRITE_CELLS = 1;
 const BEAM_CELLS = 3;
+/** Which way the autonomous vehicle points, always. */
+const UP = -Math.PI / 2;
 
 /** @param {{kind: string}} thing */
 export function isFixed({ kind }) {
@@ -42,6 +44,23 @@ export function drawThing(scene, pose, move) {
   pen.scale(pose.scale, pose.scale);
   pen.globalAlpha = pose.alpha;
   (PAINTERS[pose.thing.kind] ?? drawUnknown)(scene, pose, move);
+  pen.restore();
+}
+
+/**
+ * The light a vehicle throws on the road, to be drawn before all that stands on it.
+ * @param {Scene} scene
+ * @param {Pose} pose
+ */
+export function drawLight({ pen, sprites, palette }, { thing, column, row, facing, scale, alpha }) {
+  const own = thing.kind === "av";
+  if (palette.lamps === 0 || thing.disabled || !(own || thing.kind === "vehicle")) return;
+  pen.save();
+  pen.translate(column, row);
+  pen.scale(scale, scale);
+  pen.globalAlpha = alpha;
+  pen.rotate(own ? UP : facing < Math.PI / 2 ? 0 : Math.PI);
+  sprites.stamp(pen, "beams", BEAM_CELLS, (brush) => paintBeams(brush, palette.lamps));
   pen.restore();
 }
 
@@ -66,7 +85,6 @@ const PAINTERS = {
       pen.save();
       pen.rotate(angle);
       pen.globalAlpha = globalAlpha * share;
-      if (palette.lamps > 0 && !thing.disabled) beams(pen, sprites, palette);
       sprites.stamp(pen, look.key, SPRITE_CELLS, (brush) => paintVehicle(brush, look));
       pen.restore();
     }
@@ -84,10 +102,8 @@ const PAINTERS = {
   },
 
   av({ pen, sprites, palette, progress }, _, move) {
-    const up = -Math.PI / 2;
-    shadowed(pen, up, () => sprites.stamp(pen, "shadow vehicle", SPRITE_CELLS, (brush) => paintVehicleShadow(brush, palette)));
-    pen.rotate(up);
-    if (palette.lamps > 0) beams(pen, sprites, palette);
+    shadowed(pen, UP, () => sprites.stamp(pen, "shadow vehicle", SPRITE_CELLS, (brush) => paintVehicleShadow(brush, palette)));
+    pen.rotate(UP);
     sprites.stamp(pen, "ego", SPRITE_CELLS, paintEgo);
     if (move === "stay") drawSignal(pen, "brake");
     else if (move && move !== "forward" && blinks(progress)) drawSignal(pen, move.endsWith("left") ? "left" : "right");
@@ -106,15 +122,6 @@ function shadowed(pen, facing, stamp) {
   pen.rotate(facing);
   stamp();
   pen.restore();
-}
-
-/**
- * @param {CanvasRenderingContext2D} pen
- * @param {Sprites} sprites
- * @param {Palette} palette
- */
-function beams(pen, sprites, palette) {
-  sprites.stamp(pen, "beams", BEAM_CELLS, (brush) => paintBeams(brush, palette.lamps));
 }
 
 /** A kind this page does not know yet is still seen. @param {Scene} scene */

@@ -24,7 +24,7 @@ const PAINTS = [
   { main: "#8b5aa8", light: "#ad80c7", dark: "#633b7c" },
   { main: "#c25a84", light: "#de84a8", dark: "#8f3a5d" },
   { main: "#d9dce1", light: "#f6f7f9", dark: "#a4a9b3" },
-  { main: "#4a4f5a", light: "#6d7380", dark: "#2d3038" },
+  { main: "#7f8ea6", light: "#a6b3c8", dark: "#566277" },
 ];
 const BODIES = /** @type {const} */ (["saloon", "hatch", "saloon", "van", "hatch", "truck"]);
 const DISABLED = { main: "#7d7f84", light: "#94969b", dark: "#56585d" };

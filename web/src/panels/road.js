@@ -9,7 +9,7 @@ import { drawCell, drawImpact, drawMove, drawRing, drawTrail, drawWait } from ".
 import { drawBoxes, drawForecast, drawHazards } from "../paint/overlays.js";
 import { Sprites } from "../paint/sprites.js";
 import { drawLines, laySurface, surfaceTile } from "../paint/surface.js";
-import { drawThing, isFixed } from "../paint/things.js";
+import { drawLight, drawThing, isFixed } from "../paint/things.js";
 import { readPalette, wantsStillness } from "../theme.js";
 import { describe, egoOf } from "../world.js";
 
@@ -118,6 +118,7 @@ export function createRoad(host) {
       if (views.path && egoPose && world.status === "running") drawIntent(egoPose, progress);
       if (views.forecast) drawForecast(pen, seen, aheadOf(state), palette);
       const signal = state.decision?.move ?? null;
+      for (const pose of seen) drawLight(scene, pose);
       const hit = world.status === "crash" ? stage.touch(now) : null;
       if (hit) at(...hit, () => drawImpact(pen, ease(progress), palette));
       for (const pose of seen) if (!isFixed(pose.thing)) drawThing(scene, pose, signal);
