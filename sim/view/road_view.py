@@ -33,15 +33,11 @@ def draw_road(
     camera = camera_on(run.config, seen.av.row, size)
     picture = pygame.Surface(camera.size)
     lay_ground(picture, camera, run.config.rows)
-    shown = [pose for pose in seen.things if camera.sees(pose.row)]
-    for pose in shown:
-        if pose.thing.kind.fixed:
-            _draw_thing(picture, camera, pose)
+    shown = (pose for pose in seen.things if camera.sees(pose.row))
     if seen.touch is not None:
         _draw_impact(picture, camera, seen.touch)
     for pose in shown:
-        if pose.thing.kind.moves:
-            _draw_thing(picture, camera, pose)
+        _draw_thing(picture, camera, pose)
     if decision is not None and world.outcome is Outcome.RUNNING:
         _draw_move(picture, camera, start, decision, seen.share)
     _blit(picture, av_sprite(camera.cell_px), camera.centre(seen.av.column, seen.av.row))

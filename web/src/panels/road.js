@@ -110,6 +110,8 @@ export function createRoad(host) {
       const seen = stage.poses(now).filter(({ row }) => row > top - 2 && row < top + visibleRows + 1);
       const progress = still ? 1 : stage.progress(now);
       const scene = { pen, sprites, palette, progress, now: still ? 0 : now };
+      const hit = world.status === "crash" ? stage.touch(now) : null;
+      if (hit) at(...hit, () => drawImpact(pen, ease(progress), palette));
       for (const pose of seen) if (isFixed(pose.thing)) drawThing(scene, pose, null);
       const { views } = state;
       if (views.potholes) drawHazards(pen, seen, palette);
@@ -119,8 +121,6 @@ export function createRoad(host) {
       if (views.forecast) drawForecast(pen, seen, aheadOf(state), palette);
       const signal = state.decision?.move ?? null;
       for (const pose of seen) drawLight(scene, pose);
-      const hit = world.status === "crash" ? stage.touch(now) : null;
-      if (hit) at(...hit, () => drawImpact(pen, ease(progress), palette));
       for (const pose of seen) if (!isFixed(pose.thing)) drawThing(scene, pose, signal);
       if (views.boxes) drawBoxes(pen, seen, palette);
       drawHighlight(seen);
