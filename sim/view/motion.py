@@ -105,6 +105,8 @@ def _struck(
     """What the vehicle touches first: when, what, and where that came from."""
     first = None
     for thing in things:
+        if min(abs(thing.cell[1] - av.start[1]), abs(thing.cell[1] - av.end[1])) > 1:
+            continue  # no body reaches so far, and the exact answer takes a while where there are thousands
         start = was.get(thing.id, thing.cell)
         when = first_contact(av, Path(thing.kind, start, thing.cell))
         if when is not None and (first is None or when < first[0]):

@@ -18,6 +18,9 @@ from sim.view.motion import Pose, leading, poses
 from sim.view.sprites import av_sprite, barrier_sprite, pedestrian_sprite, pothole_sprite, vehicle_sprite
 from sim.world import World
 
+BOX_FROM_PX = 48
+"""side of a cell from which on boxes are drawn"""
+
 
 def draw_road(
     run: Run,
@@ -66,7 +69,9 @@ def _draw_thing(picture: pygame.Surface, camera: Camera, pose: Pose) -> None:
 
 
 def _draw_box(picture: pygame.Surface, camera: Camera, pose: Pose, colour: theme.Colour) -> None:
-    """The corners of a body's box, as a detector would draw it."""
+    """The corners of a body's box, as a detector would draw it, where they do not hide what is in it."""
+    if camera.cell_px < BOX_FROM_PX:
+        return
     across, along = (float(side) * camera.cell_px / 2 for side in SIZES[pose.thing.kind])
     x, y = camera.centre(pose.column, pose.row)
     arm = max(2, camera.cell_px // 14)
