@@ -80,22 +80,23 @@ def _grid(run: Run, decision: Decision | None, px: int) -> pygame.Surface:
     if own[1] <= _HALF:
         for column in range(road.columns):
             picture.fill(theme.FINISH[column % 2], box((column, 0)).inflate(-1, -1))
+    symbol_px = _symbol(px)
     things = [thing for thing in world.things() if near(thing.cell)]
     for thing in sorted(things, key=lambda each: each.kind not in HAZARDS):
         look, heading = int(thing.id.rpartition("-")[2]), thing.heading or "left"
         match thing.kind:
             case Kind.POTHOLE:
-                sprite = pothole_sprite(px, thing.id)
+                sprite = pothole_sprite(symbol_px, thing.id)
             case Kind.BARRIER:
-                sprite = barrier_sprite(px)
+                sprite = barrier_sprite(symbol_px)
             case Kind.PEDESTRIAN:
-                sprite = pedestrian_sprite(px, look, heading, thing.disabled)
+                sprite = pedestrian_sprite(symbol_px, look, heading, thing.disabled)
             case _:
-                sprite = vehicle_sprite(px, look, heading, thing.disabled)
+                sprite = vehicle_sprite(symbol_px, look, heading, thing.disabled)
         spot = box(thing.cell)
         tint = theme.SCHEMATIC[thing.kind]
         pygame.draw.rect(picture, _faint(tint), spot.inflate(-1, -1))
-        picture.blit(sprite, spot)
+        picture.blit(sprite, sprite.get_rect(center=spot.center))
     if decision is not None:
         ahead = foretell(perceive(world, run.config), 1).slices.movers(0)
         going = {name: road.cell(index) for index, name in ahead.items()}
@@ -106,7 +107,8 @@ def _grid(run: Run, decision: Decision | None, px: int) -> pygame.Surface:
         for option in decision.options:
             if option.cell is not None and option.move is not decision.move and option.cost is None:
                 _cross(picture, box(option.cell))
-    picture.blit(av_sprite(px), box(own))
+    own_sprite = av_sprite(_symbol(px))
+    picture.blit(own_sprite, own_sprite.get_rect(center=box(own).center))
     if decision is not None:
         end = decision.chosen.cell or own
         if decision.move is Move.STAY:
@@ -139,6 +141,11 @@ def _cells(px: int) -> pygame.Surface:
         for column in range(ACROSS):
             picture.fill(theme.SCHEMATIC_ROAD, (column * px, row * px, px - 1, px - 1))
     return picture
+
+
+def _symbol(px: int) -> int:
+    """How large a cell the things in one of `px` are drawn for: the plan shows cells, not bodies."""
+    return px * 4 // 3
 
 
 def _faint(colour: Colour) -> Colour:

@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
+from math import cos, pi, sin
+
 import pygame
 
-from sim.kinds import HAZARDS, Cell, Kind, Outcome
+from sim.bodies import SIZES
+from sim.kinds import Kind, Outcome
 from sim.plan import Decision
 from sim.run import Run
 from sim.view import theme
 from sim.view.camera import Camera, camera_on
 from sim.view.ground import lay_ground
 from sim.view.hud import draw_figures, draw_verdict
-from sim.view.motion import between, eased
+from sim.view.motion import Pose, leading, poses
 from sim.view.sprites import av_sprite, barrier_sprite, pedestrian_sprite, pothole_sprite, vehicle_sprite
-from sim.world import Thing, World
+from sim.world import World
+
+BOX_FROM_PX = 48
+"""side of a cell from which on boxes are drawn"""
 
 
 def draw_road(
@@ -24,47 +30,28 @@ def draw_road(
     size: tuple[int, int] | None,
 ) -> pygame.Surface:
     """See `sim.view.render`."""
-    world, share = run.world, eased(phase)
-    if before is None or before.episode_start != world.episode_start:
-        before = world
-    av = _gliding(before.road.cell(before.av), world.road.cell(world.av), share)
-    camera = camera_on(run.config, av[1], size)
+    world = run.world
+    start, gone = leading(run, before, phase)
+    seen = poses(start, world, gone)
+    camera = camera_on(run.config, seen.av.row, size)
     picture = pygame.Surface(camera.size)
     lay_ground(picture, camera, run.config.rows)
-    was = {thing.id: thing.cell for thing in _things(before)}
-    for thing in _things(world):
-        column, row = _gliding(was.get(thing.id, thing.cell), thing.cell, share)
-        if camera.sees(row):
-            _draw_thing(picture, camera, thing, column, row)
+    shown = (pose for pose in seen.things if camera.sees(pose.row))
+    if seen.touch is not None:
+        _draw_impact(picture, camera, seen.touch)
+    for pose in shown:
+        _draw_thing(picture, camera, pose)
     if decision is not None and world.outcome is Outcome.RUNNING:
-        _draw_move(picture, camera, before, decision, share)
-    _blit(picture, av_sprite(camera.cell_px), camera.centre(*av))
-    _draw_box(picture, camera, av, theme.AV)
+        _draw_move(picture, camera, start, decision, seen.share)
+    _blit(picture, av_sprite(camera.cell_px), camera.centre(seen.av.column, seen.av.row))
+    _draw_box(picture, camera, seen.av, theme.AV)
     draw_figures(picture, run, camera.cell_px)
     draw_verdict(picture, run, camera.cell_px)
     return picture
 
 
-_SEEN: list[tuple[World, tuple[Thing, ...]]] = []
-"""The two latest worlds, each with what is in it: the same two are drawn for many frames."""
-
-
-def _things(world: World) -> tuple[Thing, ...]:
-    """What is on the road, from the ground up."""
-    for seen, things in _SEEN:
-        if seen is world:
-            return things
-    things = tuple(sorted(world.things(), key=lambda thing: thing.kind not in HAZARDS))
-    _SEEN.append((world, things))
-    del _SEEN[:-2]
-    return things
-
-
-def _gliding(start: Cell, end: Cell, share: float) -> tuple[float, float]:
-    return between(start[0], end[0], share), between(start[1], end[1], share)
-
-
-def _draw_thing(picture: pygame.Surface, camera: Camera, thing: Thing, column: float, row: float) -> None:
+def _draw_thing(picture: pygame.Surface, camera: Camera, pose: Pose) -> None:
+    thing = pose.thing
     px, look = camera.cell_px, int(thing.id.rpartition("-")[2])
     heading = thing.heading or "left"
     match thing.kind:
@@ -76,22 +63,34 @@ def _draw_thing(picture: pygame.Surface, camera: Camera, thing: Thing, column: f
             sprite = pedestrian_sprite(px, look, heading, thing.disabled)
         case _:
             sprite = vehicle_sprite(px, look, heading, thing.disabled)
-    _blit(picture, sprite, camera.centre(column, row))
+    _blit(picture, sprite, camera.centre(pose.column, pose.row))
     if thing.kind.moves:
-        _draw_box(picture, camera, (column, row), theme.BOX)
+        _draw_box(picture, camera, pose, theme.BOX)
 
 
-def _draw_box(
-    picture: pygame.Surface, camera: Camera, place: tuple[float, float], colour: theme.Colour
-) -> None:
-    """The corners of a bounding box, as a detector would draw it."""
-    half, arm = int(camera.cell_px * 0.46), camera.cell_px // 8
-    x, y = camera.centre(*place)
+def _draw_box(picture: pygame.Surface, camera: Camera, pose: Pose, colour: theme.Colour) -> None:
+    """The corners of a body's box, as a detector would draw it, where they do not hide what is in it."""
+    if camera.cell_px < BOX_FROM_PX:
+        return
+    across, along = (float(side) * camera.cell_px / 2 for side in SIZES[pose.thing.kind])
+    x, y = camera.centre(pose.column, pose.row)
+    arm = max(2, camera.cell_px // 14)
     for dx in (-1, 1):
         for dy in (-1, 1):
-            corner = (x + dx * half, y + dy * half)
+            corner = (x + round(dx * across), y + round(dy * along))
             pygame.draw.line(picture, colour, corner, (corner[0] - dx * arm, corner[1]))
             pygame.draw.line(picture, colour, corner, (corner[0], corner[1] - dy * arm))
+
+
+def _draw_impact(picture: pygame.Surface, camera: Camera, touch: tuple[float, float]) -> None:
+    """A burst where two bodies first touched, under them, so that they stay to be seen."""
+    x, y = camera.centre(*touch)
+    for share, colour in zip((1.0, 0.74, 0.48), theme.IMPACT, strict=True):
+        points = []
+        for n in range(24):
+            radius = camera.cell_px * 0.5 * share * (1 - 0.12 * (n * 5 % 3) if n % 2 == 0 else 0.58)
+            points.append((x + radius * cos(pi * n / 12), y + radius * sin(pi * n / 12)))
+        pygame.draw.polygon(picture, colour, points)
 
 
 def _draw_move(

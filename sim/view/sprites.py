@@ -1,6 +1,7 @@
 """Things seen from above, drawn once for each size and look, and kept.
 
-Sprites are drawn at three times their size and smoothed down, since pygame's shapes have hard edges.
+Every sprite fills the box that its kind has in `sim.bodies`, and nothing but a soft shadow lies outside it.
+Sprites are drawn at four times their size and smoothed down, since pygame's shapes have hard edges.
 A pothole's rim and cracks follow from its id alone.
 """
 
@@ -11,18 +12,26 @@ from math import cos, pi, sin
 
 import pygame
 
+from sim.bodies import SIZES
+from sim.kinds import Kind
 from sim.randomness import Stream
 from sim.view import theme
 from sim.view.theme import Colour
 
-FINER = 3
+FINER = 4
 _SPRITES = 512
 
 
 @lru_cache(maxsize=_SPRITES)
 def av_sprite(px: int) -> pygame.Surface:
-    """The autonomous vehicle, facing up the road."""
-    return _shadowed(_car(px, theme.AV, theme.AV_GLASS, lights=True))
+    """The autonomous vehicle, facing up the road, its sensor on the roof."""
+    canvas, unit = _canvas(px)
+    _car(canvas, unit, Kind.AV, theme.AV, theme.AV_GLASS, lights=True)
+    middle = canvas.get_rect().center
+    sensor = (middle[0], middle[1] + unit * 0.1)
+    for size, colour in ((0.094, theme.AV_GLASS), (0.07, theme.SENSOR), (0.034, theme.AV)):
+        _ellipse(canvas, (*colour, 255), sensor, (unit * size, unit * size))
+    return _shadowed(_smoothed(canvas, px))
 
 
 def vehicle_sprite(px: int, look: int, heading: str, disabled: bool) -> pygame.Surface:
@@ -34,12 +43,14 @@ def vehicle_sprite(px: int, look: int, heading: str, disabled: bool) -> pygame.S
 
 @lru_cache(maxsize=_SPRITES)
 def _vehicle(px: int, colour: Colour, heading: str, disabled: bool) -> pygame.Surface:
-    sprite = _car(px, colour, theme.GLASS, lights=not disabled)
-    return _shadowed(pygame.transform.rotate(sprite, 90 if heading == "left" else -90))
+    canvas, unit = _canvas(px)
+    _car(canvas, unit, Kind.VEHICLE, colour, theme.GLASS, lights=not disabled)
+    turned = pygame.transform.rotate(canvas, 90 if heading == "left" else -90)
+    return _shadowed(_smoothed(turned, px))
 
 
 def pedestrian_sprite(px: int, look: int, heading: str, disabled: bool) -> pygame.Surface:
-    """A pedestrian from above: shoulders, head, and a foot ahead; any number `look` picks the colour."""
+    """A pedestrian from above: shoulders, head, arms and a foot ahead; any number `look` picks the colour."""
     return _pedestrian(
         px, theme.DISABLED if disabled else theme.PEDESTRIANS[look % len(theme.PEDESTRIANS)], heading
     )
@@ -50,132 +61,163 @@ def _pedestrian(px: int, body: Colour, heading: str) -> pygame.Surface:
     canvas, unit = _canvas(px)
     centre = canvas.get_rect().center
     ahead = -1 if heading == "left" else 1
-    _ellipse(
-        canvas, (0, 0, 0, 70), (centre[0] + unit // 14, centre[1] + unit // 10), (unit * 0.24, unit * 0.34)
-    )
-    _ellipse(
-        canvas,
-        (*_darker(body, 0.5), 255),
-        (centre[0] + ahead * unit * 0.1, centre[1] - unit * 0.1),
-        (unit * 0.16, unit * 0.1),
-    )
-    _ellipse(canvas, (*body, 255), centre, (unit * 0.2, unit * 0.36))
-    _ellipse(
-        canvas, (*theme.SKIN, 255), (centre[0] + ahead * unit * 0.02, centre[1]), (unit * 0.16, unit * 0.17)
-    )
-    return _smoothed(canvas, px)
+
+    def spot(across: float, along: float, size: tuple[float, float], colour: Colour) -> None:
+        at = (centre[0] + ahead * unit * across, centre[1] + unit * along)
+        _ellipse(canvas, (*colour, 255), at, (unit * size[0], unit * size[1]))
+
+    # Twice an ellipse's place and half its size stay within 0.30 across and 0.32 along.
+    spot(0.085, -0.05, (0.13, 0.08), theme.SHOE)
+    spot(-0.085, 0.05, (0.13, 0.08), theme.SHOE)
+    spot(0.06, 0.105, (0.12, 0.07), theme.SKIN)
+    spot(-0.05, -0.105, (0.12, 0.07), theme.SKIN)
+    spot(0, 0, (0.17, 0.31), _darker(body, 0.6))
+    spot(0, 0, (0.15, 0.285), body)
+    spot(0.012, 0, (0.15, 0.15), theme.SKIN)
+    spot(-0.012, 0, (0.135, 0.14), theme.HAIR)
+    return _shadowed(_smoothed(canvas, px))
 
 
 @lru_cache(maxsize=_SPRITES)
 def barrier_sprite(px: int) -> pygame.Surface:
-    """A striped barrier on two feet."""
+    """A striped barrier on two feet, a lamp at either end."""
     canvas, unit = _canvas(px)
-    board = pygame.Rect(0, 0, int(unit * 0.8), int(unit * 0.26))
-    board.center = canvas.get_rect().center
-    shadow = board.move(unit // 26, unit // 14)
-    pygame.draw.rect(canvas, (0, 0, 0, 90), shadow, border_radius=unit // 24)
-    for x in (board.left + unit // 8, board.right - unit // 8):
-        foot = pygame.Rect(0, 0, unit // 10, int(unit * 0.42))
-        foot.center = (x, board.centery)
-        pygame.draw.rect(canvas, (70, 74, 82), foot, border_radius=unit // 30)
-    pygame.draw.rect(canvas, theme.BARRIER[1], board, border_radius=unit // 24)
-    stripe = board.width // 6
-    for n in range(-1, 7, 2):
-        x = board.left + n * stripe
-        shape = [
-            (x, board.bottom),
-            (x + stripe, board.bottom),
-            (x + 2 * stripe, board.top),
-            (x + stripe, board.top),
-        ]
-        inside = [(min(max(px_, board.left), board.right), py_) for px_, py_ in shape]
-        pygame.draw.polygon(canvas, theme.BARRIER[0], inside)
-    pygame.draw.rect(canvas, _darker(theme.BARRIER[0], 0.6), board, unit // 50, border_radius=unit // 24)
-    return _smoothed(canvas, px)
+    size = SIZES[Kind.BARRIER]
+    across, along = float(size.across), float(size.along)
+    for side in (-1, 1):
+        _block(canvas, unit, (side * across * 0.34, 0), (0.075, along), theme.FOOT, 0.02)
+    board = _block(canvas, unit, (0, 0), (across, 0.17), theme.BARRIER[1], 0.035)
+    face = pygame.Surface(board.size, pygame.SRCALPHA)
+    stripe, lean = board.width / 7, board.height * 0.55
+    for n in range(-1, 8, 2):
+        x = n * stripe
+        shape = [(x, board.height), (x + stripe, board.height), (x + stripe + lean, 0), (x + lean, 0)]
+        pygame.draw.polygon(face, theme.BARRIER[0], shape)
+    face.fill((0, 0, 0, 60), (0, int(board.height * 0.74), board.width, board.height), pygame.BLEND_RGBA_SUB)
+    mask = pygame.Surface(board.size, pygame.SRCALPHA)
+    pygame.draw.rect(mask, (255, 255, 255, 255), mask.get_rect(), border_radius=int(unit * 0.035))
+    face.blit(mask, (0, 0), special_flags=pygame.BLEND_RGBA_MIN)
+    canvas.blit(face, board)
+    pygame.draw.rect(
+        canvas, _darker(theme.BARRIER[0], 0.6), board, max(1, unit // 70), border_radius=int(unit * 0.035)
+    )
+    for side in (-1, 1):
+        middle = (canvas.get_width() / 2 + side * unit * across * 0.34, canvas.get_height() / 2)
+        _ellipse(canvas, (*_darker(theme.LAMP, 0.6), 255), middle, (unit * 0.1, unit * 0.1))
+        _ellipse(canvas, (*theme.LAMP, 255), middle, (unit * 0.075, unit * 0.075))
+    return _shadowed(_smoothed(canvas, px))
 
 
 @lru_cache(maxsize=_SPRITES)
 def pothole_sprite(px: int, name: str) -> pygame.Surface:
-    """A hole with a broken rim and cracks running from it, the same for the same id."""
+    """A hole with a broken rim and cracks around it, the same for the same id."""
     canvas, unit = _canvas(px)
     draws = Stream.of(0, name)
     centre = canvas.get_rect().center
-    corners = 14
+    half = float(SIZES[Kind.POTHOLE].across) / 2
+    corners = 18
 
-    def rim(radius: float, roughness: float, salt: int) -> list[tuple[float, float]]:
-        rough = draws.narrow(salt)
-        return [
-            (
-                centre[0]
-                + unit * radius * (1 + roughness * (rough.uniform(n) - 0.5)) * cos(2 * pi * n / corners),
-                centre[1]
-                + unit
-                * radius
-                * 0.86
-                * (1 + roughness * (rough.uniform(n) - 0.5))
-                * sin(2 * pi * n / corners),
-            )
-            for n in range(corners)
-        ]
+    def at(angle: float, reach: float) -> tuple[float, float]:
+        """A point that share of the way to the edge of a rounded square that touches the box's sides."""
+        x, y = cos(angle), sin(angle)
+        radius = half * reach / max(abs(x), abs(y)) ** 0.45
+        return centre[0] + unit * radius * x, centre[1] + unit * radius * y
 
-    for crack in range(6):
+    def rim(reach: float, roughness: float) -> list[tuple[float, float]]:
+        rough = draws.narrow(0)
+        return [at(2 * pi * n / corners, reach * (1 - roughness * rough.uniform(n))) for n in range(corners)]
+
+    for crack in range(7):
         line = draws.narrow(9, crack)
-        angle = 2 * pi * (crack + line.uniform(0)) / 6
-        reach, points = 0.2, []
-        for bend in range(4):
-            points.append((centre[0] + unit * reach * cos(angle), centre[1] + unit * reach * sin(angle)))
-            reach += 0.05 + 0.04 * line.uniform(bend + 1)
-            angle += 0.7 * (line.uniform(bend + 9) - 0.5)
-        pygame.draw.lines(canvas, theme.CRACK, False, points, max(2, unit // 60))
-    for salt, (radius, colour) in enumerate(zip((0.33, 0.27, 0.19), theme.HOLE, strict=True)):
-        pygame.draw.polygon(canvas, colour, rim(radius, 0.34, salt))
-    light = rim(0.33, 0.34, 0)
-    pygame.draw.lines(canvas, (86, 90, 98), False, light[1:7], max(2, unit // 70))
+        angle = 2 * pi * (crack + line.uniform(0)) / 7
+        points = [at(angle + 0.3 * (line.uniform(bend) - 0.5), 0.7 + 0.09 * bend) for bend in range(4)]
+        pygame.draw.lines(canvas, theme.CRACK, False, points, max(2, unit // 64))
+    pygame.draw.polygon(canvas, theme.CRUMBLE, rim(0.97, 0.24))
+    for reach, colour in zip((0.88, 0.74, 0.52), theme.HOLE, strict=True):
+        pygame.draw.polygon(canvas, colour, rim(reach, 0.24))
+    pygame.draw.lines(canvas, theme.RIM, False, rim(0.88, 0.24)[1:9], max(2, unit // 70))
     return _smoothed(canvas, px)
 
 
-def _car(px: int, colour: Colour, glass: Colour, *, lights: bool) -> pygame.Surface:
-    """A car seen from above, nose up."""
-    canvas, unit = _canvas(px)
-    body = pygame.Rect(0, 0, int(unit * 0.5), int(unit * 0.82))
-    body.center = canvas.get_rect().center
-    wheel = pygame.Rect(0, 0, unit // 14, unit // 6)
-    for side in (body.left, body.right):
-        for end in (body.top + unit // 5, body.bottom - unit // 5):
-            wheel.center = (side, end)
-            pygame.draw.rect(canvas, (16, 17, 20), wheel, border_radius=unit // 40)
-    pygame.draw.rect(canvas, _darker(colour, 0.62), body, border_radius=unit // 6)
-    pygame.draw.rect(canvas, colour, body.inflate(-unit // 24, -unit // 24), border_radius=unit // 7)
-    middle = body.centerx
-    for top, height, wide, narrow in ((0.22, 0.15, 0.19, 0.155), (0.66, 0.11, 0.155, 0.18)):
-        y = body.top + body.height * top
-        pane = [
-            (middle - unit * wide, y),
-            (middle + unit * wide, y),
-            (middle + unit * narrow, y + unit * height),
-            (middle - unit * narrow, y + unit * height),
-        ]
-        pygame.draw.polygon(canvas, glass, pane)
-    roof = pygame.Rect(0, 0, int(unit * 0.32), int(unit * 0.22))
-    roof.center = (middle, int(body.top + body.height * 0.53))
-    pygame.draw.rect(canvas, _lighter(colour, 0.22), roof, border_radius=unit // 16)
+def _car(
+    canvas: pygame.Surface, unit: int, kind: Kind, colour: Colour, glass: Colour, *, lights: bool
+) -> None:
+    """A car seen from above, nose up, as long and wide as its kind's box."""
+    size = SIZES[kind]
+    wide, long = float(min(size)), float(max(size))
+    for side in (-1, 1):
+        for end in (-0.3, 0.29):
+            _block(canvas, unit, (side * (wide / 2 - 0.02), end * long), (0.04, 0.12), theme.TYRE, 0.014)
+        mirror = (side * (wide / 2 - 0.02), -0.115 * long)
+        _block(canvas, unit, mirror, (0.04, 0.03), _darker(colour, 0.5), 0.012)
+    # From the outside inwards and from dark to light, so that the sides look rounded.
+    body = wide - 0.02
+    for inset, shade in ((0.0, 0.5), (0.012, 0.74), (0.026, 0.88), (0.044, 1.0)):
+        room = (body - 2 * inset, long - 2 * inset)
+        _block(canvas, unit, (0, 0), room, _darker(colour, shade), 0.1 - inset, 0.07 - inset / 2)
+    for side in (-1, 1):
+        crease = (side * body * 0.24, -0.36 * long)
+        _block(canvas, unit, crease, (0.012, 0.12), _darker(colour, 0.82), 0.006)
+    _block(canvas, unit, (0, -0.38 * long), (body * 0.36, 0.1), _lighter(colour, 0.16), 0.03)
+    _glass(canvas, unit, glass, body, long)
+    _block(canvas, unit, (0, 0.06 * long), (body * 0.68, long * 0.27), _darker(colour, 0.86), 0.035)
+    _block(canvas, unit, (0, 0.055 * long), (body * 0.62, long * 0.25), _lighter(colour, 0.2), 0.03)
     if lights:
-        for x in (body.left + unit * 0.09, body.right - unit * 0.09):
-            _ellipse(canvas, (*theme.HEADLIGHT, 255), (x, body.top + unit * 0.035), (unit * 0.1, unit * 0.05))
-            _ellipse(
-                canvas, (*theme.TAILLIGHT, 255), (x, body.bottom - unit * 0.03), (unit * 0.1, unit * 0.045)
-            )
-    return _smoothed(canvas, px)
+        for side in (-1, 1):
+            front, back = (side * body * 0.3, -long / 2 + 0.037), (side * body * 0.31, long / 2 - 0.022)
+            _block(canvas, unit, front, (0.066, 0.036), theme.HEADLIGHT, 0.018)
+            _block(canvas, unit, back, (0.08, 0.024), theme.TAILLIGHT, 0.012)
+
+
+def _glass(canvas: pygame.Surface, unit: int, glass: Colour, body: float, long: float) -> None:
+    """Windows all round the roof: wider in the middle than at either end, with light on the windscreen."""
+    middle = canvas.get_rect().center
+
+    def pane(*corners: tuple[float, float]) -> list[tuple[float, float]]:
+        """Both halves of a shape from the corners of its right one; shares of the body's width and length."""
+        right = [(middle[0] + unit * body * x, middle[1] + unit * long * y) for x, y in corners]
+        return right + [(2 * middle[0] - x, y) for x, y in reversed(right)]
+
+    windows = pane((0.3, -0.215), (0.37, -0.19), (0.43, -0.06), (0.43, 0.18), (0.38, 0.29), (0.3, 0.305))
+    pygame.draw.polygon(canvas, glass, windows)
+    pygame.draw.polygon(canvas, _lighter(glass, 0.22), pane((0.27, -0.195), (0.34, -0.09)))
+
+
+def _block(
+    canvas: pygame.Surface,
+    unit: int,
+    middle: tuple[float, float],
+    size: tuple[float, float],
+    colour: Colour,
+    front: float,
+    back: float | None = None,
+) -> pygame.Rect:
+    """A rounded rectangle in cells from the canvas's middle, with one radius in front and one behind."""
+    width, height = round(unit * size[0]), round(unit * size[1])
+    left = round(canvas.get_width() / 2 + unit * middle[0] - width / 2)
+    top = round(canvas.get_height() / 2 + unit * middle[1] - height / 2)
+    rect = pygame.Rect(left, top, max(1, width), max(1, height))
+    ahead, behind = round(unit * front), round(unit * (front if back is None else back))
+    pygame.draw.rect(
+        canvas,
+        colour,
+        rect,
+        border_top_left_radius=ahead,
+        border_top_right_radius=ahead,
+        border_bottom_left_radius=behind,
+        border_bottom_right_radius=behind,
+    )
+    return rect
 
 
 def _shadowed(sprite: pygame.Surface) -> pygame.Surface:
     """The same over its shadow, which falls the same way whichever way it faces."""
     width, height = sprite.get_size()
-    shape = pygame.mask.from_surface(sprite).to_surface(setcolor=(0, 0, 0, 110), unsetcolor=(0, 0, 0, 0))
-    soft = (max(1, width // 5), max(1, height // 5))
+    shape = pygame.mask.from_surface(sprite).to_surface(setcolor=(0, 0, 0, 105), unsetcolor=(0, 0, 0, 0))
+    soft = (max(1, width // 4), max(1, height // 4))
     shadow = pygame.transform.smoothscale(pygame.transform.smoothscale(shape, soft), (width, height))
     whole = pygame.Surface((width, height), pygame.SRCALPHA)
-    whole.blit(shadow, (width // 22, height // 15))
+    whole.blit(shadow, (width // 36, height // 28))
     whole.blit(sprite, (0, 0))
     return whole
 

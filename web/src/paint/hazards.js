@@ -1,6 +1,7 @@
 // @ts-check
-/** What lies on the road: potholes whose cracks are drawn from their id, barricades, cones. */
+/** What lies on the road, each within its box: potholes whose cracks are drawn from their id, barricades, cones. */
 
+import { SIZES } from "../bodies.js";
 import { hash, seeded } from "../seeded.js";
 import { blob, box, castShadow } from "./shapes.js";
 
@@ -10,6 +11,12 @@ import { blob, box, castShadow } from "./shapes.js";
 /** @typedef {[number, number]} Point */
 
 const RIM_POINTS = 13;
+/** Half a pothole's box, in cells. */
+const HALF = SIZES.pothole.across / 2;
+/** How much wider than its rim the broken ground around it is. */
+const CRUMBLING = 1.1;
+/** Half of a barrier's length and depth. */
+const [REACH, DEPTH] = [SIZES.barrier.across / 2, SIZES.barrier.along / 2];
 
 /**
  * The outline of a pothole, in cells around its centre.
@@ -18,11 +25,11 @@ const RIM_POINTS = 13;
  */
 export function rimOf(id) {
   const random = seeded(id);
-  const squash = 0.78 + 0.3 * random();
+  const squash = 0.86 + 0.14 * random();
   const tilt = random() * Math.PI;
   return Array.from({ length: RIM_POINTS }, (_, at) => {
     const angle = (at / RIM_POINTS) * 2 * Math.PI;
-    const radius = 0.27 + 0.1 * random();
+    const radius = (HALF / CRUMBLING) * (0.78 + 0.22 * random());
     const x = Math.cos(angle) * radius;
     const y = Math.sin(angle) * radius * squash;
     return /** @type {Point} */ ([
@@ -44,11 +51,11 @@ export function cracksOf(id) {
   const count = 5 + Math.floor(random() * 4);
   for (let at = 0; at < count; at++) {
     const start = rim[Math.floor(((at + random() * 0.8) / count) * RIM_POINTS) % RIM_POINTS];
-    const crack = wander([start[0] * 0.92, start[1] * 0.92], Math.atan2(start[1], start[0]), 3, 0.05, random);
+    const crack = wander([start[0] * 0.92, start[1] * 0.92], Math.atan2(start[1], start[0]), 3, 0.03, random);
     cracks.push(crack);
     if (random() < 0.5) {
       const turn = random() < 0.5 ? 0.9 : -0.9;
-      cracks.push(wander(crack[1], Math.atan2(start[1], start[0]) + turn, 2, 0.04, random));
+      cracks.push(wander(crack[1], Math.atan2(start[1], start[0]) + turn, 2, 0.025, random));
     }
   }
   return cracks;
@@ -69,11 +76,17 @@ function wander(from, angle, steps, stride, random) {
   for (let step = 0; step < steps; step++) {
     heading += (random() - 0.5) * 1.1;
     const length = stride * (0.7 + 0.9 * random());
-    x += Math.cos(heading) * length;
-    y += Math.sin(heading) * length;
+    x = inside(x + Math.cos(heading) * length);
+    y = inside(y + Math.sin(heading) * length);
     line.push([x, y]);
   }
   return line;
+}
+
+/** @param {number} value */
+function inside(value) {
+  const most = HALF - 0.012;
+  return Math.max(-most, Math.min(most, value));
 }
 
 /** @param {Pen} pen @param {string} id @param {Palette} palette */
@@ -95,14 +108,14 @@ export function paintPothole(pen, id, palette) {
   }
   pen.fillStyle = palette.asphaltDeep;
   pen.globalAlpha = 0.85;
-  blob(pen, scaled(1.22));
+  blob(pen, scaled(CRUMBLING));
   pen.fill();
   pen.fillStyle = palette.edge;
   pen.globalAlpha = 0.28;
   blob(pen, scaled(1.02, 0, 0.016));
   pen.fill();
   pen.globalAlpha = 1;
-  const depth = pen.createRadialGradient(0.02, 0.05, 0.03, 0, 0, 0.38);
+  const depth = pen.createRadialGradient(0.015, 0.035, 0.02, 0, 0, 0.27);
   depth.addColorStop(0, palette.asphaltDeep);
   depth.addColorStop(0.5, palette.hole);
   depth.addColorStop(1, "#08090b");
@@ -114,7 +127,7 @@ export function paintPothole(pen, id, palette) {
   pen.clip();
   rubble(pen, id, palette);
   pen.strokeStyle = "rgb(0 0 0 / 0.65)";
-  pen.lineWidth = 0.09;
+  pen.lineWidth = 0.06;
   blob(pen, scaled(1, 0, 0.0));
   pen.stroke();
   pen.restore();
@@ -124,12 +137,12 @@ export function paintPothole(pen, id, palette) {
 function rubble(pen, id, palette) {
   const random = seeded(`${id} rubble`);
   for (let stone = 0; stone < 12; stone++) {
-    const x = (random() - 0.5) * 0.44;
-    const y = (random() - 0.5) * 0.44;
+    const x = (random() - 0.5) * 0.32;
+    const y = (random() - 0.5) * 0.32;
     pen.fillStyle = random() < 0.5 ? palette.asphalt : palette.crack;
     pen.globalAlpha = 0.55;
     pen.beginPath();
-    pen.ellipse(x, y, 0.012 + 0.022 * random(), 0.01 + 0.014 * random(), random() * 3, 0, 2 * Math.PI);
+    pen.ellipse(x, y, 0.01 + 0.016 * random(), 0.008 + 0.01 * random(), random() * 3, 0, 2 * Math.PI);
     pen.fill();
   }
   pen.globalAlpha = 1;
@@ -143,7 +156,7 @@ function rubble(pen, id, palette) {
  */
 export function paintBarrier(pen, id, palette) {
   if (hash(id) % 3 === 0) {
-    for (const [x, y] of /** @type {Point[]} */ ([[-0.26, 0.06], [0, -0.08], [0.26, 0.06]])) cone(pen, x, y, palette);
+    for (const [x, y] of /** @type {Point[]} */ ([[-0.225, 0.03], [0, -0.03], [0.225, 0.03]])) cone(pen, x, y, palette);
   } else {
     barricade(pen, palette);
   }
@@ -151,55 +164,55 @@ export function paintBarrier(pen, id, palette) {
 
 /** @param {Pen} pen @param {Palette} palette */
 function barricade(pen, palette) {
-  castShadow(pen, palette.shadow, 0.07, () => {
-    box(pen, 0.02, 0.09, 0.82, 0.22, 0.04);
+  castShadow(pen, palette.shadow, 0.05, () => {
+    box(pen, 0.015, 0.04, 2 * REACH, 0.18, 0.035);
     pen.fill();
   });
   pen.fillStyle = "#33373f";
-  for (const x of [-0.3, 0.3]) {
-    box(pen, x, 0, 0.08, 0.4, 0.03);
+  for (const x of [-0.235, 0.235]) {
+    box(pen, x, 0, 0.065, 2 * DEPTH, 0.025);
     pen.fill();
   }
   pen.save();
-  box(pen, 0, 0, 0.84, 0.19, 0.045);
+  box(pen, 0, 0, 2 * REACH, 0.16, 0.035);
   pen.fillStyle = "#f6f4ef";
   pen.fill();
   pen.clip();
   pen.fillStyle = "#d6402f";
-  for (let x = -0.6; x < 0.6; x += 0.21) {
+  for (let x = -0.48; x < 0.48; x += 0.17) {
     pen.beginPath();
-    pen.moveTo(x, 0.1);
-    pen.lineTo(x + 0.1, 0.1);
-    pen.lineTo(x + 0.24, -0.1);
-    pen.lineTo(x + 0.14, -0.1);
+    pen.moveTo(x, 0.08);
+    pen.lineTo(x + 0.08, 0.08);
+    pen.lineTo(x + 0.19, -0.08);
+    pen.lineTo(x + 0.11, -0.08);
     pen.closePath();
     pen.fill();
   }
-  const sheen = pen.createLinearGradient(0, -0.1, 0, 0.1);
+  const sheen = pen.createLinearGradient(0, -0.08, 0, 0.08);
   sheen.addColorStop(0, "rgb(255 255 255 / 0.3)");
   sheen.addColorStop(0.5, "rgb(255 255 255 / 0)");
   sheen.addColorStop(1, "rgb(0 0 0 / 0.22)");
   pen.fillStyle = sheen;
-  pen.fillRect(-0.5, -0.1, 1, 0.2);
+  pen.fillRect(-REACH, -0.08, 2 * REACH, 0.16);
   pen.restore();
-  for (const x of [-0.36, 0.36]) {
+  for (const x of [-0.235, 0.235]) {
     pen.fillStyle = "#f4b23c";
     pen.beginPath();
-    pen.arc(x, 0, 0.045, 0, 2 * Math.PI);
+    pen.arc(x, 0, 0.038, 0, 2 * Math.PI);
     pen.fill();
   }
 }
 
 /** @param {Pen} pen @param {number} x @param {number} y @param {Palette} palette */
 function cone(pen, x, y, palette) {
-  castShadow(pen, palette.shadow, 0.06, () => {
-    box(pen, x + 0.03, y + 0.05, 0.22, 0.22, 0.05);
+  castShadow(pen, palette.shadow, 0.05, () => {
+    box(pen, x + 0.02, y + 0.03, 0.2, 0.2, 0.045);
     pen.fill();
   });
   pen.fillStyle = "#b8431a";
-  box(pen, x, y, 0.23, 0.23, 0.05);
+  box(pen, x, y, 0.2, 0.2, 0.045);
   pen.fill();
-  const rings = /** @type {[number, string][]} */ ([[0.095, "#ef6a2c"], [0.07, "#fbf3ea"], [0.05, "#ef6a2c"], [0.022, "#8d3313"]]);
+  const rings = /** @type {[number, string][]} */ ([[0.083, "#ef6a2c"], [0.061, "#fbf3ea"], [0.043, "#ef6a2c"], [0.019, "#8d3313"]]);
   for (const [radius, colour] of rings) {
     pen.fillStyle = colour;
     pen.beginPath();

@@ -71,7 +71,7 @@ export function drawMove(pen, from, to, progress, palette) {
   band.addColorStop(1, palette.accent);
   pen.strokeStyle = band;
   pen.globalAlpha = alpha * 0.34;
-  pen.lineWidth = 0.4;
+  pen.lineWidth = 0.3;
   pen.lineCap = "butt";
   pen.beginPath();
   pen.moveTo(0, 0);
@@ -127,7 +127,7 @@ export function drawCell(pen, colour) {
 }
 
 /**
- * Where the vehicle was hit: a burst under the bodies, so that they stay to be seen.
+ * Where bodies touched: a burst under them, so that they stay to be seen.
  * @param {Pen} pen  in cells, centred on it
  * @param {number} progress  0–1 since it happened
  * @param {Palette} palette
@@ -141,7 +141,7 @@ export function drawImpact(pen, progress, palette) {
   ])) {
     pen.fillStyle = colour;
     pen.globalAlpha = alpha - 0.25 * progress;
-    burst(pen, share * (0.62 + 0.28 * progress));
+    burst(pen, share * (0.4 + 0.2 * progress));
     pen.fill();
   }
   pen.restore();

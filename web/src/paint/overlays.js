@@ -1,6 +1,7 @@
 // @ts-check
 /** What can be laid over the road: boxes around things, where movers will be, hazards brought out. In cells. */
 
+import { boxOf, sizeOf } from "../bodies.js";
 import { isFixed } from "./things.js";
 
 /** @import { Pose } from "../motion.js" */
@@ -9,11 +10,8 @@ import { isFixed } from "./things.js";
 
 /** @typedef {CanvasRenderingContext2D} Pen */
 
-/** Length and width of the boxes, in cells. @type {Record<string, [number, number]>} */
-const SIZES = { av: [0.66, 0.9], vehicle: [0.94, 0.62], pedestrian: [0.5, 0.5], pothole: [0.86, 0.86], barrier: [0.96, 0.5] };
-
 /**
- * A box with open sides around each thing, with its name.
+ * The box that each thing is judged by, its sides open, with its name.
  * @param {Pen} pen
  * @param {Pose[]} poses
  * @param {Palette} palette
@@ -25,13 +23,12 @@ export function drawBoxes(pen, poses, palette) {
   pen.textAlign = "left";
   pen.textBaseline = "bottom";
   for (const { thing: { kind, id }, column, row, alpha } of poses) {
-    const [across, along] = SIZES[kind] ?? [0.9, 0.9];
-    const [left, top] = [column - across / 2, row - along / 2];
-    const arm = 0.16;
+    const [left, top, right, bottom] = boxOf(kind, [column, row]);
+    const arm = 0.09;
     pen.globalAlpha = alpha;
     pen.strokeStyle = pen.fillStyle = palette.roadKinds[kind] ?? palette.danger;
     pen.beginPath();
-    for (const [x, y, h, v] of [[left, top, 1, 1], [left + across, top, -1, 1], [left, top + along, 1, -1], [left + across, top + along, -1, -1]]) {
+    for (const [x, y, h, v] of [[left, top, 1, 1], [right, top, -1, 1], [left, bottom, 1, -1], [right, bottom, -1, -1]]) {
       pen.moveTo(x + h * arm, y);
       pen.lineTo(x, y);
       pen.lineTo(x, y + v * arm);
@@ -55,7 +52,7 @@ export function drawForecast(pen, poses, ahead, palette) {
   for (const { thing: { kind, id }, column, row, alpha } of poses) {
     const cells = ahead.map((movers) => movers[id]).filter(Boolean);
     if (cells.length === 0 || kind === "av") continue;
-    const [across, along] = SIZES[kind] ?? [0.9, 0.9];
+    const { across, along } = sizeOf(kind);
     pen.strokeStyle = pen.fillStyle = palette.roadKinds[kind] ?? palette.danger;
     let from = column;
     cells.forEach(([to], at) => {
@@ -64,7 +61,7 @@ export function drawForecast(pen, poses, ahead, palette) {
       pen.lineWidth = 0.028;
       pen.globalAlpha = clear * 0.16;
       pen.beginPath();
-      pen.roundRect(to - across / 2, row - along / 2, across, along, 0.12);
+      pen.roundRect(to - across / 2, row - along / 2, across, along, 0.08);
       pen.fill();
       pen.globalAlpha = clear;
       pen.stroke();

@@ -21,9 +21,11 @@ import { drawWalker, paintWalkerShadow } from "./walker.js";
  */
 
 /** Which way shadows fall, in cells. */
-const SHADOW = { x: 0.045, y: 0.06 };
-const SPRITE_CELLS = 1.3;
+const SHADOW = { x: 0.025, y: 0.035 };
+const SPRITE_CELLS = 1;
 const BEAM_CELLS = 3;
+/** Which way the autonomous vehicle points, always. */
+const UP = -Math.PI / 2;
 
 /** @param {{kind: string}} thing */
 export function isFixed({ kind }) {
@@ -45,6 +47,23 @@ export function drawThing(scene, pose, move) {
   pen.restore();
 }
 
+/**
+ * The light a vehicle throws on the road, to be drawn before all that stands on it.
+ * @param {Scene} scene
+ * @param {Pose} pose
+ */
+export function drawLight({ pen, sprites, palette }, { thing, column, row, facing, scale, alpha }) {
+  const own = thing.kind === "av";
+  if (palette.lamps === 0 || thing.disabled || !(own || thing.kind === "vehicle")) return;
+  pen.save();
+  pen.translate(column, row);
+  pen.scale(scale, scale);
+  pen.globalAlpha = alpha;
+  pen.rotate(own ? UP : facing < Math.PI / 2 ? 0 : Math.PI);
+  sprites.stamp(pen, "beams", BEAM_CELLS, (brush) => paintBeams(brush, palette.lamps));
+  pen.restore();
+}
+
 /** @type {Record<string, (scene: Scene, pose: Pose, move: Move | null) => void>} */
 const PAINTERS = {
   pothole({ pen, sprites, palette }, { thing }) {
@@ -57,15 +76,18 @@ const PAINTERS = {
 
   vehicle({ pen, sprites, palette }, { thing, facing }) {
     const look = lookOf(thing.id, thing.disabled);
-    const skew = thing.disabled ? 0.22 : 0;
-    shadowed(pen, facing + skew, () =>
-      sprites.stamp(pen, `shadow ${look.body}`, SPRITE_CELLS, (brush) => paintVehicleShadow(brush, look.body, palette)),
-    );
-    pen.save();
-    pen.rotate(facing + skew);
-    if (palette.lamps > 0 && !thing.disabled) beams(pen, sprites, palette);
-    sprites.stamp(pen, look.key, SPRITE_CELLS, (brush) => paintVehicle(brush, look));
-    pen.restore();
+    shadowed(pen, 0, () => sprites.stamp(pen, "shadow vehicle", SPRITE_CELLS, (brush) => paintVehicleShadow(brush, palette)));
+    // Front and rear change places without the body leaving its box, as it would if it swung round.
+    const turned = facing / Math.PI;
+    const { globalAlpha } = pen;
+    for (const [angle, share] of [[0, turned < 1 ? 1 : 0], [Math.PI, turned]]) {
+      if (share === 0) continue;
+      pen.save();
+      pen.rotate(angle);
+      pen.globalAlpha = globalAlpha * share;
+      sprites.stamp(pen, look.key, SPRITE_CELLS, (brush) => paintVehicle(brush, look));
+      pen.restore();
+    }
     if (thing.disabled) sprites.stamp(pen, "warning", SPRITE_CELLS, paintWarning);
   },
 
@@ -79,13 +101,9 @@ const PAINTERS = {
     pen.restore();
   },
 
-  av({ pen, sprites, palette, progress }, { facing }, move) {
-    const heading = facing - Math.PI / 2;
-    shadowed(pen, heading, () =>
-      sprites.stamp(pen, "shadow ego", SPRITE_CELLS, (brush) => paintVehicleShadow(brush, "ego", palette)),
-    );
-    pen.rotate(heading);
-    if (palette.lamps > 0) beams(pen, sprites, palette);
+  av({ pen, sprites, palette, progress }, _, move) {
+    shadowed(pen, UP, () => sprites.stamp(pen, "shadow vehicle", SPRITE_CELLS, (brush) => paintVehicleShadow(brush, palette)));
+    pen.rotate(UP);
     sprites.stamp(pen, "ego", SPRITE_CELLS, paintEgo);
     if (move === "stay") drawSignal(pen, "brake");
     else if (move && move !== "forward" && blinks(progress)) drawSignal(pen, move.endsWith("left") ? "left" : "right");
@@ -104,15 +122,6 @@ function shadowed(pen, facing, stamp) {
   pen.rotate(facing);
   stamp();
   pen.restore();
-}
-
-/**
- * @param {CanvasRenderingContext2D} pen
- * @param {Sprites} sprites
- * @param {Palette} palette
- */
-function beams(pen, sprites, palette) {
-  sprites.stamp(pen, "beams", BEAM_CELLS, (brush) => paintBeams(brush, palette.lamps));
 }
 
 /** A kind this page does not know yet is still seen. @param {Scene} scene */

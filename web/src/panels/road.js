@@ -9,7 +9,7 @@ import { drawCell, drawImpact, drawMove, drawRing, drawTrail, drawWait } from ".
 import { drawBoxes, drawForecast, drawHazards } from "../paint/overlays.js";
 import { Sprites } from "../paint/sprites.js";
 import { drawLines, laySurface, surfaceTile } from "../paint/surface.js";
-import { drawThing, isFixed } from "../paint/things.js";
+import { drawLight, drawThing, isFixed } from "../paint/things.js";
 import { readPalette, wantsStillness } from "../theme.js";
 import { describe, egoOf } from "../world.js";
 
@@ -110,6 +110,8 @@ export function createRoad(host) {
       const seen = stage.poses(now).filter(({ row }) => row > top - 2 && row < top + visibleRows + 1);
       const progress = still ? 1 : stage.progress(now);
       const scene = { pen, sprites, palette, progress, now: still ? 0 : now };
+      const hit = world.status === "crash" ? stage.touch(now) : null;
+      if (hit) at(...hit, () => drawImpact(pen, ease(progress), palette));
       for (const pose of seen) if (isFixed(pose.thing)) drawThing(scene, pose, null);
       const { views } = state;
       if (views.potholes) drawHazards(pen, seen, palette);
@@ -118,9 +120,7 @@ export function createRoad(host) {
       if (views.path && egoPose && world.status === "running") drawIntent(egoPose, progress);
       if (views.forecast) drawForecast(pen, seen, aheadOf(state), palette);
       const signal = state.decision?.move ?? null;
-      if (world.status === "crash" && egoPose) {
-        at(egoPose.column, egoPose.row, () => drawImpact(pen, ease(progress), palette));
-      }
+      for (const pose of seen) drawLight(scene, pose);
       for (const pose of seen) if (!isFixed(pose.thing)) drawThing(scene, pose, signal);
       if (views.boxes) drawBoxes(pen, seen, palette);
       drawHighlight(seen);
