@@ -18,6 +18,7 @@ from service.language.lattice import NUMBER, Edge, Lattice
 from service.language.lexicon import Sense
 from service.language.noun_phrases import QUANTITY, Amount, understood_nouns
 from service.language.paths import ALLOWS, NEGATION, Stretch
+from service.language.work import Work
 
 MAX_JOINED = 16
 """How many fragments one listing clause may have."""
@@ -94,11 +95,14 @@ class Matcher(Protocol):
 class Divider:
     """Divides the fragments of one sentence into clauses."""
 
-    def __init__(self, matcher: Matcher, lattice: Lattice, vague: int, moods: frozenset[str]) -> None:
+    def __init__(
+        self, matcher: Matcher, lattice: Lattice, vague: int, moods: frozenset[str], work: Work
+    ) -> None:
         self._matcher = matcher
         self._lattice = lattice
         self._vague = vague
         self._moods = moods
+        self._work = work
 
     def divide(self, parts: Sequence[Fragment], kind: str | None = None) -> Divided:
         """The clauses of the fragments, or those up to the first that nothing fits.
@@ -301,6 +305,7 @@ class Divider:
             joined,
             negation,
             context.negated,
+            self._work,
         )
 
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from service.language.frames import Filled, Frame
 from service.language.lattice import GLUE, Edge
 from service.language.lexicon import SECOND
+from service.language.work import Work
 
 ALLOWS = "allows"
 """Concept of phrases that put a form in place: "would you mind" allows `ing`."""
@@ -43,6 +44,8 @@ class Stretch:
     negated: bool = False
     lenient: bool = False
     """Whether any frame that fits will do: nothing will be done anyway."""
+    work: Work = field(default_factory=Work)
+    """What the searches are paid from."""
 
 
 @dataclass(slots=True)
@@ -77,6 +80,7 @@ def fill(frame: Frame, stretch: Stretch) -> tuple[Filled, int] | None:
             return None
         used.add(edge.sense.concept)
     pieces = _walk(search, stretch.start, open_needs, used, 0)
+    stretch.work.spend(search.steps)
     return None if pieces is None else (Filled(frame, search.slots), pieces)
 
 
