@@ -34,7 +34,7 @@ from service.language.suggestions import Suggestions
 from service.language.tokens import Token, as_said, normalise, renamed, tokenise
 from service.language.topic import ALONE, Phrases, Topic
 from service.language.typos import Typos
-from service.language.work import READ_STEPS, SpentError, Work
+from service.language.work import READ_STEPS, TOKEN_STEPS, SpentError, Work
 from service.resources import prompts_folder
 
 MAX_TOKENS = 300
@@ -106,12 +106,12 @@ class Language:
             return Refused(text, "empty", messages["empty"])
         if len(tokens) > MAX_TOKENS:
             return Refused(text, "not_understood", messages["too_long"].format(words=MAX_TOKENS))
+        work.spend(READ_STEPS + TOKEN_STEPS * len(tokens))
         kept = names(tokens, self._lexicon, as_said(text, plain), topic)
         tokens, corrections = self._repaired(plain, tokens, kept, topic)
         lattice = self._scanner.scan(tokens, kept)
         lattice.keep_whole(self.data.nouns)
         add_known(lattice, tokens, topic)
-        work.spend(READ_STEPS + sum(map(len, lattice.edges)))
         uncovered = bool(lattice.uncovered())
         if not (kept or uncovered) and (repaired := Repaired.found(plain, tokens, lattice, work)) is not None:
             readings = repaired.readings(lambda each: self.read(each, topic, work, asking=False))

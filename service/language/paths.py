@@ -24,6 +24,10 @@ SPEAKER = "speaker"
 SEPARATOR = "separator"
 NEGATION = "negation"
 MAX_STEPS = 600
+MOST_TOKENS = 300
+
+TOKENS_PER_STEP = 2
+"""Tokens whose edges are looked through in the time of one step of a search."""
 
 _LOOSE = frozenset((GLUE, ALLOWS, SECOND, SPEAKER, SEPARATOR, NEGATION))
 """What a frame may have no use for."""
@@ -46,6 +50,8 @@ class Stretch:
     """Whether any frame that fits will do: nothing will be done anyway."""
     work: Work = field(default_factory=Work)
     """What the searches are paid from."""
+    longest: int = MOST_TOKENS
+    """No edge has more tokens."""
 
 
 @dataclass(slots=True)
@@ -90,7 +96,10 @@ def _usable(frame: Frame, stretch: Stretch) -> dict[int, list[tuple[Edge, bool]]
     accepted = frame.accepted
     reachable = {stretch.end}
     usable: dict[int, list[tuple[Edge, bool]]] = {}
+    nearest, longest = stretch.end, stretch.longest
     for at in range(stretch.end - 1, stretch.start - 1, -1):
+        if nearest - at > longest:
+            break  # nothing before it reaches over the gap
         here: list[tuple[Edge, bool]] = []
         for edge in stretch.edges.get(at, ()):
             _, end, (concept, _, form), _ = edge
@@ -111,6 +120,8 @@ def _usable(frame: Frame, stretch: Stretch) -> dict[int, list[tuple[Edge, bool]]
                 here.sort(key=lambda pair: (-pair[0].end, not pair[1]))
             usable[at] = here
             reachable.add(at)
+            nearest = at
+    stretch.work.spend((stretch.end - nearest) // TOKENS_PER_STEP + 1)
     return usable if stretch.start in reachable else None
 
 

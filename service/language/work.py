@@ -12,8 +12,11 @@ from service.language.parse_types import Parse
 MOST_STEPS = 20_000
 """What one utterance may cost."""
 
-READ_STEPS = 100
+READ_STEPS = 60
 """What one reading of a text costs beside its words: a correction is read once for each place it may have."""
+
+TOKEN_STEPS = 10
+"""What each of its words costs to be looked up."""
 
 
 class SpentError(Exception):
