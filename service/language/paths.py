@@ -7,6 +7,7 @@ is bounded: a frame that does not fit within the bound does not fit.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -24,7 +25,6 @@ SPEAKER = "speaker"
 SEPARATOR = "separator"
 NEGATION = "negation"
 MAX_STEPS = 600
-MOST_TOKENS = 300
 
 TOKENS_PER_STEP = 2
 """Tokens whose edges are looked through in the time of one step of a search."""
@@ -50,7 +50,7 @@ class Stretch:
     """Whether any frame that fits will do: nothing will be done anyway."""
     work: Work = field(default_factory=Work)
     """What the searches are paid from."""
-    longest: int = MOST_TOKENS
+    longest: int = sys.maxsize
     """No edge has more tokens."""
 
 
