@@ -26,9 +26,6 @@ SEPARATOR = "separator"
 NEGATION = "negation"
 MAX_STEPS = 600
 
-TOKENS_PER_STEP = 2
-"""Tokens whose edges are looked through in the time of one step of a search."""
-
 _LOOSE = frozenset((GLUE, ALLOWS, SECOND, SPEAKER, SEPARATOR, NEGATION))
 """What a frame may have no use for."""
 
@@ -121,7 +118,7 @@ def _usable(frame: Frame, stretch: Stretch) -> dict[int, list[tuple[Edge, bool]]
             usable[at] = here
             reachable.add(at)
             nearest = at
-    stretch.work.spend((stretch.end - nearest) // TOKENS_PER_STEP + 1)
+    stretch.work.spend(stretch.end - nearest + 1)
     return usable if stretch.start in reachable else None
 
 
@@ -129,6 +126,7 @@ def _walk(search: _Search, at: int, needs: list[frozenset[str]], used: set[str],
     """The number of pieces of the first path from `at` to the end that meets all needs, else None."""
     frame = search.frame
     if at == search.stretch.end:
+        search.stretch.work.spend(1)
         complete = (
             not needs
             and _parts_match(search.slots, search.parts)
