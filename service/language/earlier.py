@@ -42,7 +42,7 @@ class Tongue(Protocol):
 def takes_back(data: LanguageData) -> frozenset[str]:
     """The words that a correction may begin with."""
     found: set[str] = set()
-    for words, senses in data.lexicon.phrases():
+    for words, senses in data.lexicon.phrases_of(REPAIR):
         if any(sense.concept == REPAIR and sense.value != DROPPED for sense in senses):
             found.update(word for word in words[:2] if word.isalpha())
     return frozenset(found)

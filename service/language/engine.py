@@ -167,7 +167,11 @@ class Language:
     @cached_property
     def joiners(self) -> frozenset[str]:
         """The words that stand between one request and the next."""
-        joining = (w for w, senses in self._lexicon.phrases() if any(s.concept == SEPARATOR for s in senses))
+        joining = (
+            w
+            for w, senses in self._lexicon.phrases_of(SEPARATOR)
+            if any(s.concept == SEPARATOR for s in senses)
+        )
         return frozenset(words[0] for words in joining if len(words) == 1 and words[0].isalpha())
 
     def ways_to_say(self, concept: str) -> list[str]:
