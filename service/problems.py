@@ -104,7 +104,7 @@ class KeyNeeded(ProblemError):
 
 
 class CrossSite(ProblemError):
-    """A page of another site tried to change something, or to open the stream."""
+    """A page of another site asks for something, tries to change it, or to open the stream."""
 
     status, slug, title = 403, "cross-site", "Refused to a page of another site"
 

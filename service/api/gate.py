@@ -17,9 +17,10 @@ from service.api.respond import problem_response
 from service.api.views import PREFIX
 from service.problems import CrossSite, ForeignHost, KeyNeeded, ProblemError
 from service.security.guard import Guard, client_of
-from service.security.hosts import same_site
+from service.security.hosts import marked_foreign, same_site
 
 _READING = frozenset(("GET", "HEAD", "OPTIONS"))
+_ASKING = frozenset(("GET", "HEAD"))
 _SESSIONS = f"{PREFIX}/sessions"
 
 
@@ -52,6 +53,8 @@ class Gate:
         changing = scope["type"] == "websocket" or scope["method"] not in _READING
         if changing and not same_site(first_header(scope, b"origin"), host):
             raise CrossSite("Only this service's own page may do this, or no page at all. Nothing was done.")
+        if scope["type"] == "http" and scope["method"] in _ASKING and _guarded(scope["path"]):
+            self._check_asking(scope, host)
         # A socket may bring its key, or a ticket, in its first message: pages cannot set its headers.
         if scope["type"] == "websocket" or not _guarded(scope["path"]):
             return
@@ -59,6 +62,13 @@ class Gate:
             raise KeyNeeded
         if changing:
             self._guard.count_change(client_of(scope))
+
+    def _check_asking(self, scope: Scope, host: str | None) -> None:
+        """Raise `CrossSite` where a page of another site has its browser ask: it could not read the answer,
+        but have it made, and many are costly. Scripts send neither header."""
+        origin, mark = first_header(scope, b"origin"), first_header(scope, b"sec-fetch-site")
+        if marked_foreign(mark) or not same_site(origin, host):
+            raise CrossSite("Only this service's own page may ask this, or no page at all.")
 
     async def _counted(self, scope: Scope, receive: Receive, send: Send) -> None:
         """A call that may make or end a session."""
@@ -107,8 +117,10 @@ def document(method: str, path: str, operation: dict[str, Any], problem: Any) ->
     if _guarded(path):
         slugs.append("key-needed")
         operation["security"] = [{"key": []}, {}]
+    if method != "get" or _guarded(path):
+        slugs.append("cross-site")
     if method != "get":
-        slugs += ["cross-site", "too-many-changes"]
+        slugs.append("too-many-changes")
     if method == "post" and (path == _SESSIONS or path.endswith("/forks")):
         slugs.append("over-quota")
     problem(operation, *slugs)

@@ -20,7 +20,10 @@ MOST_BYTES = 65_536
 """Of the address and all headers together."""
 
 _ONCE = frozenset(
-    (b"host", b"content-type", b"content-encoding", b"authorization", b"origin", b"idempotency-key")
+    (
+        *(b"host", b"content-type", b"content-encoding", b"authorization", b"idempotency-key"),
+        *(b"origin", b"sec-fetch-site"),
+    )
 )
 """Headers that are looked at and are no lists: said twice, they could be taken in two ways."""
 _VERSIONS = ("1.0", "1.1")

@@ -62,8 +62,9 @@ async def language(
         topic = listener.topic(live, language)
         told["intents"], told["taught"] = [], []
         phrases = [each.phrase for each in taught]
-        told["completions"] = [] if guide is None else guide.completions(prefix, live, topic, phrases)
-        told["preview"] = None if live is None else _preview_json(listener.foresee(prefix, live, language))
+        told["completions"] = [] if guide is None else await guide.completed(prefix, live, topic, phrases)
+        found = None if live is None else await listener.foresee(prefix, live, language)
+        told["preview"] = _preview_json(found)
     return json_response(told)
 
 

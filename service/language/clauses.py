@@ -8,7 +8,7 @@ potholes"). Negated fragments are understood and then left out.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from dataclasses import dataclass, field, replace
 from typing import Any, Protocol
 
@@ -18,6 +18,7 @@ from service.language.lattice import NUMBER, Edge, Lattice
 from service.language.lexicon import Sense
 from service.language.noun_phrases import QUANTITY, Amount, understood_nouns
 from service.language.paths import ALLOWS, NEGATION, Stretch
+from service.language.work import Work
 
 MAX_JOINED = 16
 """How many fragments one listing clause may have."""
@@ -94,11 +95,15 @@ class Matcher(Protocol):
 class Divider:
     """Divides the fragments of one sentence into clauses."""
 
-    def __init__(self, matcher: Matcher, lattice: Lattice, vague: int, moods: frozenset[str]) -> None:
+    def __init__(
+        self, matcher: Matcher, lattice: Lattice, vague: int, moods: frozenset[str], work: Work
+    ) -> None:
         self._matcher = matcher
         self._lattice = lattice
         self._vague = vague
         self._moods = moods
+        self._work = work
+        self._starting = [_start(starting) for starting in lattice.edges]
 
     def divide(self, parts: Sequence[Fragment], kind: str | None = None) -> Divided:
         """The clauses of the fragments, or those up to the first that nothing fits.
@@ -268,28 +273,36 @@ class Divider:
     ) -> Stretch:
         """The tokens to be read, with what the context adds to them."""
         context = context or Context()
-        edges: dict[int, list[Edge]] = {}
+        edges: dict[int, Sequence[Edge]] = {}
         forms = set(self._moods)
         concepts: set[str] = {edge.sense.concept for edge in context.verb}
-        for at, starting in enumerate(self._lattice.edges[start:end], start=start):
-            inside = [edge for edge in starting if edge[1] <= end]
-            if inside:
-                edges[at] = inside
-                concepts.update([edge[2][0] for edge in inside])
+        longest = 1
+        self._work.spend(end - start)
+        for at in range(start, end):
+            reach, starting, of = self._starting[at]
+            if reach > end:
+                starting = [edge for edge in starting if edge[1] <= end]
+                of = {edge[2][0] for edge in starting}
+            if starting:
+                edges[at] = starting
+                concepts |= of
+                longest = max(longest, reach - at)
         if ALLOWS in concepts:
             for inside in edges.values():
                 forms.update([str(edge.sense.value) for edge in inside if edge.sense.concept == ALLOWS])
         if context.noun is not None:
             for edge in understood_nouns(self._lattice, start, end, context.noun, self._vague):
-                edges.setdefault(edge.start, []).append(edge)
+                edges[edge.start] = [*edges.get(edge.start, ()), edge]
                 concepts.add(edge.sense.concept)
+                longest = max(longest, edge.end - edge.start)
         moods = self._moods | (_NEGATED if context.negated else frozenset())
         forms |= moods
         if context.negated:
-            for edge in [edge for starting in edges.values() for edge in starting]:
-                for lenient in _lenient(edge):
-                    edges[edge.start].append(lenient)
-                    concepts.add(lenient.concept)
+            for at, starting in edges.items():
+                lenient = [other for edge in starting for other in _lenient(edge)]
+                if lenient:
+                    edges[at] = [*starting, *lenient]
+                    concepts.update([edge.concept for edge in lenient])
         return Stretch(
             start,
             end,
@@ -301,7 +314,14 @@ class Divider:
             joined,
             negation,
             context.negated,
+            self._work,
+            longest,
         )
+
+
+def _start(edges: Sequence[Edge]) -> tuple[int, Sequence[Edge], Set[str]]:
+    """How far the edges that start at a token reach, the edges, and their concepts."""
+    return max([edge[1] for edge in edges], default=0), edges, {edge[2][0] for edge in edges}
 
 
 def _context(clause: Clause, before: Context) -> Context:

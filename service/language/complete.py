@@ -11,6 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from itertools import chain, islice
 
 from service.actions import Action
@@ -18,10 +19,14 @@ from service.language.engine import Language
 from service.language.parse_types import Understood
 from service.language.references import heard
 from service.language.topic import ALONE, Topic
+from service.language.work import Work
 
 MOST = 8
 TRIED = 40
 """How many candidates are looked at for one prefix."""
+
+MOST_COMPLETING = 12_000
+"""Steps that one prefix may cost: its candidates are all paid from them."""
 
 GAPS = 40
 """How many gaps between words are looked at, from the end, for where the last request begins."""
@@ -62,22 +67,25 @@ class Completer:
         *,
         extra: Sequence[str] = (),
         possible: Callable[[tuple[Action, ...]], bool] = lambda _: True,
+        work: Work | None = None,
     ) -> list[str]:
         """Up to eight whole sentences that begin with `prefix`, the plainest and most different first.
 
         `extra` are sentences of this moment (taught phrases, ids); `possible` says whether actions
-        would work now.
+        would work now. `work` is what all of it may cost: what was found by then is answered.
         """
-        head, tail = self._last_request(prefix, topic)
+        work = work or Work(MOST_COMPLETING)
+        parse = partial(self._language.parse, work=work)
+        head, tail = self._last_request(prefix, topic, work)
         found: list[str] = []
         for candidate in self._candidates(tail, extra):
             whole = head + candidate
             if whole in found:
                 continue
-            parsed = heard(self._language.parse, whole, topic)
+            parsed = heard(parse, whole, topic)
             if isinstance(parsed, Understood) and not parsed.corrections and possible(parsed.actions):
                 found.append(whole)
-            if len(found) == MOST:
+            if len(found) == MOST or work.left < 0:
                 break
         return found
 
@@ -88,7 +96,7 @@ class Completer:
             node = node.next.setdefault(_slotted(word), _Node())
             node.sentences.append(sentence)
 
-    def _last_request(self, prefix: str, topic: Topic) -> tuple[str, str]:
+    def _last_request(self, prefix: str, topic: Topic, work: Work) -> tuple[str, str]:
         """What stands before the last request of a compound, and that request's beginning."""
         for match in islice(reversed(list(_GAP.finditer(prefix))), GAPS):
             head = prefix[: match.end()]
@@ -97,8 +105,10 @@ class Completer:
                 continue
             joined = head.rstrip().endswith((",", ";", ".")) or words[-1].lower() in self._language.joiners
             bare = " ".join(words[:-1]) if words[-1].lower() in self._language.joiners else head.strip(" ,;.")
-            if joined and isinstance(self._language.parse(bare, topic), Understood):
+            if joined and isinstance(self._language.parse(bare, topic, work), Understood):
                 return head, prefix[match.end() :]
+            if work.left < 0:
+                break
         return "", prefix.lstrip()
 
     def _candidates(self, prefix: str, extra: Sequence[str]) -> Iterator[str]:

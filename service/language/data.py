@@ -19,6 +19,7 @@ MESSAGES = frozenset(
     (
         "empty",
         "too_long",
+        "too_involved",
         "not_understood",
         "and",
         "impossible",

@@ -13,10 +13,12 @@ from typing import Any, Protocol
 
 from service.actions import Action, Undo
 from service.language.data import LanguageData
+from service.language.makes import REPAIR
 from service.language.parse_types import Ambiguous, Choice, Parse, Refused, Understood
-from service.language.repairs import DROPPED, REPAIR
+from service.language.repairs import DROPPED
 from service.language.sentences import Unsayable
 from service.language.topic import ALONE, Topic
+from service.language.work import Work
 
 _CHANGES = frozenset(("add", "remove", "set_count", "set", "adjust", "prefer"))
 """Actions that can be taken back one by one."""
@@ -30,7 +32,7 @@ class Tongue(Protocol):
 
     data: LanguageData
 
-    def read(self, text: str, topic: Topic, *, asking: bool) -> Parse:
+    def read(self, text: str, topic: Topic, work: Work, *, asking: bool) -> Parse:
         """Another sentence read."""
 
     def sentence(self, actions: Sequence[Action]) -> str:
@@ -40,16 +42,18 @@ class Tongue(Protocol):
 def takes_back(data: LanguageData) -> frozenset[str]:
     """The words that a correction may begin with."""
     found: set[str] = set()
-    for words, senses in data.lexicon.phrases():
+    for words, senses in data.lexicon.phrases_of(REPAIR):
         if any(sense.concept == REPAIR and sense.value != DROPPED for sense in senses):
             found.update(word for word in words[:2] if word.isalpha())
     return frozenset(found)
 
 
-def corrected(tongue: Tongue, text: str, plain: str, topic: Topic, parsed: Parse, sure: bool) -> Parse:
+def corrected(
+    tongue: Tongue, text: str, plain: str, topic: Topic, parsed: Parse, work: Work, *, sure: bool
+) -> Parse:
     """The answer to a sentence that begins with such a word; `sure`: one that always takes something back."""
     if isinstance(parsed, Refused) and parsed.reason == "not_understood":
-        if (actions := _as_it_should_have_been(tongue, plain, topic)) is not None:
+        if (actions := _as_it_should_have_been(tongue, plain, topic, work)) is not None:
             return _question(tongue, text, actions) or _refusal(tongue, text, parsed)
         return _refusal(tongue, text, parsed) if sure else parsed
     if (
@@ -62,7 +66,9 @@ def corrected(tongue: Tongue, text: str, plain: str, topic: Topic, parsed: Parse
     return parsed
 
 
-def _as_it_should_have_been(tongue: Tongue, plain: str, topic: Topic) -> tuple[Action, ...] | None:
+def _as_it_should_have_been(
+    tongue: Tongue, plain: str, topic: Topic, work: Work
+) -> tuple[Action, ...] | None:
     """What was done last, as it would be with the correction in it; None where that cannot be told."""
     done = topic.actions
     if not done or topic.undone or any(action.do not in _CHANGES for action in done):
@@ -71,7 +77,7 @@ def _as_it_should_have_been(tongue: Tongue, plain: str, topic: Topic) -> tuple[A
         said = tongue.sentence(done)
     except Unsayable:
         return None
-    parsed = tongue.read(f"{said}, {plain}", ALONE, asking=False)
+    parsed = tongue.read(f"{said}, {plain}", ALONE, work, asking=False)
     if not isinstance(parsed, Understood) or len(parsed.actions) != len(done) or parsed.actions == done:
         return None
     return parsed.actions

@@ -20,6 +20,7 @@ from service.language.data import LanguageData, LanguageDataError, read_language
 from service.language.earlier import corrected, takes_back
 from service.language.lattice import Lattice, Name, Scanner
 from service.language.linter import defects, flaws
+from service.language.makes import REPAIR
 from service.language.matching import Frames
 from service.language.noun_phrases import NOUN
 from service.language.parse_types import Ambiguous, Choice, Correction, Parse, Refused, Understood
@@ -27,12 +28,13 @@ from service.language.paths import SEPARATOR
 from service.language.reading import Reading, content_of
 from service.language.references import add_known
 from service.language.remembered import Remembered
-from service.language.repairs import ALWAYS, DROPPED, REPAIR, Repaired
+from service.language.repairs import ALWAYS, DROPPED, Repaired
 from service.language.sentences import Sentences
 from service.language.suggestions import Suggestions
 from service.language.tokens import Token, as_said, normalise, renamed, tokenise
 from service.language.topic import ALONE, Phrases, Topic
 from service.language.typos import Typos
+from service.language.work import READ_STEPS, TOKEN_STEPS, SpentError, Work
 from service.resources import prompts_folder
 
 MAX_TOKENS = 300
@@ -49,7 +51,7 @@ class Language:
         self._scanner = Scanner(data.lexicon, data.numbers)
         self.frames = Frames(data.frames, data.parameters)
         self.sentences = Sentences(data.sentences)
-        self._remembered = Remembered(lambda text, topic: self.read(text, topic, asking=True))
+        self._remembered = Remembered(self._heard)
 
     @classmethod
     def load(
@@ -68,15 +70,35 @@ class Language:
             raise LanguageDataError("; ".join(found))
         return cls(data, offered)
 
-    def parse(self, text: str, topic: Topic = ALONE) -> Parse:
+    def parse(self, text: str, topic: Topic = ALONE, work: Work | None = None) -> Parse:
         """What a person said: `Understood`, `Refused` or `Ambiguous`. Never raises.
 
-        `topic` is what it may refer to; without one it is read as a sentence that stands alone.
+        `topic` is what it may refer to; without one it is read as a sentence that stands alone. `work` is
+        what it may cost, where several texts share that.
         """
-        return self._remembered.parse(text, topic)
+        return self._remembered.parse(text, topic, work or Work())
 
-    def read(self, text: str, topic: Topic, *, asking: bool) -> Parse:
-        """`parse`; unless `asking`, what would be asked about is refused."""
+    def _heard(self, text: str, topic: Topic, work: Work) -> Parse:
+        work.known.clear()
+        try:
+            return self.read(text, topic, work, asking=True)
+        except SpentError:
+            return Refused(text, "not_understood", self.data.messages["too_involved"])
+
+    def read(self, text: str, topic: Topic, work: Work, *, asking: bool) -> Parse:
+        """`parse`; unless `asking`, what would be asked about is refused, and nothing is suggested.
+
+        Raises `SpentError` where the work does not suffice.
+        """
+        if asking:
+            return self._read(text, topic, work, asking=True)
+        key = text, id(topic)
+        known = work.known.get(key)
+        if known is None:
+            known = work.known[key] = self._read(text, topic, work, asking=False)
+        return known
+
+    def _read(self, text: str, topic: Topic, work: Work, *, asking: bool) -> Parse:
         messages = self.data.messages
         plain = normalise(text)
         tokens = tokenise(plain, self.data.contractions)
@@ -84,20 +106,23 @@ class Language:
             return Refused(text, "empty", messages["empty"])
         if len(tokens) > MAX_TOKENS:
             return Refused(text, "not_understood", messages["too_long"].format(words=MAX_TOKENS))
+        work.spend(READ_STEPS + TOKEN_STEPS * len(tokens))
         kept = names(tokens, self._lexicon, as_said(text, plain), topic)
         tokens, corrections = self._repaired(plain, tokens, kept, topic)
         lattice = self._scanner.scan(tokens, kept)
         lattice.keep_whole(self.data.nouns)
         add_known(lattice, tokens, topic)
-        if not kept and (repaired := Repaired.found(plain, tokens, lattice)) is not None:
-            readings = repaired.readings(lambda each: self.read(each, topic, asking=False))
-            if readings is not None and not lattice.uncovered():
+        uncovered = bool(lattice.uncovered())
+        if not (kept or uncovered) and (repaired := Repaired.found(plain, tokens, lattice, work)) is not None:
+            readings = repaired.readings(lambda each: self.read(each, topic, work, asking=False))
+            if readings is not None:
                 return self._put_right(text, repaired.phrase, readings, lattice, asking=asking)
-        parsed = Reading(self, text, plain, tokens, lattice, corrections, topic).parse(asking=asking)
-        if not asking or tokens[0].text not in self._takes_back or lattice.uncovered():
+        reading = Reading(self, text, plain, tokens, lattice, corrections, topic, work)
+        parsed = reading.parse(asking=asking)
+        if not asking or uncovered or tokens[0].text not in self._takes_back:
             return parsed
         sure = self._corrects(tokens)
-        return parsed if sure is None else corrected(self, text, plain, topic, parsed, sure)
+        return parsed if sure is None else corrected(self, text, plain, topic, parsed, work, sure=sure)
 
     @cached_property
     def _takes_back(self) -> frozenset[str]:
@@ -124,7 +149,7 @@ class Language:
         if asking and readings:
             return Ambiguous(text, self.data.messages["which"], tuple(readings))
         message = self.data.messages["not_understood"].format(phrases=f'"{phrase}"')
-        suggestions = self.suggestions.nearest(text, content_of(lattice))
+        suggestions = self.suggestions.nearest(text, content_of(lattice)) if asking else ()
         return Refused(text, "not_understood", message, (phrase,), (), suggestions)
 
     def sentence(self, actions: Sequence[Action]) -> str:
@@ -142,7 +167,11 @@ class Language:
     @cached_property
     def joiners(self) -> frozenset[str]:
         """The words that stand between one request and the next."""
-        joining = (w for w, senses in self._lexicon.phrases() if any(s.concept == SEPARATOR for s in senses))
+        joining = (
+            w
+            for w, senses in self._lexicon.phrases_of(SEPARATOR)
+            if any(s.concept == SEPARATOR for s in senses)
+        )
         return frozenset(words[0] for words in joining if len(words) == 1 and words[0].isalpha())
 
     def ways_to_say(self, concept: str) -> list[str]:

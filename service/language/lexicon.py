@@ -201,7 +201,16 @@ class Lexicon:
 
     def phrases(self) -> Iterator[tuple[Words, tuple[Sense, ...]]]:
         """Every phrase with its senses."""
-        stack: list[tuple[Node, Words]] = [(self._root, ())]
+        return self._below(self._root, ())
+
+    def phrases_of(self, concept: str) -> Iterator[tuple[Words, tuple[Sense, ...]]]:
+        """Every phrase that begins as one of a concept does: the tree of all takes a fifth of a second."""
+        for word in self.begins.get(concept, ()):
+            yield from self._below(self._root.next[word], (word,))
+
+    @staticmethod
+    def _below(node: Node, words: Words) -> Iterator[tuple[Words, tuple[Sense, ...]]]:
+        stack: list[tuple[Node, Words]] = [(node, words)]
         while stack:
             node, words = stack.pop()
             if node.senses is not None:

@@ -7,12 +7,14 @@ is bounded: a frame that does not fit within the bound does not fit.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from service.language.frames import Filled, Frame
 from service.language.lattice import GLUE, Edge
 from service.language.lexicon import SECOND
+from service.language.work import Work
 
 ALLOWS = "allows"
 """Concept of phrases that put a form in place: "would you mind" allows `ing`."""
@@ -43,6 +45,10 @@ class Stretch:
     negated: bool = False
     lenient: bool = False
     """Whether any frame that fits will do: nothing will be done anyway."""
+    work: Work = field(default_factory=Work)
+    """What the searches are paid from."""
+    longest: int = sys.maxsize
+    """No edge has more tokens."""
 
 
 @dataclass(slots=True)
@@ -77,6 +83,7 @@ def fill(frame: Frame, stretch: Stretch) -> tuple[Filled, int] | None:
             return None
         used.add(edge.sense.concept)
     pieces = _walk(search, stretch.start, open_needs, used, 0)
+    stretch.work.spend(search.steps)
     return None if pieces is None else (Filled(frame, search.slots), pieces)
 
 
@@ -86,7 +93,10 @@ def _usable(frame: Frame, stretch: Stretch) -> dict[int, list[tuple[Edge, bool]]
     accepted = frame.accepted
     reachable = {stretch.end}
     usable: dict[int, list[tuple[Edge, bool]]] = {}
+    nearest, longest = stretch.end, stretch.longest
     for at in range(stretch.end - 1, stretch.start - 1, -1):
+        if nearest - at > longest:
+            break  # nothing before it reaches over the gap
         here: list[tuple[Edge, bool]] = []
         for edge in stretch.edges.get(at, ()):
             _, end, (concept, _, form), _ = edge
@@ -107,6 +117,8 @@ def _usable(frame: Frame, stretch: Stretch) -> dict[int, list[tuple[Edge, bool]]
                 here.sort(key=lambda pair: (-pair[0].end, not pair[1]))
             usable[at] = here
             reachable.add(at)
+            nearest = at
+    stretch.work.spend(stretch.end - nearest + 1)
     return usable if stretch.start in reachable else None
 
 
@@ -114,6 +126,7 @@ def _walk(search: _Search, at: int, needs: list[frozenset[str]], used: set[str],
     """The number of pieces of the first path from `at` to the end that meets all needs, else None."""
     frame = search.frame
     if at == search.stretch.end:
+        search.stretch.work.spend(1)
         complete = (
             not needs
             and _parts_match(search.slots, search.parts)

@@ -26,8 +26,12 @@ from service.language.sentences import Sentences, Unsayable
 from service.language.suggestions import Suggestions
 from service.language.tokens import Token
 from service.language.topic import Topic
+from service.language.work import Work
 from service.language.wrappers import read_all
 from sim.actions import Add, Remove
+
+CHOICE_STEPS = 10
+"""What one action of a choice costs: it is checked, and said back."""
 
 MAX_UNPARSED = 8
 """How many stretches not understood a refusal names."""
@@ -44,7 +48,7 @@ class Tongue(Protocol):
     def suggestions(self) -> Suggestions:
         """The sayings that a refusal may offer."""
 
-    def read(self, text: str, topic: Topic, *, asking: bool) -> Parse:
+    def read(self, text: str, topic: Topic, work: Work, *, asking: bool) -> Parse:
         """Another sentence read: this one with a choice in the place of what was asked about."""
 
     def sentence(self, actions: Sequence[Action]) -> str:
@@ -91,9 +95,12 @@ class Reading:
         lattice: Lattice,
         corrections: tuple[Correction, ...],
         topic: Topic,
+        work: Work,
     ) -> None:
         self._language = language
         self._topic = topic
+        self._work = work
+        self._suggests = False
         self._unclear: list[Unclear] = []
         self._messages = language.data.messages
         self._text = text
@@ -103,7 +110,8 @@ class Reading:
         self._corrections = corrections
 
     def parse(self, *, asking: bool) -> Parse:
-        """The whole utterance."""
+        """The whole utterance; unless `asking`, a refusal suggests nothing."""
+        self._suggests = asking
         unknown = self._lattice.uncovered()
         if unknown:
             return self._refused(self._stretches(unknown), ())
@@ -136,7 +144,7 @@ class Reading:
 
     def _divide(self, start: int, end: int, moods: frozenset[str]) -> Divided:
         """The clauses of tokens `[start, end)`, with these forms in place."""
-        divider = Divider(self._language.frames, self._lattice, self._language.data.vague, moods)
+        divider = Divider(self._language.frames, self._lattice, self._language.data.vague, moods, self._work)
         return divider.divide(fragments(self._lattice, start, end), None if start else self._topic.kind)
 
     def _more_of_what(self, actions: tuple[Action, ...]) -> Parse:
@@ -167,6 +175,7 @@ class Reading:
 
     def _choice(self, values: list[dict[str, Any]]) -> Choice:
         """Actions to choose, with a sentence that means them."""
+        self._work.spend(CHOICE_STEPS * len(values))
         actions = load(values)
         return Choice(self._language.sentence(actions), actions)
 
@@ -177,7 +186,9 @@ class Reading:
             tried = unclear.candidates or (lanes if unclear.lane else ("vehicle-1",))
             choices: list[Choice] = []
             for candidate in tried:
-                parsed = self._language.read(self._instead(unclear, candidate), self._topic, asking=False)
+                parsed = self._language.read(
+                    self._instead(unclear, candidate), self._topic, self._work, asking=False
+                )
                 if isinstance(parsed, Understood) and all(c.actions != parsed.actions for c in choices):
                     choices.append(Choice(parsed.text.strip(), parsed.actions))
             if len(choices) > 1:
@@ -218,7 +229,7 @@ class Reading:
             except KeyError:
                 continue
             whole = self._plain[:start] + sentence + self._plain[end:]
-            parsed = self._language.read(whole, self._topic, asking=False)
+            parsed = self._language.read(whole, self._topic, self._work, asking=False)
             if isinstance(parsed, Understood) and all(c.actions != parsed.actions for c in choices):
                 choices.append(Choice(whole.strip(), parsed.actions))
         if len(choices) < 2:
@@ -263,7 +274,9 @@ class Reading:
         unparsed: tuple[str, ...] = (),
         understood: tuple[str, ...] = (),
     ) -> Refused:
-        suggestions = self._language.suggestions.nearest(self._plain, content_of(self._lattice))
+        suggestions: tuple[str, ...] = ()
+        if self._suggests:
+            suggestions = self._language.suggestions.nearest(self._plain, content_of(self._lattice))
         return Refused(self._text, reason, message, unparsed, understood, suggestions)
 
     def _stretches(self, unknown: list[int]) -> list[str]:

@@ -16,6 +16,7 @@ from typing import Any, NamedTuple, cast
 
 from service.language.parse_types import Parse, Understood
 from service.language.topic import Phrases, Topic
+from service.language.work import Work
 
 MOST = 512
 """How many sentences are remembered, and how long one may be in letters."""
@@ -48,21 +49,21 @@ class _Noting:
 class Remembered:
     """A reader with a memory of the sentences it has understood. For any thread."""
 
-    def __init__(self, read: Callable[[str, Topic], Parse]) -> None:
+    def __init__(self, read: Callable[[str, Topic, Work], Parse]) -> None:
         """`read`: looks at a topic through its attributes, and at nothing else that could change."""
         self._read = read
         self._known: OrderedDict[str, _Read] = OrderedDict()
         self._changing = Lock()
 
-    def parse(self, text: str, topic: Topic) -> Parse:
-        """What a sentence means."""
+    def parse(self, text: str, topic: Topic, work: Work) -> Parse:
+        """What a sentence means; one that is remembered costs no work."""
         known = self._known.get(text)
         if known is not None and all(_same(getattr(topic, name), seen) for name, seen in known.seen.items()):
             return known.meant
         if len(text) > LONGEST:
-            return self._read(text, topic)
+            return self._read(text, topic, work)
         noting = _Noting(topic)
-        meant = self._read(text, cast(Topic, noting))
+        meant = self._read(text, cast(Topic, noting), work)
         if isinstance(meant, Understood) and _VALUES.isdisjoint(noting.seen):
             with self._changing:
                 self._known[text] = _Read(meant, noting.seen)

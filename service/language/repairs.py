@@ -13,13 +13,11 @@ from collections.abc import Callable, Iterator, Sequence
 
 from service.actions import Action
 from service.language.lattice import GLUE, NUMBER, Edge, Lattice
-from service.language.noun_phrases import QUANTITY
+from service.language.makes import REPAIR, SKIPPED, Make, ends_of_pieces, steps_of
 from service.language.parse_types import Choice, Understood
-from service.language.paths import ALLOWS, SEPARATOR, SPEAKER
+from service.language.paths import SEPARATOR
 from service.language.tokens import Token
-
-REPAIR = "repair"
-"""Concept of words that take back what was just said; their value says when they do."""
+from service.language.work import Work
 
 ALWAYS = "always"
 """Value of those that do wherever they stand: "I mean"."""
@@ -33,13 +31,9 @@ DROPPED = "dropped"
 NUMBERS = "numbers"
 """That of words that take back only where a number follows: "no three"."""
 
-MAX_PIECES = 6
-"""Pieces of the longest stretch that something is said instead of; longer ones are requests of their own."""
-
 MAX_TRIED = 24
 """Places a correction is tried in; a sentence has fewer."""
 
-_SKIPPED = frozenset((GLUE, SEPARATOR, ALLOWS, SPEAKER, REPAIR, "interjection", "tag"))
 _ALIKE = (
     ("add", "remove", "set_count", "scenario"),
     ("pause", "resume", "reset", "step", "rewind", "undo", "redo", "load"),
@@ -50,17 +44,15 @@ _ALIKE = (
 )
 """Actions that are about the same, so that one may be said instead of another."""
 
-Make = tuple[str, ...]
-"""What the pieces of a stretch are, one after the other."""
-
 Read = Callable[[str], object]
 
 
 class Repaired:
     """A sentence in which something was taken back."""
 
-    def __init__(self, plain: str, tokens: Sequence[Token], lattice: Lattice, edge: Edge) -> None:
+    def __init__(self, plain: str, tokens: Sequence[Token], lattice: Lattice, edge: Edge, work: Work) -> None:
         """`edge`: the words that take back."""
+        self._work = work
         self._plain = plain
         self._tokens = tokens
         self._lattice = lattice
@@ -72,13 +64,13 @@ class Repaired:
         self._tail = min(cuts, default=lattice.size)
 
     @classmethod
-    def found(cls, plain: str, tokens: Sequence[Token], lattice: Lattice) -> Repaired | None:
+    def found(cls, plain: str, tokens: Sequence[Token], lattice: Lattice, work: Work) -> Repaired | None:
         """The first thing taken back with something in its place, if any."""
         if REPAIR not in lattice.concepts:
             return None
         edges = sorted((e for e in lattice.all() if e.concept == REPAIR), key=lambda e: (e.start, -e.end))
         for edge in edges:
-            one = cls(plain, tokens, lattice, edge)
+            one = cls(plain, tokens, lattice, edge, work)
             if edge.sense.value == NUMBERS and not one._begins_with_number():
                 continue
             if edge.sense.value == DROPPED and one._says_something(one._again, one._tail):
@@ -105,8 +97,9 @@ class Repaired:
         before = self._written(0, self._end)
         last = self._lattice.size
         ends = range(last, self._again, -1) if self._tail == last else (self._tail,)
+        said = ends_of_pieces(steps_of(self._lattice), self._again, self._work)
         for end in ends:
-            if not self._kinds(self._again, end):
+            if end not in said:
                 continue
             text = f"{before} {self._written(end, self._lattice.size)}".strip(" ,;")
             parsed = read(text)
@@ -116,15 +109,16 @@ class Repaired:
 
     def _in_place(self, read: Read) -> list[Choice]:
         """Those with a part of the same make replaced, in the last request before any other."""
-        kind = self._kinds(self._again, self._tail)
-        if not kind:
+        steps = steps_of(self._lattice)
+        if self._tail not in ends_of_pieces(steps, self._again, self._work):
             return []
+        make = Make(steps, self._again, self._tail, self._work)
         start = self._last_part()
         as_said = read(self._written(0, self._end))
         for begin in dict.fromkeys((start, 0)):
             found: list[Choice] = []
             alike: list[Choice] = []
-            for at, end in self._places(begin, kind):
+            for at, end in self._places(begin, make):
                 text = self._with(at, end)
                 parsed = read(text)
                 same = isinstance(as_said, Understood) and isinstance(parsed, Understood)
@@ -154,29 +148,15 @@ class Repaired:
             return None
         return bool(_groups(before.actions) & _groups(after.actions))
 
-    def _places(self, begin: int, kind: frozenset[Make]) -> Iterator[tuple[int, int]]:
-        """Stretches of the same make."""
+    def _places(self, begin: int, make: Make) -> Iterator[tuple[int, int]]:
+        """Stretches of the same make; a longer one from the same token has only fillers more."""
         tried = 0
         for at in range(begin, self._end):
-            for end in range(at + 1, self._end + 1):
-                if self._kinds(at, end) & kind:
-                    tried += 1
-                    if tried > MAX_TRIED:
-                        return
-                    yield at, end
-                    break  # a longer one has only fillers more
-
-    def _kinds(self, at: int, end: int) -> frozenset[Make]:
-        """What the pieces of a stretch can be, one after the other; fillers are no pieces."""
-        known: dict[int, set[Make]] = {at: {()}}
-        for here in range(at, end):
-            for made in known.pop(here, ()):
-                for edge in self._lattice.edges[here]:
-                    if edge.end > end or len(made) == MAX_PIECES:
-                        continue
-                    more = made if edge.concept in _SKIPPED else (*made, _family(edge.concept))
-                    known.setdefault(edge.end, set()).add(more)
-        return frozenset(made for made in known.get(end, ()) if made)
+            if (end := make.first_like(at, self._end)) is not None:
+                tried += 1
+                if tried > MAX_TRIED:
+                    return
+                yield at, end
 
     def _with(self, at: int, end: int) -> str:
         """The whole text with what was said instead in the place of a stretch."""
@@ -218,7 +198,7 @@ class Repaired:
         return any(edge.concept == NUMBER for edge in after)
 
     def _says_something(self, start: int, end: int) -> bool:
-        return any(edge.concept not in _SKIPPED for edge in self._lattice.between(start, end))
+        return any(edge.concept not in SKIPPED for edge in self._lattice.between(start, end))
 
     def _written(self, start: int, end: int) -> str:
         return self._plain[self._tokens[start].start : self._tokens[end - 1].end] if start < end else ""
@@ -228,15 +208,6 @@ def _as_many(found: list[Choice], as_said: object) -> list[Choice]:
     """Those that are as many requests as were said before, if there are such; else all."""
     many = len(as_said.actions) if isinstance(as_said, Understood) else 0
     return [choice for choice in found if len(choice.actions) == many] or found
-
-
-def _family(concept: str) -> str:
-    """What a concept may stand in for another as."""
-    if concept in (NUMBER, QUANTITY):
-        return QUANTITY
-    if concept.startswith("noun."):
-        return concept.rpartition(".")[0]
-    return "v" if concept.startswith("v.") else concept.removesuffix("_bare")
 
 
 def _groups(actions: Sequence[Action]) -> set[object]:

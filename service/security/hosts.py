@@ -16,6 +16,9 @@ from urllib.parse import urlsplit
 _LONGEST = 255
 """Letters of a name that is remembered: it is asked under the same few again and again."""
 
+_OWN_MARKS = frozenset(("same-origin", "none"))
+"""What browsers mark requests with that this service's own page makes, or a person by typing."""
+
 _LOOPBACK = frozenset(("localhost", "127.0.0.1", "::1"))
 
 
@@ -53,6 +56,15 @@ def same_site(origin: str | None, host: str | None) -> bool:
         return urlsplit(origin).netloc.lower() == (host or "").lower() != ""
     except ValueError:
         return False
+
+
+def marked_foreign(fetch_site: str | None) -> bool:
+    """Whether a browser marks a request as begun by a page of another site (`Sec-Fetch-Site`).
+
+    Browsers alone send that header, and no page can set it. What a person types has the mark `none`. Another
+    port of this machine is `same-site`, and another site all the same.
+    """
+    return fetch_site is not None and fetch_site.strip().lower() not in _OWN_MARKS
 
 
 def _name(host: str) -> str | None:

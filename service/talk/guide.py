@@ -7,7 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
+
+from anyio import from_thread, to_thread
 
 from service.actions import Action, Ask
 from service.language import Language as Grammar
@@ -22,6 +24,9 @@ from sim.actions import Adjust, Set
 from sim.config import Config
 from sim.edit_error import EditError
 from sim.settings import setting
+
+MOST_AT_ONCE = 40
+"""Characters of the longest prefix that is completed where it came in: each completion is read as a whole."""
 
 EXAMPLES = 6
 """How many examples an intent is shown with."""
@@ -64,14 +69,24 @@ class Guide:
 
     def completions(self, prefix: str, session: Session | None, topic: Topic, taught: list[str]) -> list[str]:
         """Whole sentences that begin with `prefix` and would work, in the session if one is given."""
+        extra = [*taught, *self._by_id(topic)]
+        return self._completer.complete(prefix, topic, extra=extra, possible=partial(_possible, session))
+
+    async def completed(
+        self, prefix: str, session: Session | None, topic: Topic, taught: list[str]
+    ) -> list[str]:
+        """`completions`; those of a longer prefix are looked for in a thread, and the session asked here."""
+        if len(prefix) <= MOST_AT_ONCE:
+            return self.completions(prefix, session, topic, taught)
+        extra = [*taught, *self._by_id(topic)]
 
         def possible(actions: tuple[Action, ...]) -> bool:
-            if session is not None:
-                return session.possible(actions) and _settable(actions, session.run.config, session.pace)
-            return all(refusal(action) is None for action in actions)
+            return from_thread.run_sync(_possible, session, actions)
 
-        extra = [*taught, *self._by_id(topic)]
-        return self._completer.complete(prefix, topic, extra=extra, possible=possible)
+        def complete() -> list[str]:
+            return self._completer.complete(prefix, topic, extra=extra, possible=possible)
+
+        return await to_thread.run_sync(complete)
 
     def _by_id(self, topic: Topic) -> Iterator[str]:
         """What may be said of the things that were spoken of."""
@@ -91,6 +106,13 @@ class Guide:
         grammar = self._grammar
         made = list(sentences(grammar.sentences)) if grammar.data.sentences else []
         return Completer(grammar, [*made, *self._sayings])
+
+
+def _possible(session: Session | None, actions: tuple[Action, ...]) -> bool:
+    """Whether actions would work now, in the session if one is given."""
+    if session is not None:
+        return session.possible(actions) and _settable(actions, session.run.config, session.pace)
+    return all(refusal(action) is None for action in actions)
 
 
 def _name(action: Action) -> str:

@@ -10,10 +10,12 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Literal
 
+from anyio import to_thread
+
 from service import actions as contract
 from service.actions import Action, Advise, Ask, Forget, Hide, Pause, Redo, Resume, Show, Step, Teach, Undo
 from service.language.parse_types import Ambiguous as AmbiguousParse
-from service.language.parse_types import Correction, Refused, Understood
+from service.language.parse_types import Correction, Parse, Refused, Understood
 from service.language.references import heard
 from service.language.sentences import Unsayable
 from service.language.topic import ALONE, Topic
@@ -43,6 +45,10 @@ UNASKED = (
 stays in the session and can be taken back or done again. Never names, phrases, or time itself."""
 
 MOST_SUGGESTED = 3
+
+MOST_AT_ONCE = 120
+"""Characters of the longest text that is read where it came in. Longer ones may take some 20 ms and more, in
+which ticks would wait, so a thread reads them."""
 
 Source = Literal["grammar", "llm", "typed"]
 
@@ -101,11 +107,17 @@ class Listener:
         except (UndescribableError, Unsayable):
             return None
 
-    def foresee(self, text: str, session: Session, code: str = DEFAULT) -> Preview | None:
+    async def foresee(self, text: str, session: Session, code: str = DEFAULT) -> Preview | None:
         """What a sentence would do now; None for one that is empty, or too long to be heard."""
         if not text.strip() or len(text) > self._most_chars:
             return None
-        return preview(heard(self.languages[code].parse, text, self.topic(session, code)), session)
+        return preview(await self._read(text, session, code), session)
+
+    async def _read(self, text: str, session: Session | None, code: str) -> Parse:
+        parse, topic = self.languages[code].parse, self.topic(session, code)
+        if len(text) <= MOST_AT_ONCE:
+            return heard(parse, text, topic)
+        return await to_thread.run_sync(heard, parse, text, topic)
 
     async def hear(
         self, text: str, session: Session | None = None, code: str = DEFAULT, field: str = "text"
@@ -115,7 +127,7 @@ class Listener:
             message = f"has {len(text)} characters; at most {self._most_chars} are read"
             raise Invalid("The text is too long.", errors=[FieldProblem(field, message)])
         with part("parse"):
-            parse = heard(self.languages[code].parse, text, self.topic(session, code))
+            parse = await self._read(text, session, code)
         match parse:
             case Understood():
                 return Heard(text, parse.actions, parse.corrections, language=code, supposes=parse.supposes)

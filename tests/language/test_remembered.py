@@ -12,6 +12,7 @@ from service.language.evaluate import read_labelled
 from service.language.parse_types import Parse, Refused
 from service.language.remembered import LONGEST, MOST, Remembered
 from service.language.topic import ALONE, Phrases, Topic
+from service.language.work import Work
 from sim.actions import Where
 from tests.language.beside import HERE
 
@@ -38,8 +39,9 @@ class Reader:
     def __init__(self) -> None:
         self.read = 0
 
-    def __call__(self, text: str, topic: Topic) -> Parse:
+    def __call__(self, text: str, topic: Topic, work: Work) -> Parse:
         self.read += 1
+        work.spend(1)
         if text == "nonsense":
             return Refused(text, "not_understood", "no")
         for name in text.split():
@@ -66,7 +68,7 @@ class Reader:
 def test_it_is_read_anew_where_what_was_looked_at_is_another(text: str, topic: Topic, reads: int) -> None:
     reader = Reader()
     remembered = Remembered(reader)
-    assert remembered.parse(text, ALONE) == remembered.parse(text, topic)
+    assert remembered.parse(text, ALONE, Work()) == remembered.parse(text, topic, Work())
     assert reader.read == reads
 
 
@@ -74,10 +76,10 @@ def test_the_longest_unsaid_are_forgotten() -> None:
     reader = Reader()
     remembered = Remembered(reader)
     for number in range(MOST + 1):
-        remembered.parse(f"kind {number}", ALONE)
-    remembered.parse(f"kind {MOST}", ALONE)
+        remembered.parse(f"kind {number}", ALONE, Work())
+    remembered.parse(f"kind {MOST}", ALONE, Work())
     assert reader.read == MOST + 1
-    remembered.parse("kind 0", ALONE)
+    remembered.parse("kind 0", ALONE, Work())
     assert reader.read == MOST + 2
 
 
@@ -86,4 +88,4 @@ def test_whatever_was_said_before_a_sentence_means_what_it_means(language: Langu
     said += ["remove it", "again", "two more", "add a car there", "go back to monday", "remove the last car"]
     for text in said:
         for topic in (*TOPICS, *TOPICS):
-            assert language.parse(text, topic) == language.read(text, topic, asking=True)
+            assert language.parse(text, topic) == language.read(text, topic, Work(), asking=True)

@@ -71,6 +71,27 @@ ATTEMPTS = (
         ADD,
     ),
     Attempt("sandboxed page", "POST", SESSIONS, (403, "cross-site"), BEARER | {"Origin": "null"}, {}),
+    Attempt(
+        "a cross-site picture",
+        "GET",
+        SESSIONS + "/{id}/frame",
+        (403, "cross-site"),
+        BEARER | {"Sec-Fetch-Site": "cross-site", "Sec-Fetch-Mode": "no-cors"},
+    ),
+    Attempt(
+        "a long sentence to complete, from another port",
+        "GET",
+        "/api/v1/language?prefix=add%20two%20cars,%20I%20mean%20three",
+        (403, "cross-site"),
+        BEARER | {"Sec-Fetch-Site": "same-site"},
+    ),
+    Attempt(
+        "a stream for another page",
+        "GET",
+        SESSIONS + "/{id}/events/stream",
+        (403, "cross-site"),
+        BEARER | {"Origin": "http://evil.example"},
+    ),
     Attempt("a session guessed", "GET", f"{SESSIONS}/1/state", (404, "unknown-session")),
     Attempt("traversal in an id", "GET", f"{SESSIONS}/..%2f..%2fetc/state", (404, "not-found")),
     Attempt(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import re
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from typing import Any
@@ -195,6 +196,59 @@ async def test_our_own_page_may() -> None:
         assert (
             await client.post(SESSIONS, json={}, headers={"Origin": "http://127.0.0.1"})
         ).status_code == 201
+
+
+FOREIGN = (
+    {"Sec-Fetch-Site": "cross-site"},
+    {"Sec-Fetch-Site": "same-site"},
+    {"Sec-Fetch-Site": "Cross-Site", "Sec-Fetch-Mode": "no-cors", "Sec-Fetch-Dest": "image"},
+    {"Sec-Fetch-Site": "cross-site", "Sec-Fetch-Mode": "navigate", "Sec-Fetch-Dest": "document"},
+    {"Origin": "http://evil.example"},
+    {"Origin": "http://127.0.0.1:9", "Sec-Fetch-Site": "same-site"},
+    {"Origin": "null"},
+)
+OWN: tuple[dict[str, str], ...] = (
+    {},
+    {"Sec-Fetch-Site": "same-origin", "Sec-Fetch-Mode": "cors"},
+    {"Sec-Fetch-Site": "none", "Sec-Fetch-Mode": "navigate"},
+    {"Origin": "http://127.0.0.1", "Sec-Fetch-Site": "same-origin"},
+)
+OPEN = ("/healthz", "/readyz")
+
+
+@pytest.mark.parametrize("headers", FOREIGN)
+async def test_pages_of_other_sites_have_nothing_asked(headers: dict[str, str]) -> None:
+    async with asked() as client:
+        document = (await client.get("/openapi.json")).json()["paths"]
+        asking = {path: item["get"] for path, item in document.items() if "get" in item}
+        assert len(asking) > 20
+        for path, operation in asking.items():
+            # No such session: whatever is let in is answered at once, streams too.
+            url = re.sub(r"\{[^}]*\}", "none", path)
+            answer = await client.get(url, headers=headers)
+            if path in OPEN:
+                assert answer.status_code == 200, path
+                assert "403" not in operation["responses"], path
+                continue
+            assert_refused(answer, 403, "cross-site")
+            assert "403" in operation["responses"], path
+            assert (await client.head(url, headers=headers)).status_code == 403, path
+
+
+@pytest.mark.parametrize("headers", OWN)
+async def test_our_own_page_scripts_and_whoever_types_may_ask(headers: dict[str, str]) -> None:
+    async with asked() as client:
+        document = (await client.get("/openapi.json")).json()["paths"]
+        for path in (path for path, item in document.items() if "get" in item):
+            answer = await client.get(re.sub(r"\{[^}]*\}", "none", path), headers=headers)
+            assert answer.status_code in (200, 404, 422), path
+
+
+async def test_links_from_anywhere_lead_to_the_page() -> None:
+    link = {"Sec-Fetch-Site": "cross-site", "Sec-Fetch-Mode": "navigate", "Sec-Fetch-Dest": "document"}
+    async with asked() as client:
+        for path in ("/", "/?session=1&tick=3", "/docs"):
+            assert (await client.get(path, headers=link)).status_code == 200, path
 
 
 # Sockets

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from service import actions as contract
 from service.language.complete import GAPS, MOST, TRIED
 from service.language.topic import ALONE, Topic
+from service.language.work import Work
 from service.sessions.availability import refusal
 from service.talk.guide import EXAMPLES, Guide
 from tests.talk.conftest import Json, Talk, english
@@ -187,9 +188,9 @@ class Counting:
     def __getattr__(self, name: str) -> Any:
         return getattr(self.language, name)
 
-    def parse(self, text: str, topic: Topic = ALONE) -> Any:
+    def parse(self, text: str, topic: Topic = ALONE, work: Work | None = None) -> Any:
         self.parses += 1
-        return self.language.parse(text, topic)
+        return self.language.parse(text, topic, work)
 
 
 @pytest.mark.parametrize(
