@@ -219,7 +219,7 @@ class Batch:
         return found
 
     def renew(self, lanes: NDArray[np.bool_], seeds: Sequence[int | None] | None = None) -> None:
-        """Begin the next episode in the chosen lanes (shape: lanes), or the first of a seed where one is given.
+        """Begin the next episode in the chosen lanes (shape: lanes), or the first of a seed that is given.
 
         Where a next road must be drivable and none is found, the present one again (`sim.run.next_episode`).
         Raises `GenerationError` where none is found for a seed, and `ConfigError` for a seed that is none.

@@ -1,7 +1,7 @@
 """Actions: which there are, checked, and which of them can be taken now.
 
-A move is masked out when it leads off the road or would certainly end in a collision in the coming tick. Where every
-move would, and once the episode has ended, to stay is left, so that a mask always has one action to choose.
+A move is masked out when it leads off the road or would certainly end in a collision in the coming tick.
+Where every move would, and once the episode has ended, to stay is left, so that every mask has an action.
 """
 
 from __future__ import annotations

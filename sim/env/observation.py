@@ -1,13 +1,14 @@
 """What a learner is shown, the same for one world and for many.
 
-*Planes* (uint8, 0 or 1): potholes, barriers, movers heading right, movers heading left, pedestrians, the vehicle,
-and in every cell whether pedestrians step in this tick. With courtesy 0 the next observation follows from the
-whole road's planes and the action alone.
+*Planes* (uint8, 0 or 1): potholes, barriers, movers heading right, movers heading left, pedestrians, the
+vehicle, and in every cell whether pedestrians step in this tick. With courtesy 0 the next observation follows
+from the whole road's planes and the action alone.
 
 A *window* is the part around the vehicle, with an eighth plane: cells that are not on the road.
 
 An *image* (uint8, 0 to 255) holds the same in three channels of square blocks of pixels, large enough for the
-convolutional networks of Stable-Baselines3 (36 pixels a side): red what stays, green what moves, blue the vehicle.
+convolutional networks of Stable-Baselines3 (36 pixels a side): red what stays, green what moves, blue the
+vehicle.
 """
 
 from __future__ import annotations
@@ -134,7 +135,7 @@ class Observer:
         return -(-MIN_IMAGE_PX // min(self.shown))
 
     def of_planes(self, planes: Planes, vehicles: NDArray[np.int64]) -> Planes:
-        """Every world's observation (shape: worlds, then as in `space`) from its planes and vehicle's cell."""
+        """Every world's observation (shape: worlds, then `space`) from its planes and its vehicle's cell."""
         cells = planes if self.window is None else self.window.cut(planes, vehicles)
         if self.kind == "planes":
             return cells

@@ -6,8 +6,8 @@ A tick is worth
 
 where the potential Φ of a state is `progress_reward` times the share of the rows that have been driven, and 0
 once the vehicle has arrived or crashed. This is the potential-based shaping of Ng, Harada & Russell ("Policy
-invariance under reward transformations", ICML 1999): which policy is best for a learner of this discount is the
-same with any `progress_reward`, since what was paid for rows is taken back at the end of the episode. A
+invariance under reward transformations", ICML 1999): which policy is best for a learner of this discount is
+the same with any `progress_reward`, since what was paid for rows is taken back when the episode terminates. A
 truncated episode keeps it: its last state is one that a learner bootstraps from.
 
 By default waiting until the time is up costs 2, twice a crash, so that standing still is never the best.

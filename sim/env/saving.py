@@ -1,8 +1,8 @@
 """States of environments as JSON values and back, exactly: the same continuation, action for action.
 
 What is saved: the worlds, how far their streams are, and the environment's own random generator, which draws
-seeds that nobody gave. What is not: the action space's generator, and how worlds are shown and paid. A state is
-taken by an environment of the same form (one or many), number and configuration, and by no other.
+seeds that nobody gave. What is not: the action space's generator, and how worlds are shown and paid. A state
+is taken by an environment of the same form (one or many), number and configuration, and by no other.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ def of_run(run: Run, env: Seeded) -> dict[str, Any]:
     """The state of one world."""
     packer = Packer()
     number = packer.run(run)
-    return {"format": ONE, "run": number, **packer.packed(), **_random_of(env)}
+    return {"format": ONE, "run": number, **_plain(packer), **_random_of(env)}
 
 
 def to_run(state: Mapping[str, Any], env: Seeded) -> Run:
@@ -53,11 +53,11 @@ def to_run(state: Mapping[str, Any], env: Seeded) -> Run:
     _check_format(state, ONE)
     try:
         run = Unpacker(state).runs[state["run"]]
-        random = read(state["random"])
+        random, seed = read(state["random"]), int(state["random_seed"])
     except (TypeError, LookupError, ValueError) as error:
         raise _unreadable(error) from error
     _check_config(run.config, env.config)
-    _seed(env, random, state)
+    env.np_random, env._np_random_seed = random, seed
     return run
 
 
@@ -69,7 +69,7 @@ def of_batch(batch: Batch, env: Seeded) -> dict[str, Any]:
     return {
         "format": MANY,
         "lanes": len(batch),
-        "configs": packer.packed()["configs"],
+        "configs": _plain(packer)["configs"],
         "arrays": {name: _packed(array) for name, array in arrays.items()},
         "digest": _digest(arrays),
         **_random_of(env),
@@ -82,18 +82,28 @@ def to_batch(state: Mapping[str, Any], env: Seeded, lanes: int) -> Batch:
     try:
         (config,) = Unpacker({**Packer().packed(), "configs": state["configs"]}).configs
         arrays = {name: _unpacked(array) for name, array in state["arrays"].items()}
-        random = read(state["random"])
+        random, seed, count = read(state["random"]), int(state["random_seed"]), state["lanes"]
         if _digest(arrays) != state["digest"]:
             raise ValueError("the worlds are not those that were written")
     except (TypeError, LookupError, ValueError, zlib.error) as error:
         raise _unreadable(error) from error
-    if state["lanes"] != lanes:
-        raise ValueError(f"the state is of {state['lanes']} environments, and here are {lanes}")
+    if count != lanes:
+        raise ValueError(f"the state is of {count} environments, and here are {lanes}")
     _check_config(config, env.config)
     batch = Batch([env.config] * lanes, after="stop")
     batch.restore(arrays)
-    _seed(env, random, state)
+    env.np_random, env._np_random_seed = random, seed
     return batch
+
+
+def _plain(packer: Packer) -> dict[str, Any]:
+    """What was packed, with the lists that a JSON reader makes of tuples."""
+    packed = packer.packed()
+    configs = [
+        {name: list(value) if isinstance(value, tuple) else value for name, value in config.items()}
+        for config in packed["configs"]
+    ]
+    return {**packed, "configs": configs}
 
 
 def _check_format(state: Mapping[str, Any], form: str) -> None:
@@ -124,11 +134,6 @@ def _unreadable(error: Exception) -> ValueError:
 def _random_of(env: Seeded) -> dict[str, Any]:
     random = env.np_random
     return {"random": written(random), "random_seed": str(env._np_random_seed)}
-
-
-def _seed(env: Seeded, random: np.random.Generator, state: Mapping[str, Any]) -> None:
-    env.np_random = random
-    env._np_random_seed = int(state["random_seed"])
 
 
 def _packed(array: NDArray[Any]) -> dict[str, Any]:

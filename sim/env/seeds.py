@@ -1,7 +1,7 @@
 """Seeds as Gymnasium takes them, and the state of a random generator as a JSON value.
 
-A seed up to 2⁵³ − 1 is the seed of the road's configuration as it is. A larger one is folded: its road is that
-of the 53 highest bits of the first 64-bit word that `numpy.random.SeedSequence` makes of it.
+A seed up to 2⁵³ − 1 is the seed of the road's configuration as it is. A larger one is folded: its road is
+that of the 53 highest bits of the first 64-bit word that `numpy.random.SeedSequence` makes of it.
 """
 
 from __future__ import annotations

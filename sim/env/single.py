@@ -137,7 +137,7 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
         return frame(self._begun(), self.render_mode)
 
     def get_state(self) -> dict[str, Any]:
-        """Everything that the continuation hangs on, as a JSON value. Raises `RuntimeError` before `reset`."""
+        """All that the continuation hangs on, as a JSON value. Raises `RuntimeError` before `reset`."""
         return saving.of_run(self._begun(), self)
 
     def set_state(self, state: Mapping[str, Any]) -> tuple[NDArray[np.uint8], dict[str, Any]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, Final
+from typing import Any, Final, cast
 
 import numpy as np
 from gymnasium import spaces
@@ -36,8 +36,8 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
     """As `RoadEnv`, many times, and to the same figures as Gymnasium's own loop over as many of them.
 
     What follows the end of an episode is Gymnasium's `autoreset_mode`. `NEXT_STEP`: the lane's next step
-    ignores the action and begins the next episode. `SAME_STEP`: the next episode begins at once, the end is in
-    `info["final_obs"]` and `info["final_info"]`. `DISABLED`: `reset(options={"reset_mask": …})` begins it.
+    ignores the action and begins the next episode. `SAME_STEP`: the next episode begins at once, the end is
+    in `info["final_obs"]` and `info["final_info"]`. `DISABLED`: `reset(options={"reset_mask": …})` begins it.
     """
 
     metadata = {  # noqa: RUF012 - Gymnasium's form
@@ -103,7 +103,7 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
         """
         chosen = self._chosen(reset_options(options, ["reset_mask"]))
         seeds = self._seeds(seed)
-        if not isinstance(seed, Iterable):
+        if not _of_each(seed):
             super().reset(seed=None if seed is None else checked_seed(seed))
         batch = self._batch
         if batch is None and not chosen.all():
@@ -125,7 +125,7 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
     ) -> tuple[Observations, NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
         """One tick of every lane. Raises `ValueError` for actions that are none.
 
-        Raises `RuntimeError` before the first `reset`, and with autoreset disabled while an episode has ended.
+        Raises `RuntimeError` before the first `reset`, and with autoreset disabled once an episode has ended.
         """
         batch, moves = self._begun(), checked_actions(actions, self.num_envs)
         live = batch.outcomes == RUNNING
@@ -162,7 +162,7 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
         return tuple(frame(self._run(batch, lane), self.render_mode) for lane in range(self.num_envs))
 
     def get_state(self) -> dict[str, Any]:
-        """Everything that the continuation hangs on, as a JSON value. Raises `RuntimeError` before `reset`."""
+        """All that the continuation hangs on, as a JSON value. Raises `RuntimeError` before `reset`."""
         return saving.of_batch(self._begun(), self)
 
     def set_state(self, state: Mapping[str, Any]) -> tuple[Observations, dict[str, Any]]:
@@ -188,10 +188,10 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
         """The configuration's seed of every lane."""
         if seed is None:
             return [None] * self.num_envs
-        if not isinstance(seed, Iterable):
+        if not _of_each(seed):
             first = checked_seed(seed)
             return [folded(first + lane) for lane in range(self.num_envs)]
-        given = list(seed)
+        given = list(cast(Iterable[int | None], seed))
         if len(given) != self.num_envs:
             raise ValueError(f"{self.num_envs} seeds are wanted, one for each environment, not {len(given)}")
         return [None if each is None else folded(checked_seed(each)) for each in given]
@@ -204,7 +204,7 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
         if not isinstance(mask, np.ndarray) or mask.dtype != np.bool_:
             raise TypeError(f"reset_mask is an array of bool, not {mask!r}")
         if mask.shape != (self.num_envs,) or not mask.any():
-            raise ValueError(f"reset_mask has the shape ({self.num_envs},) and is true somewhere, not {mask!r}")
+            raise ValueError(f"reset_mask has the shape ({self.num_envs},) and a true value, not {mask!r}")
         return mask.copy()
 
     def _observations(self, batch: Batch) -> Observations:
@@ -252,3 +252,8 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
             stuck=int(totals.stuck[lane]),
         )
         return Run(batch.configs[lane], batch.world(lane), metrics=counted)
+
+
+def _of_each(seed: object) -> bool:
+    """Whether these are seeds, one for each lane, and not one for all."""
+    return isinstance(seed, Iterable) and not isinstance(seed, str | bytes)
