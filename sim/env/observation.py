@@ -71,7 +71,7 @@ class Window:
     @staticmethod
     def of(parts: Sequence[int]) -> Window:
         """From (ahead, behind, side). Raises `ValueError`."""
-        if isinstance(parts, str) or not isinstance(parts, Sequence) or len(parts) != 3:
+        if not isinstance(parts, tuple | list) or len(parts) != 3:
             raise ValueError(f"window is (rows ahead, rows behind, columns on either side), not {parts!r}")
         names = ("rows ahead", "rows behind", "columns on either side")
         return Window(
@@ -94,12 +94,13 @@ class Window:
         padded[:, :count, road[0], road[1]] = planes
         padded[:, STEPPING] = planes[:, STEPPING, :1, :1]
         row, column = vehicles // columns, vehicles % columns
-        return padded[
+        cut: Planes = padded[
             np.arange(worlds)[:, None, None, None],
             np.arange(count + 1)[None, :, None, None],
             (row[:, None] + np.arange(high))[:, None, :, None],
             (column[:, None] + np.arange(wide))[:, None, None, :],
         ]
+        return cut
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,7 +120,7 @@ class Observer:
         return Observer(one_of("observation", kind, KINDS), cut, shown)
 
     @property
-    def space(self) -> spaces.Box:
+    def space(self) -> spaces.Box[np.uint8]:
         """The space of one world's observation."""
         rows, columns = self.shown
         if self.kind == "planes":

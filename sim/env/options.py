@@ -38,20 +38,22 @@ def number(name: str, value: object, low: float = 0.0, high: float = float("inf"
     """A finite number from `low` to `high`. Raises `ValueError`."""
     if isinstance(value, bool) or not isinstance(value, Real) or not isfinite(value):
         raise ValueError(f"{name} must be a finite number, not {value!r}")
-    if not low <= value <= high:
+    found = float(value)
+    if not low <= found <= high:
         most = f"at most {high:g} and " if isfinite(high) else ""
         raise ValueError(f"{name} must be {most}at least {low:g}, not {value!r}")
-    return float(value)
+    return found
 
 
 def whole(name: str, value: object, low: int, high: int | None = None) -> int:
     """A whole number from `low` to `high`. Raises `ValueError`."""
     if isinstance(value, bool) or not isinstance(value, Integral):
         raise ValueError(f"{name} must be a whole number, not {value!r}")
-    if value < low or (high is not None and value > high):
+    found = int(value)
+    if found < low or (high is not None and found > high):
         most = "" if high is None else f" and at most {high}"
         raise ValueError(f"{name} must be at least {low}{most}, not {value!r}")
-    return int(value)
+    return found
 
 
 def one_of(name: str, value: object, choices: Iterable[str]) -> str:

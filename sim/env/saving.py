@@ -52,7 +52,7 @@ def to_run(state: Mapping[str, Any], env: Seeded) -> Run:
     """The run of such a state; the environment's generator is set. Raises `ValueError`."""
     _check_format(state, ONE)
     try:
-        run = Unpacker(state).runs[state["run"]]
+        run: Run = Unpacker(state).runs[state["run"]]
         random, seed = read(state["random"]), int(state["random_seed"])
     except (TypeError, LookupError, ValueError) as error:
         raise _unreadable(error) from error

@@ -161,7 +161,8 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
 
     def _observation(self) -> NDArray[np.uint8]:
         world = self._begun().world
-        return self._observer.of_planes(observed(world)[None], np.array([world.av]))[0]
+        shown: NDArray[np.uint8] = self._observer.of_planes(observed(world)[None], np.array([world.av]))[0]
+        return shown
 
     def _info(self) -> dict[str, Any]:
         run = self._begun()
@@ -170,7 +171,7 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
             "outcome": str(world.outcome),
             "is_success": world.outcome is Outcome.SUCCESS,
             "tick": world.episode_tick,
-            "episode": world.episode,
+            "episode_number": world.episode,
             "seed": run.config.seed,
         }
         if self._masked:

@@ -217,7 +217,7 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
             "outcome": _NAMES[outcomes],
             "is_success": outcomes == SUCCESS,
             "tick": batch.episode_ticks,
-            "episode": batch.episodes,
+            "episode_number": batch.episodes,
             "seed": batch.seeds,
         }
         if self._masked:

@@ -131,11 +131,11 @@ def test_seeds_of_many_by_list() -> None:
     assert env.reset(seed=(5, np.int64(9), 5))[0].tobytes() == by_list.tobytes()
     assert env.reset(seed=np.array([5, 9, 5]))[0].tobytes() == by_list.tobytes()
     _, some = env.reset(seed=[None, 1, None])
-    assert some["episode"].tolist() == [2, 1, 2]
+    assert some["episode_number"].tolist() == [2, 1, 2]
     assert some["seed"].tolist() == [5, 1, 5]
     _, fresh = RoadVectorEnv(3).reset(seed=[None, 1, None])
     assert fresh["seed"][1] == 1
-    assert fresh["episode"].tolist() == [1, 1, 1]
+    assert fresh["episode_number"].tolist() == [1, 1, 1]
     with pytest.raises(ValueError, match="3 seeds are wanted"):
         env.reset(seed=[1, 2])
     with pytest.raises(ValueError, match="0 or more"):

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import doctest
 import warnings
+from pathlib import Path
 from typing import Any
 
 import gymnasium
@@ -66,8 +68,10 @@ def test_the_checker_finds_nothing(env: Any) -> None:
 @pytest.mark.parametrize("window", [None, (6, 1, 3)])
 @pytest.mark.parametrize("action_mask", [True, False])
 @pytest.mark.parametrize("rewards", [{}, {"progress_reward": 0, "goal_reward": 10, "discount": 0.99}])
-def test_the_checker_finds_nothing_with_any_options(**arguments: Any) -> None:
-    arguments |= arguments.pop("rewards")
+def test_the_checker_finds_nothing_with_any_options(
+    observation: str, window: Any, action_mask: bool, rewards: dict[str, Any]
+) -> None:
+    arguments = {"observation": observation, "window": window, "action_mask": action_mask, **rewards}
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         check_env(gymnasium.make("Roadtalk-v0", config={"rows": 10}, **arguments).unwrapped)
@@ -109,7 +113,7 @@ def test_episodes_are_reproducible_by_seed() -> None:
     assert runs[0] == runs[1]
     assert env.reset(seed=43)[0].tobytes() != runs[0][0]
     following, info = env.reset()
-    assert info["episode"] == 2
+    assert info["episode_number"] == 2
     assert following.tobytes() != runs[0][0]
 
 
@@ -154,3 +158,9 @@ def test_it_can_be_made_by_name() -> None:
     observations, _ = many.reset(seed=1)
     assert observations.shape == (3, 7, 12, 8)
     many.close()
+
+
+def test_the_examples_are_so() -> None:
+    readme = Path(sim.env.__file__).parent / "README.md"
+    results = doctest.testfile(str(readme), module_relative=False)
+    assert (results.failed, results.attempted > 10) == (0, True)

@@ -7,13 +7,15 @@ from typing import Any
 import numpy as np
 import pytest
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
+from gymnasium.wrappers import RecordEpisodeStatistics
+from gymnasium.wrappers.vector import RecordEpisodeStatistics as RecordStatisticsOfMany
 
 from sim.env import RoadEnv, RoadVectorEnv
 from tests.sim.env.alike import assert_alike
 
 pytestmark = pytest.mark.xdist_group("compiled")
 
-KEYS = {"outcome", "is_success", "tick", "episode", "seed", "action_mask"}
+KEYS = {"outcome", "is_success", "tick", "episode_number", "seed", "action_mask"}
 OFTEN_ENDING = {"rows": 8, "potholes": 12, "pedestrians": 2, "courtesy": 0.5}
 LANES = 5
 
@@ -96,3 +98,25 @@ def test_reset_masks_that_cannot_be_are_refused() -> None:
     for mask in ([True], [False, False]):
         with pytest.raises(ValueError, match="shape"):
             env.reset(options={"reset_mask": np.array(mask)})
+
+
+@pytest.mark.parametrize("mode", [AutoresetMode.NEXT_STEP, AutoresetMode.SAME_STEP])
+def test_wrappers_that_count_episodes_find_their_key_free(mode: AutoresetMode) -> None:
+    """Gymnasium and Stable-Baselines3 put figures of an ended episode under `episode`."""
+    env = RecordEpisodeStatistics(RoadEnv(OFTEN_ENDING))
+    env.reset(seed=0)
+    ended, total = False, 0.0
+    while not ended:
+        _, paid, one, two, info = env.step(np.int64(0))
+        ended = one or two
+        assert ("episode" in info) is ended
+        total += float(paid)
+    assert info["episode"]["r"] == pytest.approx(total)
+    many = RecordStatisticsOfMany(RoadVectorEnv(LANES, OFTEN_ENDING, autoreset_mode=mode))
+    many.reset(seed=0)
+    counted = 0
+    for _ in range(30):
+        _, _, ones, twos, info = many.step(np.zeros(LANES, np.int64))
+        assert ("episode" in info) is bool((ones | twos).any())
+        counted += int(info["_episode"].sum()) if "episode" in info else 0
+    assert counted > 5
