@@ -56,6 +56,13 @@ def whole(name: str, value: object, low: int, high: int | None = None) -> int:
     return found
 
 
+def switch(name: str, value: object) -> bool:
+    """True or false. Raises `ValueError`."""
+    if not isinstance(value, bool):
+        raise ValueError(f"{name} must be True or False, not {value!r}")
+    return value
+
+
 def one_of(name: str, value: object, choices: Iterable[str]) -> str:
     """One of some words. Raises `ValueError` that names the nearest."""
     allowed = list(choices)

@@ -15,7 +15,7 @@ from sim.config import Config
 from sim.env import saving
 from sim.env.actions import MOVES, STAY, action_mask, checked_action
 from sim.env.observation import Observer, observed
-from sim.env.options import one_of, refuse_unknown, reset_options, road_config
+from sim.env.options import one_of, refuse_unknown, reset_options, road_config, switch
 from sim.env.reward import Rewards
 from sim.env.seeds import DRAWN_BELOW, checked_seed, folded
 from sim.kinds import Outcome
@@ -82,7 +82,7 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
             discount=discount,
         )
         self._observer = Observer.of(self.config, observation, window)
-        self._masked = action_mask
+        self._masked = switch("action_mask", action_mask)
         self.observation_space = self._observer.space
         self.action_space = spaces.Discrete(len(MOVES))
         self._run: Run | None = None

@@ -15,7 +15,7 @@ from sim.batch import Batch
 from sim.env import saving
 from sim.env.actions import MOVES, action_masks, checked_actions
 from sim.env.observation import Observer
-from sim.env.options import one_of, refuse_unknown, reset_options, road_config, whole
+from sim.env.options import one_of, refuse_unknown, reset_options, road_config, switch, whole
 from sim.env.reward import Rewards
 from sim.env.seeds import DRAWN_BELOW, checked_seed, folded
 from sim.env.single import ARGUMENTS, RENDER_FPS, RENDER_MODES, frame
@@ -84,7 +84,7 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
             discount=discount,
         )
         self._observer = Observer.of(self.config, observation, window)
-        self._masked = action_mask
+        self._masked = switch("action_mask", action_mask)
         self.single_observation_space = self._observer.space
         self.single_action_space = spaces.Discrete(len(MOVES))
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
@@ -116,6 +116,7 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
                     seeds[lane] = int(value)
             batch = Batch([self.config.with_parts(seed=each) for each in seeds], after="stop")
         else:
+            batch = batch.copy()  # so that nothing is changed where a road cannot be found
             batch.renew(chosen, seeds)
         self._batch = batch
         return self._observations(batch), self._info(batch, chosen)

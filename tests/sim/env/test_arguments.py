@@ -11,6 +11,7 @@ import pytest
 
 from sim.config import ConfigError
 from sim.env import RoadEnv, RoadVectorEnv
+from sim.generate import GenerationError
 from sim.randomness import MAX_SEED
 
 pytestmark = pytest.mark.xdist_group("compiled")
@@ -52,6 +53,7 @@ def test_unknown_arguments_are_named(make: Callable[..., Any], arguments: Any, w
         ({"crash_penalty": -1}, "crash_penalty must be at least 0, not -1"),
         ({"goal_reward": "high"}, "goal_reward must be a finite number, not 'high'"),
         ({"step_cost": float("nan")}, "step_cost must be a finite number"),
+        ({"action_mask": "no"}, "action_mask must be True or False, not 'no'"),
         ({"discount": 1.5}, "discount must be at most 1"),
         ({"config": {"seed": 3}}, r"seed: is given to reset\(seed=…\)"),
         ({"config": {"pothole": 3}}, "pothole: .*did you mean potholes"),
@@ -83,6 +85,13 @@ def test_options_of_a_reset_that_there_are_not_are_named(env: Any) -> None:
     with pytest.raises(ValueError, match="no option 'speed'"):
         env.reset(options={"speed": 3})
     env.reset(options={})
+
+
+@pytest.mark.parametrize("make", [RoadEnv, RoadVectorEnv])
+def test_a_road_that_cannot_be_had_is_told(make: Callable[..., Any]) -> None:
+    walled = {"rows": 4, "columns": 3, "vehicles": 0, "potholes": 0, "barriers": 6, "solvable": True}
+    with pytest.raises(GenerationError, match="no drivable road"):
+        make(config=walled).reset(seed=0)
 
 
 # Seeds
