@@ -251,7 +251,7 @@ def _learning_rate() -> float:
         from sim.env import RoadVectorEnv
     except ImportError:
         return float("nan")
-    many = RoadVectorEnv(WORLDS)
+    many = RoadVectorEnv(WORLDS, action_mask=False)
     many.reset(seed=0)
     actions = np.zeros(WORLDS, np.int64)
 

@@ -67,3 +67,24 @@ def test_it_runs_from_the_wheel_alone(wheel: Path, tmp_path: Path) -> None:
     run = [sys.executable, "-c", program, str(tmp_path / "site")]
     done = subprocess.run(run, cwd=tmp_path, capture_output=True, text=True, timeout=300)
     assert (done.returncode, done.stdout) == (0, "True True\n0\n"), done.stderr
+
+
+def test_environments_are_made_from_the_wheel_alone(wheel: Path, tmp_path: Path) -> None:
+    """By name, in a program that imports nothing of it: Gymnasium imports the module before the colon."""
+    with zipfile.ZipFile(wheel) as packed:
+        packed.extractall(tmp_path / "site")
+    program = (
+        "import sys, warnings\n"
+        "sys.path.insert(0, sys.argv[1])\n"
+        "warnings.simplefilter('error')\n"
+        "import gymnasium\n"
+        "one = gymnasium.make('sim.env:Roadtalk-v0', config={'rows': 12})\n"
+        "many = gymnasium.make_vec('sim.env:Roadtalk-v0', num_envs=3, config={'rows': 12})\n"
+        "print(one.reset(seed=1)[0].shape, type(many).__name__, many.reset(seed=1)[0].shape)\n"
+        "import sim\n"
+        "assert sim.__file__.startswith(sys.argv[1])\n"
+    )
+    run = [sys.executable, "-c", program, str(tmp_path / "site")]
+    done = subprocess.run(run, cwd=tmp_path, capture_output=True, text=True, timeout=300)
+    shown = "(7, 12, 8) RoadVectorEnv (3, 7, 12, 8)\n"
+    assert (done.returncode, done.stdout) == (0, shown), done.stderr

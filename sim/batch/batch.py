@@ -13,8 +13,9 @@ engines in place of floating point.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from copy import copy
 from dataclasses import astuple, dataclass
 from functools import partial
 from itertools import pairwise
@@ -40,6 +41,7 @@ from sim.batch.layout import (
     OUTCOME,
     PLANES,
     RIGHT,
+    SEED,
     SHIFT,
     SINCE_END,
     TICKS_TO_GOAL,
@@ -50,7 +52,7 @@ from sim.batch.layout import (
 )
 from sim.batch.observe import observe
 from sim.batch.reach import exact_moves
-from sim.batch.roads import begin_all
+from sim.batch.roads import begin_all, renew
 from sim.batch.sweep import weighted_moves
 from sim.batch.tick import END_FIELD, MAX_TICKS_A_CALL, MOVE_FIELD, ticks_kernel
 from sim.config import Config
@@ -70,6 +72,9 @@ BatchPlanner = Literal["priority", "exact", "weighted"]
 """The rule; the least ticks; the least cost (what `astar` and `dijkstra` decide)."""
 
 _OUTCOMES: Final = tuple(Outcome)
+_NEXT, _THIS = 1, 2
+_STATE: Final = ("_state", "_lanes", "_wholes", "_ticks", "_counts")
+"""What changes as lanes advance, unless their first roads begin again."""
 _FIELD: Final = np.uint64(2**16 - 1)
 _COUNTERS: Final = 8
 
@@ -201,7 +206,79 @@ class Batch:
         """
         return self._plan(planner, threads)[1]
 
+    def trials(self, *, threads: int = 1) -> NDArray[np.uint8]:
+        """How every lane would stand after each of the six moves (shape: lanes, 6; indices as `outcomes`).
+
+        Nothing is changed: the moves are made in a copy. Lanes whose result stands keep it.
+        """
+        trial, found = self.copy(after="stop"), np.empty((len(self), 6), np.uint8)
+        for move in range(6):
+            trial._put(self)
+            trial.step(np.full(len(self), move, np.uint8), threads=threads)
+            found[:, move] = trial.outcomes
+        return found
+
+    def renew(self, lanes: NDArray[np.bool_], seeds: Sequence[int | None] | None = None) -> None:
+        """Begin the next episode in the chosen lanes (shape: lanes), or the first of a seed that is given.
+
+        Where a next road must be drivable and none is found, the present one again (`sim.run.next_episode`).
+        Raises `GenerationError` where none is found for a seed, and `ConfigError` for a seed that is none.
+        """
+        chosen = np.where(lanes, _NEXT, 0).astype(np.uint8)
+        for lane, seed in enumerate(seeds or ()):
+            if seed is not None and lanes[lane]:
+                self.configs[lane] = self.configs[lane].with_parts(seed=seed)
+                self._wholes[lane, SEED], self._wholes[lane, EPISODE] = seed, 1
+                chosen[lane] = _THIS
+        layout, tables = self.layout, (self._wholes, self._shares)
+        if not renew(self._state, self._lanes, chosen, layout.columns, layout.rows, *tables):
+            raise GenerationError
+
+    def copy(self, *, after: After | None = None) -> Batch:
+        """The same lanes at the same moment, to go on by themselves; what follows an end may differ."""
+        twin = copy(self)
+        twin.configs = list(self.configs)
+        twin.after = after or self.after
+        for name in _STATE:
+            setattr(twin, name, getattr(self, name).copy())
+        if twin.after == self.after == "restart":
+            twin._first_state, twin._first_lanes = self._first_state.copy(), self._first_lanes.copy()
+        else:
+            twin._remember_first()
+        return twin
+
+    def saved(self) -> dict[str, NDArray[Any]]:
+        """All that changes as the lanes advance, as arrays by name; `restore` takes them.
+
+        Raises `ValueError` for a batch made with `after="restart"`, which has more to remember.
+        """
+        if self.after == "restart":
+            raise ValueError('a batch made with after="restart" cannot be saved')
+        return {name[1:]: getattr(self, name).copy() for name in _STATE}
+
+    def restore(self, arrays: Mapping[str, NDArray[Any]]) -> None:
+        """Be at the moment that was saved, of as many lanes of the same configurations, seeds aside.
+
+        Raises `ValueError` unless names, shapes and types are those of this batch; nothing is changed then.
+        """
+        mine = self.saved()
+        if {name: (array.shape, array.dtype) for name, array in mine.items()} != {
+            name: (array.shape, array.dtype) for name, array in arrays.items()
+        }:
+            raise ValueError("these are not the arrays of a batch of this size")
+        for name in _STATE:
+            getattr(self, name)[...] = arrays[name[1:]]
+        seeds = self._wholes[: len(self), SEED].tolist()
+        self.configs = [
+            config.with_parts(seed=seed) for config, seed in zip(self.configs, seeds, strict=True)
+        ]
+
     # Reading
+
+    @property
+    def seeds(self) -> NDArray[np.int64]:
+        """The seed of every lane's configuration (shape: lanes)."""
+        return self._wholes[: len(self), SEED].copy()
 
     @property
     def outcomes(self) -> NDArray[np.uint8]:
@@ -346,6 +423,11 @@ class Batch:
         self._counts[7] += self._plane(TICKS_TO_GOAL).reshape(-1).astype(np.int64)
         for plane in (MOVES, ENDS, TICKS_TO_GOAL):
             self._plane(plane)[...] = 0
+
+    def _put(self, other: Batch) -> None:
+        """Be at the moment of a batch of the same configurations."""
+        for name in _STATE:
+            getattr(self, name)[...] = getattr(other, name)
 
     def _remember_first(self) -> None:
         restart = self.after == "restart"

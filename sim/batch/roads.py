@@ -203,3 +203,19 @@ def begin_all(state, lanes, count, columns, rows, wholes, shares):
         block = lane // LANES
         found &= begin(state[block], lanes[block], lane % LANES, columns, rows, wholes[lane], shares[lane])
     return found
+
+
+@compiled
+def renew(state, lanes, chosen, columns, rows, wholes, shares):
+    """Begin an episode in some lanes: `chosen` is 0 for none, 1 for the next one, 2 for `wholes[EPISODE]`.
+
+    False: for some that had to begin this very episode no road was found.
+    """
+    found = True
+    for lane in range(len(chosen)):
+        block, inner = lane // LANES, lane % LANES
+        if chosen[lane] == 1:
+            begin_next(state[block], lanes[block], inner, columns, rows, wholes[lane], shares[lane])
+        elif chosen[lane] == 2:
+            found &= begin(state[block], lanes[block], inner, columns, rows, wholes[lane], shares[lane])
+    return found

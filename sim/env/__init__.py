@@ -1,10 +1,10 @@
 """The road as a learning environment in Gymnasium's form (extra `rl`): one world, or thousands side by side.
 
-    import gymnasium, sim.env
-    env = gymnasium.make("Roadtalk-v0", config={"potholes": 10})
-    many = gymnasium.make_vec("Roadtalk-v0", num_envs=4096)
+    import gymnasium
+    env = gymnasium.make("sim.env:Roadtalk-v0", config={"potholes": 10})
+    many = gymnasium.make_vec("sim.env:Roadtalk-v0", num_envs=4096)
 
-Importing this registers `Roadtalk-v0`.
+Importing this registers `Roadtalk-v0`. Spaces, options and rewards: `sim/env/README.md`.
 """
 
 from gymnasium.envs.registration import register, registry

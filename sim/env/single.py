@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
 import gymnasium
@@ -13,13 +12,31 @@ from numpy.typing import NDArray
 
 from sim import notation
 from sim.config import Config
-from sim.env.observation import PLANES, observed, rewards
-from sim.kinds import Move, Outcome
-from sim.run import Run, next_episode
-from sim.transition import transition
+from sim.env import saving
+from sim.env.actions import MOVES, STAY, action_mask, checked_action
+from sim.env.observation import Observer, observed
+from sim.env.options import one_of, refuse_unknown, reset_options, road_config, switch
+from sim.env.reward import Rewards
+from sim.env.seeds import DRAWN_BELOW, checked_seed, folded
+from sim.kinds import Outcome
+from sim.run import Run, next_episode, repeated
 
-MOVES: Final = tuple(Move)
-SEEDS: Final = 2**32
+RENDER_MODES: Final = ("ansi", "rgb_array")
+RENDER_FPS: Final = 2
+
+ARGUMENTS: Final = (
+    "config",
+    "render_mode",
+    "observation",
+    "window",
+    "action_mask",
+    "goal_reward",
+    "crash_penalty",
+    "step_cost",
+    "progress_reward",
+    "discount",
+)
+"""What both environments take."""
 
 
 class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
@@ -27,72 +44,148 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
 
     A move off the road is a wait; nothing else is held back. `reset(seed=…)` begins that seed's first
     episode, a reset without a seed the one that follows. Episodes terminate on arrival and crash, and are
-    truncated when the time is up.
+    truncated when the time is up. The parts are described in `sim/env/README.md`.
     """
 
-    metadata = {"render_modes": ["ansi", "rgb_array"], "render_fps": 2}  # noqa: RUF012 - Gymnasium's form
+    metadata = {"render_modes": list(RENDER_MODES), "render_fps": RENDER_FPS}  # noqa: RUF012 - Gymnasium's form
 
-    def __init__(self, config: Mapping[str, Any] | None = None, render_mode: str | None = None) -> None:
-        """`config`: any part of `sim.config.Config` but the seed. Raises `ConfigError`."""
-        if render_mode is not None and render_mode not in self.metadata["render_modes"]:
-            raise ValueError(f"there is no render mode {render_mode!r}")
-        self.config = Config().with_parts(**(config or {}))
-        self.render_mode = render_mode
-        shape = (PLANES, self.config.rows, self.config.columns)
-        self.observation_space = spaces.Box(0, 1, shape, np.uint8)
+    def __init__(
+        self,
+        config: Mapping[str, Any] | None = None,
+        render_mode: str | None = None,
+        *,
+        observation: str = "planes",
+        window: Sequence[int] | None = None,
+        action_mask: bool = True,
+        goal_reward: float = 2.0,
+        crash_penalty: float = 1.0,
+        step_cost: float | None = None,
+        progress_reward: float = 1.0,
+        discount: float = 1.0,
+        **unknown: Any,
+    ) -> None:
+        """A road of `config`, any part of `sim.config.Config` but the seed.
+
+        `observation`, `window`: `sim.env.observation`; `action_mask`: whether `info` has one; the others:
+        `sim.env.reward`. Raises `TypeError` for an unknown argument, `ConfigError` for a configuration and
+        `ValueError` for any other value that cannot be.
+        """
+        refuse_unknown("RoadEnv", unknown, ARGUMENTS)
+        self.render_mode = None if render_mode is None else one_of("render mode", render_mode, RENDER_MODES)
+        self.config = road_config(config)
+        self.rewards = Rewards.of(
+            self.config,
+            goal_reward=goal_reward,
+            crash_penalty=crash_penalty,
+            step_cost=step_cost,
+            progress_reward=progress_reward,
+            discount=discount,
+        )
+        self._observer = Observer.of(self.config, observation, window)
+        self._masked = switch("action_mask", action_mask)
+        self.observation_space = self._observer.space
         self.action_space = spaces.Discrete(len(MOVES))
         self._run: Run | None = None
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[NDArray[np.uint8], dict[str, Any]]:
-        """The beginning of an episode."""
-        super().reset(seed=seed, options=options)
-        if self._run is not None and seed is None:
+        """The beginning of an episode. Raises `TypeError` or `ValueError` for a seed or option that is none.
+
+        Raises `GenerationError` where the road must be drivable and none is found.
+        """
+        reset_options(options)
+        given = None if seed is None else checked_seed(seed)
+        super().reset(seed=given, options=options)
+        if self._run is not None and given is None:
             self._run = next_episode(self._run)[0]
         else:
-            drawn = int(self.np_random.integers(SEEDS)) if seed is None else seed
+            drawn = int(self.np_random.integers(DRAWN_BELOW)) if given is None else folded(given)
             self._run = Run.start(self.config.with_parts(seed=drawn))
-        return observed(self._run.world), self._info()
+        return self._observation(), self._info()
 
     def step(self, action: np.int64 | int) -> tuple[NDArray[np.uint8], float, bool, bool, dict[str, Any]]:
-        """One tick. Raises `RuntimeError` before `reset`, and once the episode has ended."""
-        run = self._begun()
+        """One tick. Raises `ValueError` for an action that is none.
+
+        Raises `RuntimeError` before `reset`, and once the episode has ended.
+        """
+        run, number = self._begun(), checked_action(action)
         before = run.world
         if before.outcome is not Outcome.RUNNING:
             raise RuntimeError("the episode has ended; call reset")
-        move = MOVES[int(action)]
-        if before.road.moved(before.av, move) is None:
-            move = Move.STAY
-        after = transition(before, move, run.config)
-        result = after.outcome
-        self._run = replace(run, world=after)
-        gained = before.av // before.road.columns - after.av // after.road.columns
-        reward = rewards(
-            np.array([gained]),
-            np.array([result is Outcome.SUCCESS]),
-            np.array([result is Outcome.CRASH]),
-            run.config,
+        if before.road.moved(before.av, MOVES[number]) is None:
+            number = STAY
+        # As a person's move: what repeats then proves nothing about a planner.
+        self._run = repeated(run, MOVES[number], by_person=True)
+        after = self._run.world
+        arrived, crashed = after.outcome is Outcome.SUCCESS, after.outcome is Outcome.CRASH
+        columns = before.road.columns
+        paid = self.rewards.paid(
+            np.array([before.av // columns]),
+            np.array([after.av // columns]),
+            np.array([arrived]),
+            np.array([crashed]),
         )
-        terminated = result in (Outcome.SUCCESS, Outcome.CRASH)
-        return observed(after), float(reward[0]), terminated, result is Outcome.STUCK, self._info()
+        truncated = after.outcome is Outcome.STUCK
+        return self._observation(), float(paid[0]), arrived or crashed, truncated, self._info()
+
+    def action_masks(self) -> NDArray[np.bool_]:
+        """Which moves can be taken now (shape: 6), as `sb3_contrib.MaskablePPO` asks for it."""
+        return action_mask(self._begun().world, self.config_of_episode)
 
     def render(self) -> Any:
         """The road as text (`ansi`) or as pixels (`rgb_array`, shape: height, width, 3)."""
-        run = self._begun()
-        if self.render_mode == "ansi":
-            return notation.write(run.world)
-        if self.render_mode == "rgb_array":
-            from sim.view import pixels, render
+        return frame(self._begun(), self.render_mode)
 
-            return pixels(render("road", run))
-        return None
+    def get_state(self) -> dict[str, Any]:
+        """All that the continuation hangs on, as a JSON value. Raises `RuntimeError` before `reset`."""
+        return saving.of_run(self._begun(), self)
+
+    def set_state(self, state: Mapping[str, Any]) -> tuple[NDArray[np.uint8], dict[str, Any]]:
+        """Go on from a state of an environment of the same configuration: its observation and info.
+
+        Raises `ValueError` for a state of another configuration, and for what is no such state; nothing is
+        changed then.
+        """
+        self._run = saving.to_run(state, self)
+        return self._observation(), self._info()
+
+    @property
+    def config_of_episode(self) -> Config:
+        """The configuration with the seed of the present episode. Raises `RuntimeError` before `reset`."""
+        return self._begun().config
 
     def _begun(self) -> Run:
         if self._run is None:
             raise RuntimeError("call reset first")
         return self._run
 
-    def _info(self) -> dict[str, Any]:
+    def _observation(self) -> NDArray[np.uint8]:
         world = self._begun().world
-        return {"outcome": str(world.outcome), "tick": world.episode_tick, "episode": world.episode}
+        shown: NDArray[np.uint8] = self._observer.of_planes(observed(world)[None], np.array([world.av]))[0]
+        return shown
+
+    def _info(self) -> dict[str, Any]:
+        run = self._begun()
+        world = run.world
+        told: dict[str, Any] = {
+            "outcome": str(world.outcome),
+            "is_success": world.outcome is Outcome.SUCCESS,
+            "tick": world.episode_tick,
+            "episode_number": world.episode,
+            "seed": run.config.seed,
+        }
+        if self._masked:
+            told["action_mask"] = action_mask(world, run.config).astype(np.int8)
+        return told
+
+
+def frame(run: Run, render_mode: str | None) -> Any:
+    """One world's frame in a render mode; None without one."""
+    if render_mode == "ansi":
+        return notation.write(run.world)
+    if render_mode == "rgb_array":
+        from sim.view import pixels, render
+
+        return pixels(render("road", run))
+    return None

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, Final, cast
 
 import numpy as np
 from gymnasium import spaces
@@ -12,71 +12,249 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from sim.batch import Batch
-from sim.config import Config
-from sim.env.observation import PLANES, rewards
-from sim.env.single import MOVES, SEEDS
+from sim.env import saving
+from sim.env.actions import MOVES, action_masks, checked_actions
+from sim.env.observation import Observer
+from sim.env.options import one_of, refuse_unknown, reset_options, road_config, switch, whole
+from sim.env.reward import Rewards
+from sim.env.seeds import DRAWN_BELOW, checked_seed, folded
+from sim.env.single import ARGUMENTS, RENDER_FPS, RENDER_MODES, frame
 from sim.kinds import Outcome
+from sim.metrics import Metrics
+from sim.run import Run
 
 RUNNING, SUCCESS, CRASH, STUCK = range(len(Outcome))
 """As `Batch.outcomes` has them: numbers in the order of `Outcome`."""
 
+_NAMES: Final = np.array([str(outcome) for outcome in Outcome], object)
+
 Observations = NDArray[np.uint8]
+Chosen = NDArray[np.bool_]
 
 
 class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
-    """As `RoadEnv`, many times. The step after an end ignores the action and begins the next episode."""
+    """As `RoadEnv`, many times, and to the same figures as Gymnasium's own loop over as many of them.
+
+    What follows the end of an episode is Gymnasium's `autoreset_mode`. `NEXT_STEP`: the lane's next step
+    ignores the action and begins the next episode. `SAME_STEP`: the next episode begins at once, the end is
+    in `info["final_obs"]` and `info["final_info"]`. `DISABLED`: `reset(options={"reset_mask": …})` begins it.
+    """
 
     metadata = {  # noqa: RUF012 - Gymnasium's form
-        "render_modes": [],
+        "render_modes": list(RENDER_MODES),
+        "render_fps": RENDER_FPS,
         "autoreset_mode": AutoresetMode.NEXT_STEP,
     }
 
     def __init__(
-        self, num_envs: int = 1, config: Mapping[str, Any] | None = None, *, threads: int = 1, **_: Any
+        self,
+        num_envs: int = 1,
+        config: Mapping[str, Any] | None = None,
+        render_mode: str | None = None,
+        *,
+        observation: str = "planes",
+        window: Sequence[int] | None = None,
+        action_mask: bool = True,
+        goal_reward: float = 2.0,
+        crash_penalty: float = 1.0,
+        step_cost: float | None = None,
+        progress_reward: float = 1.0,
+        discount: float = 1.0,
+        autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
+        threads: int = 1,
+        **unknown: Any,
     ) -> None:
-        """`config`: any part of `sim.config.Config` but the seed. Raises `ConfigError`."""
-        self.config = Config().with_parts(**{**(config or {}), "reset_delay_s": 0.0})
-        self.num_envs = num_envs
-        self.threads = threads
-        shape = (PLANES, self.config.rows, self.config.columns)
-        self.single_observation_space = spaces.Box(0, 1, shape, np.uint8)
+        """As `RoadEnv`; `threads`: how many work on a step. Raises as it does."""
+        refuse_unknown("RoadVectorEnv", unknown, (*ARGUMENTS, "num_envs", "autoreset_mode", "threads"))
+        self.num_envs = whole("num_envs", num_envs, 1)
+        self.threads = whole("threads", threads, 1)
+        self.render_mode = None if render_mode is None else one_of("render mode", render_mode, RENDER_MODES)
+        if not isinstance(autoreset_mode, AutoresetMode):
+            named = one_of("autoreset mode", autoreset_mode, (mode.value for mode in AutoresetMode))
+            autoreset_mode = AutoresetMode(named)
+        self.autoreset_mode = autoreset_mode
+        self.metadata = {**self.metadata, "autoreset_mode": autoreset_mode}
+        self.config = road_config(config)
+        self.rewards = Rewards.of(
+            self.config,
+            goal_reward=goal_reward,
+            crash_penalty=crash_penalty,
+            step_cost=step_cost,
+            progress_reward=progress_reward,
+            discount=discount,
+        )
+        self._observer = Observer.of(self.config, observation, window)
+        self._masked = switch("action_mask", action_mask)
+        self.single_observation_space = self._observer.space
         self.single_action_space = spaces.Discrete(len(MOVES))
-        self.observation_space = batch_space(self.single_observation_space, num_envs)
-        self.action_space = batch_space(self.single_action_space, num_envs)
+        self.observation_space = batch_space(self.single_observation_space, self.num_envs)
+        self.action_space = batch_space(self.single_action_space, self.num_envs)
         self._batch: Batch | None = None
 
     def reset(
         self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Observations, dict[str, Any]]:
-        """All lanes at the beginning of their first episode; lane i of an integer seed has seed + i."""
-        super().reset(seed=seed if isinstance(seed, int) else None, options=options)
-        given = [None] * self.num_envs if seed is None else seed
-        if isinstance(given, int):
-            given = [given + lane for lane in range(self.num_envs)]
-        drawn = self.np_random.integers(SEEDS, size=self.num_envs)
-        seeds = [int(drawn[lane]) if each is None else each for lane, each in enumerate(given)]
-        self._batch = Batch([self.config.with_parts(seed=each) for each in seeds])
-        return self._batch.observe(), self._info(self._batch)
+        """Lanes at the beginning of an episode; lane i of an integer seed has seed + i.
+
+        A sequence gives every lane its own. A lane with a seed begins that seed's first episode, one without
+        the episode that follows. `options["reset_mask"]` (bool, shape: lanes) chooses lanes; the others, and
+        their places in `info`, are left alone. Raises `TypeError` or `ValueError` for what is none of this,
+        `GenerationError` where a road must be drivable and none is found.
+        """
+        chosen = self._chosen(reset_options(options, ["reset_mask"]))
+        seeds = self._seeds(seed)
+        if not _of_each(seed):
+            super().reset(seed=None if seed is None else checked_seed(seed))
+        batch = self._batch
+        if batch is None and not chosen.all():
+            raise RuntimeError("call reset first, without a reset_mask")
+        if batch is None or (chosen.all() and None not in seeds):
+            missing = [lane for lane, each in enumerate(seeds) if each is None]
+            if missing:
+                drawn = self.np_random.integers(DRAWN_BELOW, size=len(missing))
+                for lane, value in zip(missing, drawn, strict=True):
+                    seeds[lane] = int(value)
+            batch = Batch([self.config.with_parts(seed=each) for each in seeds], after="stop")
+        else:
+            batch = batch.copy()  # so that nothing is changed where a road cannot be found
+            batch.renew(chosen, seeds)
+        self._batch = batch
+        return self._observations(batch), self._info(batch, chosen)
 
     def step(
         self, actions: NDArray[np.int64]
     ) -> tuple[Observations, NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
-        """One tick of every lane. Raises `RuntimeError` before the first `reset`."""
-        if self._batch is None:
-            raise RuntimeError("call reset first")
-        batch = self._batch
-        before, live = batch.vehicles // self.config.columns, batch.outcomes == RUNNING
-        batch.step(np.asarray(actions, np.uint8), threads=self.threads)
-        gained = before - batch.vehicles // self.config.columns
-        outcomes = batch.outcomes
+        """One tick of every lane. Raises `ValueError` for actions that are none.
+
+        Raises `RuntimeError` before the first `reset`, and with autoreset disabled once an episode has ended.
+        """
+        batch, moves = self._begun(), checked_actions(actions, self.num_envs)
+        live = batch.outcomes == RUNNING
+        if self.autoreset_mode is AutoresetMode.DISABLED and not live.all():
+            ended = ", ".join(map(str, np.flatnonzero(~live)[:8]))
+            raise RuntimeError(f"episodes have ended in lanes {ended}; reset these with reset_mask")
+        before = batch.vehicles // self.config.columns
+        batch.step(moves, threads=self.threads)
+        after, outcomes = batch.vehicles // self.config.columns, batch.outcomes
         arrived, crashed = live & (outcomes == SUCCESS), live & (outcomes == CRASH)
-        paid = rewards(gained, arrived, crashed, self.config) * live
-        return batch.observe(), paid, arrived | crashed, live & (outcomes == STUCK), self._info(batch)
+        stuck = live & (outcomes == STUCK)
+        paid = np.where(live, self.rewards.paid(before, after, arrived, crashed), 0.0)
+        final: dict[str, Any] = {}
+        if self.autoreset_mode is AutoresetMode.SAME_STEP:
+            ended = arrived | crashed | stuck
+            if ended.any():
+                final = self._final(batch, ended)
+                batch.renew(ended)
+        elif not live.all():
+            batch.renew(~live)
+        everywhere = np.ones(self.num_envs, np.bool_)
+        info = {**final, **self._info(batch, everywhere)}
+        return self._observations(batch), paid, arrived | crashed, stuck, info
+
+    def action_masks(self) -> NDArray[np.bool_]:
+        """Which moves can be taken now in every lane (shape: lanes, 6)."""
+        return action_masks(self._begun(), threads=self.threads)
+
+    def render(self) -> tuple[Any, ...] | None:
+        """A frame of every lane, as `RoadEnv.render` makes them; None without a render mode."""
+        batch = self._begun()
+        if self.render_mode is None:
+            return None
+        return tuple(frame(self._run(batch, lane), self.render_mode) for lane in range(self.num_envs))
+
+    def get_state(self) -> dict[str, Any]:
+        """All that the continuation hangs on, as a JSON value. Raises `RuntimeError` before `reset`."""
+        return saving.of_batch(self._begun(), self)
+
+    def set_state(self, state: Mapping[str, Any]) -> tuple[Observations, dict[str, Any]]:
+        """Go on from a state of as many environments of the same configuration: observations and info.
+
+        Raises `ValueError` for a state of another configuration or number, and for what is no such state;
+        nothing is changed then.
+        """
+        self._batch = batch = saving.to_batch(state, self, self.num_envs)
+        return self._observations(batch), self._info(batch, np.ones(self.num_envs, np.bool_))
 
     def close_extras(self, **kwargs: Any) -> None:
         """Let the worlds go."""
         del kwargs
         self._batch = None
 
-    def _info(self, batch: Batch) -> dict[str, Any]:
-        return {"outcome": batch.outcomes, "tick": batch.episode_ticks, "episode": batch.episodes}
+    def _begun(self) -> Batch:
+        if self._batch is None:
+            raise RuntimeError("call reset first")
+        return self._batch
+
+    def _seeds(self, seed: int | Sequence[int | None] | None) -> list[int | None]:
+        """The configuration's seed of every lane."""
+        if seed is None:
+            return [None] * self.num_envs
+        if not _of_each(seed):
+            first = checked_seed(seed)
+            return [folded(first + lane) for lane in range(self.num_envs)]
+        given = list(cast(Iterable[int | None], seed))
+        if len(given) != self.num_envs:
+            raise ValueError(f"{self.num_envs} seeds are wanted, one for each environment, not {len(given)}")
+        return [None if each is None else folded(checked_seed(each)) for each in given]
+
+    def _chosen(self, options: Mapping[str, Any]) -> Chosen:
+        """The lanes that are to be reset."""
+        if "reset_mask" not in options:
+            return np.ones(self.num_envs, np.bool_)
+        mask = options["reset_mask"]
+        if not isinstance(mask, np.ndarray) or mask.dtype != np.bool_:
+            raise TypeError(f"reset_mask is an array of bool, not {mask!r}")
+        if mask.shape != (self.num_envs,) or not mask.any():
+            raise ValueError(f"reset_mask has the shape ({self.num_envs},) and a true value, not {mask!r}")
+        return mask.copy()
+
+    def _observations(self, batch: Batch) -> Observations:
+        return self._observer.of_planes(batch.observe(), batch.vehicles)
+
+    def _info(self, batch: Batch, lanes: Chosen) -> dict[str, Any]:
+        """As `RoadEnv` tells it, of these lanes; nothing (0 or None) for the others, as `_…` says."""
+        outcomes = batch.outcomes
+        told: dict[str, Any] = {
+            "outcome": _NAMES[outcomes],
+            "is_success": outcomes == SUCCESS,
+            "tick": batch.episode_ticks,
+            "episode_number": batch.episodes,
+            "seed": batch.seeds,
+        }
+        if self._masked:
+            told["action_mask"] = action_masks(batch, threads=self.threads).astype(np.int8)
+        info: dict[str, Any] = {}
+        for key, values in told.items():
+            if not lanes.all():
+                values[~lanes] = None if values.dtype == object else 0
+            info[key], info[f"_{key}"] = values, lanes.copy()
+        return info
+
+    def _final(self, batch: Batch, ended: Chosen) -> dict[str, Any]:
+        """What the ended lanes have come to, in Gymnasium's form."""
+        last = np.full(self.num_envs, None, object)
+        seen = self._observations(batch)
+        for lane in np.flatnonzero(ended):
+            last[lane] = seen[lane].copy()
+        told = self._info(batch, ended)
+        return {
+            "final_obs": last,
+            "_final_obs": ended.copy(),
+            "final_info": told,
+            "_final_info": ended.copy(),
+        }
+
+    def _run(self, batch: Batch, lane: int) -> Run:
+        """One lane as a run, with what its picture shows."""
+        totals = batch.totals()
+        counted = Metrics(
+            successes=int(totals.successes[lane]),
+            crashes=int(totals.crashes[lane]),
+            stuck=int(totals.stuck[lane]),
+        )
+        return Run(batch.configs[lane], batch.world(lane), metrics=counted)
+
+
+def _of_each(seed: object) -> bool:
+    """Whether these are seeds, one for each lane, and not one for all."""
+    return isinstance(seed, Iterable) and not isinstance(seed, str | bytes)

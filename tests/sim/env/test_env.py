@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import doctest
 import warnings
+from pathlib import Path
 from typing import Any
 
 import gymnasium
@@ -24,8 +26,8 @@ pytestmark = pytest.mark.xdist_group("compiled")
 class OneLane(gymnasium.Env[Any, Any]):
     """A vector environment of one lane in the form of a single one, for the checker that there is."""
 
-    def __init__(self) -> None:
-        self.many = RoadVectorEnv(1, {"rows": 10, "potholes": 5})
+    def __init__(self, **arguments: Any) -> None:
+        self.many = RoadVectorEnv(1, {"rows": 10, "potholes": 5}, **arguments)
         self.metadata = {"render_modes": []}
         self.observation_space = self.many.single_observation_space
         self.action_space = self.many.single_action_space
@@ -60,6 +62,20 @@ def test_the_checker_finds_nothing(env: Any) -> None:
         warnings.simplefilter("error")
         checked = env()
         check_env(checked, skip_render_check=isinstance(checked, OneLane))
+
+
+@pytest.mark.parametrize("observation", ["planes", "image", "image_first"])
+@pytest.mark.parametrize("window", [None, (6, 1, 3)])
+@pytest.mark.parametrize("action_mask", [True, False])
+@pytest.mark.parametrize("rewards", [{}, {"progress_reward": 0, "goal_reward": 10, "discount": 0.99}])
+def test_the_checker_finds_nothing_with_any_options(
+    observation: str, window: Any, action_mask: bool, rewards: dict[str, Any]
+) -> None:
+    arguments = {"observation": observation, "window": window, "action_mask": action_mask, **rewards}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        check_env(gymnasium.make("Roadtalk-v0", config={"rows": 10}, **arguments).unwrapped)
+        check_env(OneLane(**arguments), skip_render_check=True)
 
 
 @pytest.mark.parametrize("parts", [{}, {"potholes": 30, "pedestrians": 3}, {"columns": 20, "rows": 6}])
@@ -97,7 +113,7 @@ def test_episodes_are_reproducible_by_seed() -> None:
     assert runs[0] == runs[1]
     assert env.reset(seed=43)[0].tobytes() != runs[0][0]
     following, info = env.reset()
-    assert info["episode"] == 2
+    assert info["episode_number"] == 2
     assert following.tobytes() != runs[0][0]
 
 
@@ -114,7 +130,7 @@ def test_it_is_the_world_that_the_planners_drive_in() -> None:
         run = tick.run
     assert ended == (run.world.outcome is not Outcome.STUCK)
     if run.world.outcome is Outcome.SUCCESS:
-        assert total == pytest.approx(2 - run.world.episode_tick / config.max_ticks)
+        assert total == pytest.approx(2 - 2 * run.world.episode_tick / config.max_ticks)
 
 
 def test_what_cannot_be_is_said() -> None:
@@ -136,7 +152,15 @@ def test_what_cannot_be_is_said() -> None:
 def test_it_can_be_made_by_name() -> None:
     assert "Roadtalk-v0" in gymnasium.registry
     assert sim.env.RoadEnv is RoadEnv
+    assert type(gymnasium.make("Roadtalk-v0").unwrapped) is RoadEnv
     many = gymnasium.make_vec("Roadtalk-v0", num_envs=3, config={"rows": 12})
+    assert type(many) is RoadVectorEnv
     observations, _ = many.reset(seed=1)
     assert observations.shape == (3, 7, 12, 8)
     many.close()
+
+
+def test_the_examples_are_so() -> None:
+    readme = Path(sim.env.__file__).parent / "README.md"
+    results = doctest.testfile(str(readme), module_relative=False)
+    assert (results.failed, results.attempted > 10) == (0, True)

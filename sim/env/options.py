@@ -1,0 +1,84 @@
+"""Keyword arguments of the environments, checked: what is not known or cannot be is an error that says so."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import fields
+from difflib import get_close_matches
+from math import isfinite
+from numbers import Integral, Real
+from typing import Any
+
+from sim.config import Config, ConfigError, Problem
+
+
+def refuse_unknown(maker: str, unknown: Iterable[str], known: Iterable[str]) -> None:
+    """Raise `TypeError` if there are unknown arguments; it names the first, and what may have been meant."""
+    allowed = sorted(known)
+    for name in sorted(unknown):
+        near = get_close_matches(name, allowed, n=1)
+        settings = [field.name for field in fields(Config)]
+        setting = [name] if name in settings else get_close_matches(name, settings, n=1, cutoff=0.8)
+        meant = f"; did you mean {near[0]}?" if near else ""
+        if not near and setting:
+            meant = f"; did you mean config={{{setting[0]!r}: …}}?"
+        raise TypeError(f"{maker} takes no argument {name!r}{meant} It takes {', '.join(allowed)}.")
+
+
+def road_config(parts: Mapping[str, Any] | None) -> Config:
+    """The configuration with these parts. Raises `ConfigError`, also for a seed, and `TypeError`."""
+    if parts is not None and not isinstance(parts, Mapping):
+        raise TypeError(f"config is a mapping of settings to values, not {parts!r}")
+    if parts is not None and "seed" in parts:
+        raise ConfigError((Problem("seed", "is given to reset(seed=…), not to the configuration"),))
+    return Config().with_parts(**(parts or {}))
+
+
+def number(name: str, value: object, low: float = 0.0, high: float = float("inf")) -> float:
+    """A finite number from `low` to `high`. Raises `ValueError`."""
+    if isinstance(value, bool) or not isinstance(value, Real) or not isfinite(value):
+        raise ValueError(f"{name} must be a finite number, not {value!r}")
+    found = float(value)
+    if not low <= found <= high:
+        most = f"at most {high:g} and " if isfinite(high) else ""
+        raise ValueError(f"{name} must be {most}at least {low:g}, not {value!r}")
+    return found
+
+
+def whole(name: str, value: object, low: int, high: int | None = None) -> int:
+    """A whole number from `low` to `high`. Raises `ValueError`."""
+    if isinstance(value, bool) or not isinstance(value, Integral):
+        raise ValueError(f"{name} must be a whole number, not {value!r}")
+    found = int(value)
+    if found < low or (high is not None and found > high):
+        most = "" if high is None else f" and at most {high}"
+        raise ValueError(f"{name} must be at least {low}{most}, not {value!r}")
+    return found
+
+
+def switch(name: str, value: object) -> bool:
+    """True or false. Raises `ValueError`."""
+    if not isinstance(value, bool):
+        raise ValueError(f"{name} must be True or False, not {value!r}")
+    return value
+
+
+def one_of(name: str, value: object, choices: Iterable[str]) -> str:
+    """One of some words. Raises `ValueError` that names the nearest."""
+    allowed = list(choices)
+    if isinstance(value, str) and value in allowed:
+        return value
+    near = get_close_matches(str(value), allowed, n=1)
+    meant = f"; did you mean {near[0]!r}?" if near else ""
+    raise ValueError(f"there is no {name} {value!r}{meant} There are {', '.join(map(repr, allowed))}.")
+
+
+def reset_options(options: Mapping[str, Any] | None, known: Iterable[str] = ()) -> Mapping[str, Any]:
+    """The options of a reset. Raises `ValueError` for one that there is not."""
+    given = options or {}
+    allowed = sorted(known)
+    for name in given:
+        if name not in allowed:
+            there_is = ", ".join(allowed) if allowed else "none"
+            raise ValueError(f"reset takes no option {name!r}; there is {there_is}")
+    return given
