@@ -171,8 +171,9 @@ def one_row_on(board, w, last, columns):
 
 @compiled
 def one_row_back(board, w, columns):
-    """Word `w` of a board moved one row away from the destination."""
-    behind = board[w] << np.uint64(columns - 1) << _ONE
+    """Word `w` of a board moved one row away from the destination; bits that no cell has stay empty."""
+    unused = np.uint64(64 % columns)
+    behind = board[w] << np.uint64(columns - 1) << _ONE << unused >> unused
     if w > 0:
         behind |= board[w - 1] >> np.uint64(64 - columns - 64 % columns)
     return behind
