@@ -19,33 +19,48 @@ from copy import copy
 from dataclasses import astuple, dataclass
 from functools import partial
 from itertools import pairwise
-from typing import Any, Final, Literal
+from typing import Any, Final, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sim.batch.layout import (
     ASKED,
+    ATTENTIVE,
+    ATTENTIVE_KEY,
+    BRAKING,
     CELL,
     COLUMN_BIT,
+    COURTESY,
     COURTESY_KEY,
     ENDS,
     EPISODE,
     EPISODE_TICK,
     FIXED,
     HOLES,
+    IN_ROW,
+    KEPT_AT,
+    KEPT_LEFT,
+    KEPT_LEFT_AHEAD,
+    KEPT_RIGHT,
+    KEPT_RIGHT_AHEAD,
+    KEPT_WALKERS,
+    KEPT_WALKERS_AHEAD,
     LANE_PLANES,
     LANES,
     LEFT,
     MOVES,
     OUTCOME,
+    PEDESTRIANS,
     PLANES,
     RIGHT,
     SEED,
     SHIFT,
     SINCE_END,
+    SWEPT,
     TICKS_TO_GOAL,
     WALKERS,
+    WATCHING,
     WORD,
     Layout,
     Words,
@@ -59,6 +74,7 @@ from sim.config import Config
 from sim.generate import GenerationError, named
 from sim.kinds import Kind, Outcome
 from sim.randomness import Stream
+from sim.repetition import Watch
 from sim.road import Board, bits
 from sim.run import Run
 from sim.search.costs import weights
@@ -68,14 +84,23 @@ After = Literal["next", "restart", "stop"]
 """What follows an end: the next road as live, once the result has stood; the lane's first road, at once;
 or nothing."""
 
-BatchPlanner = Literal["priority", "exact", "weighted"]
-"""The rule; the least ticks; the least cost (what `astar` and `dijkstra` decide)."""
+BatchPlanner = Literal["priority", "exact", "weighted", "astar", "dijkstra"]
+"""The rule; the least ticks; the least cost, which is what `astar` and `dijkstra` decide, under three names."""
+
+_KERNELS: Final[dict[str, Any]] = {
+    "exact": exact_moves,
+    "weighted": weighted_moves,
+    "astar": weighted_moves,
+    "dijkstra": weighted_moves,
+}
+"""Planners that look ahead, apart from the tick."""
 
 _OUTCOMES: Final = tuple(Outcome)
 _NEXT, _THIS = 1, 2
 _STATE: Final = ("_state", "_lanes", "_wholes", "_ticks", "_counts")
 """What changes as lanes advance, unless their first roads begin again."""
 _FIELD: Final = np.uint64(2**16 - 1)
+_ALL: Final = np.uint64(2**64 - 1)
 _COUNTERS: Final = 8
 
 
@@ -100,8 +125,11 @@ class Batch:
     def __init__(self, configs: Sequence[Config], *, after: After = "next") -> None:
         """Every lane at its first episode's beginning. Raises `ValueError` unless all roads have one size.
 
-        Raises `GenerationError` where a road must be drivable and none is found.
+        Raises `GenerationError` where a road must be drivable and none is found. What a configuration says of
+        its planner is left aside: `run` names one.
         """
+        if after not in get_args(After):
+            raise ValueError(f"after an end follows {_listed(get_args(After))}, not {after!r}")
         sizes = {(config.columns, config.rows) for config in configs}
         if len(sizes) != 1:
             raise ValueError(f"a batch has roads of one size, not of {len(sizes)}")
@@ -130,8 +158,17 @@ class Batch:
             np.int64,
         )
         self._shares = np.array(
-            [(config.spawn_probability, config.pothole_probability, config.courtesy) for config in padded]
+            [
+                (config.spawn_probability, config.pothole_probability, config.courtesy, config.attentive)
+                for config in padded
+            ]
         )
+        for plane, holds in (
+            (SWEPT, [config.collision == "swept" for config in padded]),
+            (BRAKING, [config.attentive == 1.0 for config in padded]),
+            (WATCHING, [config.repetition and config.certain for config in padded]),
+        ):
+            self._plane(plane)[...] = np.where(holds, _ALL, np.uint64(0)).reshape(-1, LANES)
         self._charges = np.array([astuple(weights(config)) for config in padded], np.int64)
         self._ticks = np.zeros(blocks * LANES, np.int64)
         self._counts = np.zeros((_COUNTERS, blocks * LANES), np.int64)
@@ -161,7 +198,14 @@ class Batch:
         return len(self.configs)
 
     def run(self, ticks: int, planner: BatchPlanner = "priority", *, threads: int = 1) -> None:
-        """So many ticks of every lane, decided by a planner, on so many threads."""
+        """So many ticks of every lane, decided by a planner, on so many threads.
+
+        Raises `ValueError` for a planner that there is not, for less than 0 ticks, and for less than 1 thread.
+        """
+        _known(planner)
+        if ticks < 0:
+            raise ValueError(f"a batch runs 0 ticks or more, not {ticks}")
+        _some(threads)
         if planner == "priority":
             self._advance(ticks, threads, asked=False)
             return
@@ -169,7 +213,12 @@ class Batch:
             self.step(self.moves(planner, threads=threads), threads=threads)
 
     def run_to_end(self, planner: BatchPlanner = "priority", *, threads: int = 1) -> None:
-        """All lanes to the end of their episodes. Raises `ValueError` unless made with `after="stop"`."""
+        """All lanes to the end of their episodes.
+
+        Raises `ValueError` unless made with `after="stop"`, and as `run` does.
+        """
+        _known(planner)
+        _some(threads)
         if self.after != "stop":
             raise ValueError('only a batch made with after="stop" has an end')
         while (self.outcomes == 0).any():
@@ -179,8 +228,10 @@ class Batch:
         """One tick, every vehicle making its move (shape: lanes; indices in the order of `Move`).
 
         Nothing is held back: a move into a collision is a crash. A move off the road is a wait. Lanes whose
-        result stands do not move. Raises `ValueError` for another shape, or a number that is no move.
+        result stands do not move. Moves handed in are as a person's: a situation that repeats is not STUCK.
+        Raises `ValueError` for another shape, a number that is no move, and less than 1 thread.
         """
+        _some(threads)
         if moves.shape != (len(self),):
             raise ValueError(f"{len(self)} moves are wanted, one for each lane")
         if moves.max(initial=0) > 5:
@@ -188,21 +239,21 @@ class Batch:
         asked = np.full(self._ticks.shape, 5, np.uint64)
         asked[: len(self)] = moves
         self._plane(ASKED)[...] = asked.reshape(-1, LANES)
+        self._plane(IN_ROW)[...] = _ALL
         self._advance(1, threads, asked=True)
 
     def moves(self, planner: BatchPlanner, *, threads: int = 1) -> NDArray[np.uint8]:
         """What a planner would do now in every lane (shape: lanes); waits where a result stands.
 
-        Raises `ValueError` for `priority`, which decides within the tick.
+        Raises `ValueError` for `priority`, which decides within the tick, for a planner that there is not, and
+        for less than 1 thread.
         """
-        if planner == "priority":
-            raise ValueError("the rule decides within the tick; use run")
         return self._plan(planner, threads)[0]
 
     def least(self, planner: BatchPlanner, *, threads: int = 1) -> NDArray[np.int64]:
         """Least ticks (`exact`) or least cost (`weighted`) to the goal (shape: lanes).
 
-        −1 where no way leads there, 0 where a result stands.
+        −1 where no way leads there, 0 where a result stands. Raises `ValueError` as `moves` does.
         """
         return self._plan(planner, threads)[1]
 
@@ -349,9 +400,14 @@ class Batch:
     # Within
 
     def _advance(self, ticks: int, threads: int, *, asked: bool) -> None:
+        attentive = self._shares[:, ATTENTIVE]
         kernel = ticks_kernel(
-            walking=bool(self._plane_of_boards(WALKERS).any() or (self._wholes[:, 1] > 0).any()),
-            courteous=bool((self._shares[:, 2] > 0).any()),
+            walking=bool(
+                self._plane_of_boards(WALKERS).any() or (self._wholes[:, PEDESTRIANS] > 0).any()
+            ),
+            courteous=bool((self._shares[:, COURTESY] > 0).any() or (attentive % 1.0 > 0).any()),
+            bodily=bool(self._plane(SWEPT).any() or (attentive > 0).any()),
+            watching=bool(self._plane(WATCHING).any()) and not asked,
             held=self.after != "restart",
             asked=asked,
             renewed=self.after == "next",
@@ -364,17 +420,22 @@ class Batch:
             ticks -= now
 
     def _plan(self, planner: BatchPlanner, threads: int) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:
+        _known(planner)
+        _some(threads)
+        if planner not in _KERNELS:
+            raise ValueError(f"{planner!r} decides within the tick; use run")
+        kernel = _KERNELS[planner]
         size = self._ticks.shape
         moves, least = np.zeros(size, np.uint8), np.zeros(size, np.int64)
 
         def work(part: slice) -> None:
             lanes = slice(part.start * LANES, min(part.stop * LANES, len(self)))
-            tables = (self._shares[lanes], self._charges[lanes])
-            call = weighted_moves if planner == "weighted" else exact_moves
-            call(
+            charges = (self._charges[lanes],) if kernel is weighted_moves else ()
+            kernel(
                 self._state[part],
                 self._lanes[part],
-                *(tables if planner == "weighted" else tables[:1]),
+                self._shares[lanes],
+                *charges,
                 *self._geometry(),
                 lanes.stop - lanes.start,
                 moves[lanes],
@@ -405,7 +466,7 @@ class Batch:
     def _on_threads(self, threads: int, work: Callable[[slice], None]) -> None:
         """Split the blocks evenly over threads; compiled code holds no interpreter lock."""
         blocks = self._state.shape[0]
-        parts = min(max(1, threads), blocks)
+        parts = min(threads, blocks)
         edges = [blocks * part // parts for part in range(parts + 1)]
         slices = [slice(start, stop) for start, stop in pairwise(edges)]
         if parts == 1:
@@ -453,11 +514,28 @@ class Batch:
             OUTCOME: _OUTCOMES.index(world.outcome),
             SINCE_END: 0 if world.ended is None else world.tick - world.ended,
             COURTESY_KEY: Stream.of(run.config.seed, "courtesy", world.episode).key,
+            ATTENTIVE_KEY: Stream.of(run.config.seed, "attentive", world.episode).key,
+            **self._watched(run.watch),
         }
         for plane, value in values.items():
             self._lanes[block].reshape(LANE_PLANES, LANES)[plane, inner] = np.uint64(value)
         self._wholes[lane, EPISODE] = world.episode
         self._ticks[lane] = world.tick
+
+    def _watched(self, watch: Watch) -> dict[int, int]:
+        """A run's watch as planes of a lane."""
+        kept, columns = watch.kept, self.layout.columns
+        if kept is None:
+            return {IN_ROW: int(_ALL)}
+        ahead = (1 << columns) - 1
+        values = {IN_ROW: watch.span - 1 + watch.ticks, KEPT_AT: 2 * kept.cell + kept.beat}
+        for own, on, board in (
+            (KEPT_RIGHT, KEPT_RIGHT_AHEAD, kept.right),
+            (KEPT_LEFT, KEPT_LEFT_AHEAD, kept.left),
+            (KEPT_WALKERS, KEPT_WALKERS_AHEAD, kept.pedestrians),
+        ):
+            values |= {own: board >> columns, on: board & ahead}
+        return values
 
     def _plane(self, plane: int) -> Words:
         return self._lanes.reshape(-1, LANE_PLANES, LANES)[:, plane]
@@ -471,3 +549,19 @@ class Batch:
     def _board(self, lane: int, plane: int) -> int:
         block, inner = divmod(lane, LANES)
         return self.layout.joined(self._plane_of_boards(plane)[block, :, inner])
+
+
+def _listed(names: Sequence[str]) -> str:
+    return f"{', '.join(names[:-1])} or {names[-1]}"
+
+
+def _known(planner: str) -> None:
+    """Raises `ValueError` for a planner that decides for no batch."""
+    if planner not in get_args(BatchPlanner):
+        raise ValueError(f"a batch is driven by {_listed(get_args(BatchPlanner))}, not by {planner!r}")
+
+
+def _some(threads: int) -> None:
+    """Raises `ValueError` for less than one thread."""
+    if threads < 1:
+        raise ValueError(f"a batch runs on 1 thread or more, not on {threads}")

@@ -25,6 +25,8 @@ from sim import randomness, rules
 config: Any = numba.config
 
 _SIM: Final = Path(__file__).parent.parent
+_COMPILED_IN: Final = tuple(_SIM / name for name in ("rules.py", "randomness.py", "generate.py", "kinds.py"))
+"""Sources outside this package whose functions or constants are compiled into it."""
 _KEPT_VERSIONS: Final = 3
 
 
@@ -32,7 +34,7 @@ _KEPT_VERSIONS: Final = 3
 def cache_folder() -> Path | None:
     """Where compiled code of exactly these sources is kept; None if nothing can be written."""
     digest = blake2b(numba.__version__.encode(), digest_size=8)
-    for source in (_SIM / "rules.py", _SIM / "randomness.py", *sorted(_SIM.glob("batch/*.py"))):
+    for source in (*_COMPILED_IN, *sorted((_SIM / "batch").glob("*.py"))):
         digest.update(source.read_bytes())
     home = Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache").expanduser() / "roadtalk" / "compiled"
     folder = Path(os.environ.get("NUMBA_CACHE_DIR") or home) / digest.hexdigest()
@@ -89,6 +91,7 @@ scaled = _with_names(randomness.scaled, "uint64(uint64, uint64)")
 
 pedestrians_walk = _with_names(rules.pedestrians_walk)
 move_movers = _with_names(rules.move_movers)
+brake = _with_names(rules.brake)
 followed_board = _with_names(rules.followed_board)
 free_steps = _with_names(rules.free_steps)
 spread = _with_names(rules.spread)

@@ -16,14 +16,14 @@ def first_divergence(
 ) -> NDArray[np.int64]:
     """The tick of the first decision in which two planners differ in the first episode (shape: lanes).
 
-    −1 where they drive the same way to the end.
+    −1 where they drive the same way until the first of them has ended.
     """
     first, second = Batch(configs, after="stop"), Batch(configs, after="stop")
     parted = np.full(len(first), -1, np.int64)
     tick = 0
-    while ((parted < 0) & (first.outcomes == 0)).any():
+    while (together := (parted < 0) & (first.outcomes == 0) & (second.outcomes == 0)).any():
         first.run(1, one, threads=threads)
         second.run(1, other, threads=threads)
-        parted[(parted < 0) & (first.vehicles != second.vehicles)] = tick
+        parted[together & (first.vehicles != second.vehicles)] = tick
         tick += 1
     return parted

@@ -39,19 +39,40 @@ PLANES: Final = 5
     TICKS_TO_GOAL,
     ASKED,
     COURTESY_KEY,
+    ATTENTIVE_KEY,
+    SWEPT,
+    BRAKING,
+    WATCHING,
+    IN_ROW,
+    KEPT_AT,
+    KEPT_RIGHT,
+    KEPT_LEFT,
+    KEPT_WALKERS,
+    KEPT_RIGHT_AHEAD,
+    KEPT_LEFT_AHEAD,
+    KEPT_WALKERS_AHEAD,
     YIELDING,
     OWN_ROW,
     NEXT_ROW,
     CAME_RIGHT,
     CAME_LEFT,
-) = range(17)
-LANE_PLANES: Final = 17
+    CAME_RIGHT_AHEAD,
+    CAME_LEFT_AHEAD,
+    HELD_BACK,
+    NOTABLE,
+) = range(33)
+LANE_PLANES: Final = 33
 """What a world has once: where its vehicle is (word, bit of its row's first cell, its column as a bit,
-cell index), the clock and the end of its episode, packed counters, and what a tick hands from one
-loop to the next."""
+cell index), the clock and the end of its episode, packed counters, the keys of its draws, which rules hold
+(all ones or 0: bodies are swept, movers brake, a situation that repeats is STUCK), the watch for that
+(`sim.repetition`), and what a tick hands from one loop to the next.
+
+The watch: `IN_ROW` counts ticks since the vehicle came into its row, all ones before the first is seen; the
+situation is renewed after 1, 3, 7, 15, ... of them. `KEPT_AT` is twice the cell, plus the beat; the other
+planes are the boards of the vehicle's row and of the one ahead."""
 
 
-SPAWN_PROBABILITY, POTHOLE_PROBABILITY, COURTESY = range(3)
+SPAWN_PROBABILITY, POTHOLE_PROBABILITY, COURTESY, ATTENTIVE = range(4)
 """Columns of a batch's table of probabilities (float64)."""
 VEHICLES, PEDESTRIANS, BARRIERS, POTHOLES, SEED, EPISODE, HOLD_TICKS, SOLVABLE = range(8)
 """Columns of its table of whole numbers (int64); a number of −1 means: drawn row by row."""

@@ -12,15 +12,16 @@ import numpy as np
 
 from sim.batch.compiled import compiled, fraction, mix, scaled, word_at
 from sim.batch.layout import (
+    ATTENTIVE_KEY,
     BARRIERS,
     CELL,
     COLUMN_BIT,
-    COURTESY,
     COURTESY_KEY,
     EPISODE,
     EPISODE_TICK,
     FIXED,
     HOLES,
+    IN_ROW,
     LANES,
     LEFT,
     OUTCOME,
@@ -50,8 +51,10 @@ _BARRIER_KEY: Final = np.uint64(purpose_key(f"spawn {Kind.BARRIER}"))
 _POTHOLE_KEY: Final = np.uint64(purpose_key(f"spawn {Kind.POTHOLE}"))
 _HEADING_KEY: Final = np.uint64(purpose_key("heading"))
 _COURTESY_KEY: Final = np.uint64(purpose_key("courtesy"))
+_ATTENTIVE_KEY: Final = np.uint64(purpose_key("attentive"))
 _ZERO: Final = np.uint64(0)
 _ONE: Final = np.uint64(1)
+_ALL: Final = np.uint64(2**64 - 1)
 
 
 @compiled
@@ -122,7 +125,7 @@ def begin(block, lane_block, lane, columns, rows, wholes, shares):
         return True
     for attempt in range(MAX_ATTEMPTS):
         _draw(block, lane_block, lane, columns, rows, wholes, shares, attempt)
-        if drivable(block, lane_block, lane, columns, rows, shares[COURTESY]):
+        if drivable(block, lane_block, lane, columns, rows, shares):
             return True
     return False
 
@@ -192,7 +195,9 @@ def _draw(block, lane_block, lane, columns, rows, wholes, shares, attempt):
     lane_block[EPISODE_TICK * LANES + lane] = _ZERO
     lane_block[OUTCOME * LANES + lane] = _ZERO
     lane_block[SINCE_END * LANES + lane] = _ZERO
+    lane_block[IN_ROW * LANES + lane] = _ALL
     lane_block[COURTESY_KEY * LANES + lane] = _stream(base, _COURTESY_KEY, episode, 0)
+    lane_block[ATTENTIVE_KEY * LANES + lane] = _stream(base, _ATTENTIVE_KEY, episode, 0)
 
 
 @compiled

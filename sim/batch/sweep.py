@@ -13,14 +13,16 @@ from typing import Final
 import numpy as np
 
 from sim.batch.compiled import beside, compiled
-from sim.batch.layout import CELL, COURTESY, EPISODE_TICK, LANES, OUTCOME
+from sim.batch.layout import CELL, EPISODE_TICK, LANES, OUTCOME, SWEPT
 from sim.batch.reach import (
     ALL_FIXED,
     BLOCKED,
+    BOARDS,
     CAME_LEFT,
     CAME_RIGHT,
     MOVERS,
     STAY,
+    crossings,
     keep_shortest,
     longest_survival,
     one_row_back,
@@ -28,6 +30,7 @@ from sim.batch.reach import (
     prepare,
     roll,
     search,
+    someone_brakes,
     step_from,
     steps_left,
 )
@@ -74,12 +77,12 @@ def _charges(into, near, layers, ahead, last, weights, first_row, last_row, colu
 
 
 @compiled
-def _cost_of_way(layers, near, ticks, cell, last, weights, columns, left_edge, right_edge):
+def _cost_of_way(layers, near, ticks, cell, last, weights, columns, left_edge, right_edge, swept):
     """What the exact search's way costs (an upper bound for the least)."""
     rows_per_word = 64 // columns
     total = 0
     for ahead in range(ticks):
-        move, cell = step_from(layers, ahead, cell, columns)
+        move, cell = step_from(layers, ahead, cell, columns, swept)
         total += weights[TICK]
         total += weights[SIDEWAYS] if move == 1 or move == 2 else 0
         total += weights[DIAGONAL] if move == 3 or move == 4 else 0
@@ -97,7 +100,7 @@ def _cost_of_way(layers, near, ticks, cell, last, weights, columns, left_edge, r
 
 @compiled
 def _sweep(
-    value, entering, near, layers, horizon, cell, last, weights, columns, left_edge, right_edge, totals
+    value, entering, near, layers, horizon, cell, last, weights, columns, left_edge, right_edge, swept, totals
 ):
     """Cost-to-go backwards from `horizon` ticks ahead; writes the totals of the six moves now."""
     rows_per_word = 64 // columns
@@ -120,30 +123,79 @@ def _sweep(
             w, shift = row // rows_per_word, np.uint64(row % rows_per_word * columns)
             met_left = layers[ahead, CAME_RIGHT, w] >> shift
             met_right = layers[ahead, CAME_LEFT, w] >> shift
+            cut_left, cut_right = crossings(layers, ahead, row, columns, swept)
             here, on, into = entering[row], entering[row - 1], value[row]
             for column in range(1, columns + 1):
                 at = np.uint64(column - 1)
                 to_left = FAR if met_left >> at & _ONE else here[column - 1]
                 to_right = FAR if met_right >> at & _ONE else here[column + 1]
                 best = min(on[column] + tick, min(to_left, to_right) + side)
-                best = min(best, min(on[column - 1], on[column + 1]) + slant)
+                to_left = FAR if cut_left >> at & _ONE else on[column - 1]
+                to_right = FAR if cut_right >> at & _ONE else on[column + 1]
+                best = min(best, min(to_left, to_right) + slant)
                 into[column] = min(min(best, here[column] + wait), FAR)
     w = start_row // rows_per_word
     at = np.uint64(start_row % rows_per_word * columns + start_column)
+    cut_left, cut_right = crossings(layers, 0, start_row, columns, swept)
+    aslant = np.uint64(start_column)
     here, on, column = entering[start_row], entering[start_row - 1], start_column + 1
     totals[0] = on[column] + tick
     totals[1] = FAR if layers[0, CAME_RIGHT, w] >> at & _ONE else here[column - 1] + side
     totals[2] = FAR if layers[0, CAME_LEFT, w] >> at & _ONE else here[column + 1] + side
-    totals[3] = on[column - 1] + slant
-    totals[4] = on[column + 1] + slant
+    totals[3] = FAR if cut_left >> aslant & _ONE else on[column - 1] + slant
+    totals[4] = FAR if cut_right >> aslant & _ONE else on[column + 1] + slant
     totals[5] = here[column] + wait
+
+
+@compiled
+def _totals_of_way(
+    value,
+    entering,
+    near,
+    now,
+    layers,
+    ticks,
+    rolled,
+    cell,
+    last,
+    weights,
+    episode_tick,
+    limit,
+    columns,
+    left_edge,
+    right_edge,
+    swept,
+    totals,
+):
+    """The totals of the six moves now, of a search that has met the goal after `ticks`."""
+    keep_shortest(layers, ticks, cell // columns, last, columns, left_edge, right_edge, swept)
+    _around(now[ALL_FIXED], near[0], last, columns, left_edge, right_edge)
+    bound = _cost_of_way(layers, near, ticks, cell, last, weights, columns, left_edge, right_edge, swept)
+    horizon = min(bound // weights[TICK], limit)
+    for ahead in range(rolled, horizon):
+        roll(now, layers, ahead, last, episode_tick, left_edge, right_edge, False)
+    _sweep(
+        value,
+        entering,
+        near,
+        layers,
+        horizon,
+        cell,
+        last,
+        weights,
+        columns,
+        left_edge,
+        right_edge,
+        swept,
+        totals,
+    )
 
 
 @compiled
 def weighted_moves(state, lanes, shares, charges, columns, rows, left_edge, right_edge, count, moves, costs):
     """For every lane the move of least cost to the goal and that cost (−1: no way)."""
     words = -(-rows // (64 // columns))
-    now = np.empty((7, words), np.uint64)
+    now = np.empty((BOARDS, words), np.uint64)
     layers = np.empty((10 * rows + 3, 6, words), np.uint64)
     near = np.empty((2 + charges[:, BUFFER].max(), words), np.uint64)
     value = np.full((rows, columns + 2), FAR, np.int32)
@@ -155,45 +207,53 @@ def weighted_moves(state, lanes, shares, charges, columns, rows, left_edge, righ
         moves[lane], costs[lane] = STAY, 0
         if lane_block[OUTCOME * LANES + inner]:
             continue
-        last = prepare(
-            now,
-            block,
-            lane_block,
-            inner,
-            columns,
-            rows,
-            shares[lane, COURTESY],
-            max(1, charges[lane, BUFFER]),
-        )
+        weights = charges[lane]
+        behind = max(1, weights[BUFFER])
+        last = prepare(now, block, lane_block, inner, columns, rows, shares[lane], behind)
         episode_tick = np.int64(lane_block[EPISODE_TICK * LANES + inner])
         limit = steps_left(lane_block, inner, rows)
+        swept = lane_block[SWEPT * LANES + inner]
         cell = np.int64(lane_block[CELL * LANES + inner])
         row = cell // columns
-        ticks, rolled = search(now, layers, row, last, episode_tick, limit, columns, left_edge, right_edge)
-        if ticks < 0:
-            costs[lane] = -1
-            moves[lane] = longest_survival(now, layers, rolled, last, columns, left_edge, right_edge)
-            continue
-        keep_shortest(layers, ticks, row, last, columns, left_edge, right_edge)
-        weights = charges[lane]
-        _around(now[ALL_FIXED], near[0], last, columns, left_edge, right_edge)
-        bound = _cost_of_way(layers, near, ticks, cell, last, weights, columns, left_edge, right_edge)
-        horizon = min(bound // weights[TICK], limit)
-        for ahead in range(rolled, horizon):
-            roll(now, layers, ahead, last, episode_tick, left_edge, right_edge)
-        _sweep(
-            value,
-            entering,
-            near,
-            layers,
-            horizon,
-            cell,
-            last,
-            weights,
-            columns,
-            left_edge,
-            right_edge,
-            totals,
-        )
-        moves[lane] = np.argmin(totals)
-        costs[lane] = totals.min()
+        least, move, lasted = FAR, STAY, 0
+        # Once for every move; where a mover brakes for a vehicle that stays, once more for staying.
+        for stands in (False, True):
+            if stands:
+                if not someone_brakes(now, layers, last):
+                    break
+                prepare(now, block, lane_block, inner, columns, rows, shares[lane], behind)
+            ticks, rolled, kept_clear = search(
+                now, layers, row, last, episode_tick, limit, columns, left_edge, right_edge, swept, stands
+            )
+            if ticks >= 0:
+                _totals_of_way(
+                    value,
+                    entering,
+                    near,
+                    now,
+                    layers,
+                    ticks,
+                    rolled,
+                    cell,
+                    last,
+                    weights,
+                    episode_tick,
+                    limit,
+                    columns,
+                    left_edge,
+                    right_edge,
+                    swept,
+                    totals,
+                )
+                if stands:
+                    totals[:STAY] = FAR
+                if totals.min() < least:
+                    least, move = totals.min(), np.argmin(totals)
+            elif least == FAR and not stands:
+                move, lasted = longest_survival(
+                    now, layers, rolled, last, columns, left_edge, right_edge, swept
+                )
+            elif least == FAR and kept_clear > lasted:
+                move = STAY
+        moves[lane] = move
+        costs[lane] = least if least < FAR else -1

@@ -2,7 +2,8 @@
 
 One text is specialised in several ways, so that a batch without pedestrians, courtesy or held
 results does not pay for them. All loops over lanes are written so that a compiler turns them into
-instructions on several worlds at once; only the ends of episodes are handled one by one.
+instructions on several worlds at once; only what is rare is handled lane by lane: a mover that brakes, a
+situation to be kept or compared, the end of an episode.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from typing import Any, Final
 import numpy as np
 
 from sim.batch.compiled import (
+    brake,
     compiled,
     followed_board,
     fraction,
@@ -23,8 +25,13 @@ from sim.batch.compiled import (
 )
 from sim.batch.layout import (
     ASKED,
+    ATTENTIVE,
+    ATTENTIVE_KEY,
+    BRAKING,
     CAME_LEFT,
+    CAME_LEFT_AHEAD,
     CAME_RIGHT,
+    CAME_RIGHT_AHEAD,
     CELL,
     COLUMN_BIT,
     COURTESY,
@@ -32,25 +39,37 @@ from sim.batch.layout import (
     ENDS,
     EPISODE_TICK,
     FIXED,
+    HELD_BACK,
     HOLD_TICKS,
     HOLES,
+    IN_ROW,
+    KEPT_AT,
+    KEPT_LEFT,
+    KEPT_LEFT_AHEAD,
+    KEPT_RIGHT,
+    KEPT_RIGHT_AHEAD,
+    KEPT_WALKERS,
+    KEPT_WALKERS_AHEAD,
     LANES,
     LEFT,
     MOVES,
     NEXT_ROW,
+    NOTABLE,
     OUTCOME,
     OWN_ROW,
     PLANES,
     RIGHT,
     SHIFT,
     SINCE_END,
+    SWEPT,
     TICKS_TO_GOAL,
     WALKERS,
+    WATCHING,
     WORD,
     YIELDING,
 )
 from sim.batch.roads import begin_next
-from sim.rules import Motion
+from sim.rules import PEDESTRIAN_PERIOD, Motion
 
 _ZERO: Final = np.uint64(0)
 _ONE: Final = np.uint64(1)
@@ -66,13 +85,87 @@ END_FIELD: Final = 16
 MAX_TICKS_A_CALL: Final = 2**MOVE_FIELD - 1
 """So that no counter overflows before it is emptied."""
 
+_PERIOD: Final = np.uint64(PEDESTRIAN_PERIOD)
+# What was kept in one tick cannot be what is so in the next, so it is first compared after two.
+assert PEDESTRIAN_PERIOD > 1
+
+
+@compiled
+def _rows_of(boards, plane, i, word, shift, word_ahead, shift_ahead, row_mask):
+    """The vehicle's row and the one ahead, of one plane of a lane."""
+    own = boards[(np.int64(word) * PLANES + plane) * LANES + i] >> shift
+    ahead = boards[(np.int64(word_ahead) * PLANES + plane) * LANES + i] >> shift_ahead
+    return own & row_mask, ahead & row_mask
+
+
+@compiled
+def _hold_back(boards, v, i, walking):
+    """Undo the step of the mover that entered the cell of lane `i`, which stands: it has braked."""
+    at = np.int64(v[WORD * LANES + i]) * PLANES * LANES + i
+    standing = v[HELD_BACK * LANES + i] << v[SHIFT * LANES + i]
+    right, left = boards[at + RIGHT * LANES], boards[at + LEFT * LANES]
+    motion = brake(
+        Motion(right, left, v[CAME_RIGHT * LANES + i], v[CAME_LEFT * LANES + i]), standing, _ALL
+    )
+    boards[at + RIGHT * LANES] = motion.right
+    boards[at + LEFT * LANES] = motion.left
+    if walking and boards[at + WALKERS * LANES] & standing:
+        boards[at + WALKERS * LANES] ^= (right | left) ^ (motion.right | motion.left)
+
+
+@compiled
+def _repeats(boards, v, i, at, top, row_size, row_mask, walking):
+    """Whether lane `i`, which has not left its row, is in the situation kept; keeps this one when it is time.
+
+    `at` is its cell and beat as in `KEPT_AT` (`sim.repetition.watched`).
+    """
+    word, shift = v[WORD * LANES + i], v[SHIFT * LANES + i]
+    carried = shift == _ZERO
+    word_ahead = word - (_ONE if carried else _ZERO)
+    shift_ahead = top if carried else shift - row_size
+    right = _rows_of(boards, RIGHT, i, word, shift, word_ahead, shift_ahead, row_mask)
+    left = _rows_of(boards, LEFT, i, word, shift, word_ahead, shift_ahead, row_mask)
+    walkers = (_ZERO, _ZERO)
+    if walking:
+        walkers = _rows_of(boards, WALKERS, i, word, shift, word_ahead, shift_ahead, row_mask)
+    ticks = v[IN_ROW * LANES + i]
+    if (
+        ticks > _ONE
+        and v[KEPT_AT * LANES + i] == at
+        and v[KEPT_RIGHT * LANES + i] == right[0]
+        and v[KEPT_RIGHT_AHEAD * LANES + i] == right[1]
+        and v[KEPT_LEFT * LANES + i] == left[0]
+        and v[KEPT_LEFT_AHEAD * LANES + i] == left[1]
+        and v[KEPT_WALKERS * LANES + i] == walkers[0]
+        and v[KEPT_WALKERS_AHEAD * LANES + i] == walkers[1]
+    ):
+        return True
+    if ticks & (ticks + _ONE) == _ZERO:
+        v[KEPT_AT * LANES + i] = at
+        v[KEPT_RIGHT * LANES + i], v[KEPT_RIGHT_AHEAD * LANES + i] = right
+        v[KEPT_LEFT * LANES + i], v[KEPT_LEFT_AHEAD * LANES + i] = left
+        v[KEPT_WALKERS * LANES + i], v[KEPT_WALKERS_AHEAD * LANES + i] = walkers
+    return False
+
 
 @cache
-def ticks_kernel(*, walking: bool, courteous: bool, held: bool, asked: bool, renewed: bool) -> Any:
-    """The compiled loop for batches with or without pedestrians, courtesy, held results, moves handed in.
+def ticks_kernel(
+    *,
+    walking: bool,
+    courteous: bool,
+    bodily: bool,
+    watching: bool,
+    held: bool,
+    asked: bool,
+    renewed: bool,
+) -> Any:
+    """The compiled loop for batches with or without any of these.
 
+    `walking`: pedestrians. `courteous`: movers who give way or brake by chance. `bodily`: swept bodies, or
+    movers who brake; which, says each lane. `watching`: lanes that are STUCK when a situation repeats.
     `held`: an ended lane stands for its hold ticks, then (if `renewed`) its next road begins; otherwise
-    an ended lane starts its first road again in the same tick.
+    an ended lane starts its first road again in the same tick. `asked`: moves are handed in; otherwise the
+    rule planner decides.
     """
 
     def run(
@@ -83,6 +176,7 @@ def ticks_kernel(*, walking: bool, courteous: bool, held: bool, asked: bool, ren
         row_size = np.uint64(columns)
         top = np.uint64((rows_per_word - 1) * columns)
         last_bit = _ONE << np.uint64(columns - 1)
+        row_mask = (last_bit << _ONE) - _ONE
         limit = np.uint64(10 * rows)
         end_field = np.uint64(END_FIELD)
         sideways = _ONE << np.uint64(MOVE_FIELD)
@@ -96,6 +190,9 @@ def ticks_kernel(*, walking: bool, courteous: bool, held: bool, asked: bool, ren
                     v[NEXT_ROW * LANES + i] = _ZERO
                     v[CAME_RIGHT * LANES + i] = _ZERO
                     v[CAME_LEFT * LANES + i] = _ZERO
+                    if bodily:
+                        v[CAME_RIGHT_AHEAD * LANES + i] = _ZERO
+                        v[CAME_LEFT_AHEAD * LANES + i] = _ZERO
                 if courteous:
                     for i in range(LANES):
                         bit, cell = v[COLUMN_BIT * LANES + i], np.int64(v[CELL * LANES + i])
@@ -147,24 +244,61 @@ def ticks_kernel(*, walking: bool, courteous: bool, held: bool, asked: bool, ren
                         v[NEXT_ROW * LANES + i] = blocked if ahead else v[NEXT_ROW * LANES + i]
                         v[CAME_RIGHT * LANES + i] = motion.came_right if here else v[CAME_RIGHT * LANES + i]
                         v[CAME_LEFT * LANES + i] = motion.came_left if here else v[CAME_LEFT * LANES + i]
+                        if bodily:
+                            came_right, came_left = motion.came_right, motion.came_left
+                            kept = v[CAME_RIGHT_AHEAD * LANES + i]
+                            v[CAME_RIGHT_AHEAD * LANES + i] = came_right if ahead else kept
+                            kept = v[CAME_LEFT_AHEAD * LANES + i]
+                            v[CAME_LEFT_AHEAD * LANES + i] = came_left if ahead else kept
                 for i in range(LANES):
                     shift, word = v[SHIFT * LANES + i], v[WORD * LANES + i]
                     bit, cell = v[COLUMN_BIT * LANES + i], v[CELL * LANES + i]
                     carried = shift == _ZERO
                     shift_ahead = top if carried else shift - row_size
                     word_ahead = word - (_ONE if carried else _ZERO)
+                    came_right = v[CAME_RIGHT * LANES + i] >> shift
+                    came_left = v[CAME_LEFT * LANES + i] >> shift
+                    cut_left = cut_right = held_back = _ZERO
+                    if bodily:
+                        swept = v[SWEPT * LANES + i]
+                        cut_left = (came_right | v[CAME_RIGHT_AHEAD * LANES + i] >> shift_ahead) & swept
+                        cut_right = (came_left | v[CAME_LEFT_AHEAD * LANES + i] >> shift_ahead) & swept
+                        attentive = v[BRAKING * LANES + i]
+                        if courteous:
+                            draws = word_at(
+                                v[ATTENTIVE_KEY * LANES + i], np.int64(v[EPISODE_TICK * LANES + i])
+                            )
+                            share = shares[block * LANES + i, ATTENTIVE]
+                            attentive = _ZERO
+                            if fraction(word_at(draws, np.int64(cell) - 1)) < share:
+                                attentive |= bit >> _ONE
+                            if fraction(word_at(draws, np.int64(cell) + 1)) < share:
+                                attentive |= bit << _ONE
+                        braked = brake(Motion(came_right, came_left, came_right, came_left), bit, attentive)
+                        held_back = came_right ^ braked.came_right | came_left ^ braked.came_left
                     own = free_steps(
                         bit,
                         _ZERO,
                         v[OWN_ROW * LANES + i] >> shift,
-                        v[CAME_RIGHT * LANES + i] >> shift,
-                        v[CAME_LEFT * LANES + i] >> shift,
+                        came_right,
+                        came_left,
+                        _ZERO,
+                        _ZERO,
                         _ONE,
                         last_bit,
                     )
                     on = free_steps(
-                        _ZERO, bit, v[NEXT_ROW * LANES + i] >> shift_ahead, _ZERO, _ZERO, _ONE, last_bit
+                        _ZERO,
+                        bit,
+                        v[NEXT_ROW * LANES + i] >> shift_ahead,
+                        _ZERO,
+                        _ZERO,
+                        cut_left,
+                        cut_right,
+                        _ONE,
+                        last_bit,
                     )
+                    free_stay = own.stay | held_back  # where a mover would enter, nothing else stands
                     if asked:
                         move = v[ASKED * LANES + i]
                         leads_left = (bit & ~_ONE) >> _ONE
@@ -177,10 +311,11 @@ def ticks_kernel(*, walking: bool, courteous: bool, held: bool, asked: bool, ren
                         goes_beside = on_road & ((move == np.uint64(1)) | (move == np.uint64(2)))
                         goes_aslant = on_road & ((move == np.uint64(3)) | (move == np.uint64(4)))
                         goes_on = goes_straight | goes_aslant
+                        stays = (not goes_on) & (not goes_beside)
                         bit_after = leads if on_road else bit
                         free_on = on.forward | on.forward_left | on.forward_right
                         free_beside = own.left | own.right
-                        free = free_on if goes_on else (free_beside if goes_beside else own.stay)
+                        free = free_on if goes_on else (free_beside if goes_beside else free_stay)
                         crashed = (free & bit_after) == _ZERO
                     else:
                         beside = own.left if own.left != _ZERO else own.right
@@ -193,7 +328,7 @@ def ticks_kernel(*, walking: bool, courteous: bool, held: bool, asked: bool, ren
                         bit_after = aslant if goes_aslant else bit_after
                         stays = (not goes_straight) & (not goes_beside) & (not goes_aslant)
                         bit_after = bit if stays else bit_after
-                        crashed = stays & (own.stay == _ZERO)
+                        crashed = stays & (free_stay == _ZERO)
                     count = _ONE if goes_straight else waited
                     count = sideways if goes_beside else count
                     count = diagonal if goes_aslant else count
@@ -226,7 +361,32 @@ def ticks_kernel(*, walking: bool, courteous: bool, held: bool, asked: bool, ren
                     v[ENDS * LANES + i] += ending
                     v[TICKS_TO_GOAL * LANES + i] += arriving
                     v[OUTCOME * LANES + i] = outcome
+                    notable = outcome
+                    if bodily:
+                        held_back = held_back if stays else _ZERO
+                        v[HELD_BACK * LANES + i] = held_back
+                        notable |= held_back
+                    if watching:
+                        in_row = _ZERO if goes_on else v[IN_ROW * LANES + i] + _ONE
+                        v[IN_ROW * LANES + i] = in_row
+                        spot = cell_after << _ONE | tick % _PERIOD
+                        met = (in_row > _ONE) & (v[KEPT_AT * LANES + i] == spot)
+                        due = (in_row > _ZERO) & (in_row & (in_row + _ONE) == _ZERO)
+                        notable |= v[WATCHING * LANES + i] if met | due else _ZERO
+                    v[NOTABLE * LANES + i] = notable
                 for i in range(LANES):
+                    if v[NOTABLE * LANES + i] == _ZERO:
+                        continue
+                    if bodily and v[HELD_BACK * LANES + i] != _ZERO:
+                        _hold_back(boards, v, i, walking)
+                    if watching and v[OUTCOME * LANES + i] == RUNNING and v[WATCHING * LANES + i] != _ZERO:
+                        tick = v[EPISODE_TICK * LANES + i]
+                        spot = v[CELL * LANES + i] << _ONE | tick % _PERIOD
+                        if v[IN_ROW * LANES + i] != _ZERO and _repeats(
+                            boards, v, i, spot, top, row_size, row_mask, walking
+                        ):
+                            v[OUTCOME * LANES + i] = STUCK
+                            v[ENDS * LANES + i] += _ONE << (STUCK - _ONE) * end_field
                     if v[OUTCOME * LANES + i] != RUNNING:
                         if held:
                             lane = block * LANES + i
@@ -240,6 +400,7 @@ def ticks_kernel(*, walking: bool, courteous: bool, held: bool, asked: bool, ren
                             v[CELL * LANES + i] = u[CELL * LANES + i]
                             v[EPISODE_TICK * LANES + i] = u[EPISODE_TICK * LANES + i]
                             v[OUTCOME * LANES + i] = RUNNING
+                            v[IN_ROW * LANES + i] = _ALL
                             for w in range(words):
                                 at = w * PLANES * LANES + i
                                 boards[at + RIGHT * LANES] = first[at + RIGHT * LANES]

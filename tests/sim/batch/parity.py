@@ -32,11 +32,15 @@ class Difference:
 
 
 def mixed_configs(seed: int, count: int) -> Iterator[list[Config]]:
-    """Groups of configurations of one road size each, `count` in all; every third has the default size."""
+    """Groups of configurations of one road size each, `count` in all; every third has the default size.
+
+    Within a group the rules differ from lane to lane; in every fourth all lanes have the default ones.
+    """
     draw = random.Random(seed)
     while count > 0:
         usual = draw.random() < 1 / 3
         columns, rows = (8, 30) if usual else (draw.randint(3, 64), draw.randint(4, 60))
+        default_rules = draw.random() < 1 / 4
         group: list[Config] = []
         while len(group) < min(LANES_OF_A_SIZE, count):
             most = columns * rows // 6
@@ -51,7 +55,10 @@ def mixed_configs(seed: int, count: int) -> Iterator[list[Config]]:
                     potholes=draw.choice([None, None, draw.randint(0, most)]),
                     barriers=draw.choice([0, draw.randint(0, rows)]),
                     pedestrians=draw.choice([0, 0, draw.randint(0, rows)]),
-                    courtesy=draw.choice([0.0, 0.0, 0.5, 1.0]),
+                    courtesy=0.0 if default_rules else draw.choice([0.0, 0.0, 0.5, 1.0]),
+                    attentive=1.0 if default_rules else draw.choice([0.0, 0.5, 1.0]),
+                    collision="swept" if default_rules else draw.choice(["swept", "cell"]),
+                    repetition=default_rules or draw.random() < 2 / 3,
                     solvable=draw.random() < 0.2,
                     reset_delay_s=draw.choice([0.0, 0.5, 2.0, 3.3]),
                 )
