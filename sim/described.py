@@ -11,6 +11,7 @@ from dataclasses import fields
 from sim.actions import Prefer, Scenario, Set, WorldAction
 from sim.config import Config
 from sim.edit_error import EditError
+from sim.planner_names import DEFAULT
 from sim.scenario import ROADS, TRAFFIC, configured
 from sim.settings import preferring, setting
 
@@ -74,6 +75,6 @@ def _scenario(config: Config) -> Scenario:
         vehicles=vehicles,
         barriers=None if config.barriers == preset.barriers else config.barriers,
         pedestrians=None if config.pedestrians == preset.pedestrians else config.pedestrians,
-        planner=None if config.planner == "priority" else config.planner,  # type: ignore[arg-type]
+        planner=None if config.planner == DEFAULT[config.rules] else config.planner,  # type: ignore[arg-type]
         sensor=None if config.sensor == "perfect" else config.sensor,
     )

@@ -16,9 +16,11 @@ GROUP: Final = "roadtalk.planners"
 BUILT_IN: Final = ("rules", "priority", "astar", "dijkstra", "exact")
 """Names of the planners that come with the project (`sim.plan`)."""
 LOCAL: Final = ("rules", "priority")
-"""Those of them that decide from the fixed hazards and from the movers of the vehicle's row and the next."""
+"""Those of them that decide from what never moves and from the movers of the vehicle's row and the next."""
 WEIGHING: Final = ("astar", "dijkstra")
 """Those of them that charge for what is near, and so heed preferences (`sim.plan.costs`)."""
+DEFAULT: Final = {1: "priority", 2: "rules"}
+"""Who decides where nobody says, by the version of the rules (`sim.rules_version`)."""
 PROMISED: Final = ("dwa", "rl", "cooperative")
 """Names that people may say and this version has not."""
 

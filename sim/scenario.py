@@ -11,7 +11,7 @@ from typing import Final
 
 from sim.actions import RoadType, Scenario, Traffic
 from sim.config import Config, Problem
-from sim.planner_names import PROMISED
+from sim.planner_names import DEFAULT, PROMISED
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +73,6 @@ def configured(config: Config, scenario: Scenario) -> Config:
         vehicles=scenario.vehicles,
         barriers=preset.barriers if scenario.barriers is None else scenario.barriers,
         pedestrians=preset.pedestrians if scenario.pedestrians is None else scenario.pedestrians,
-        planner=scenario.planner or "priority",
+        planner=scenario.planner or DEFAULT[config.rules],
         sensor=scenario.sensor or "perfect",
     )

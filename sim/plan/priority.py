@@ -42,7 +42,9 @@ def options_in_order(forecast: Forecast) -> tuple[Option, ...]:
     ready = _free_options(road.columns, road.rows, forecast.ego)
     if all(steps):
         return ready
-    return tuple([free if there else met_option(forecast, free) for there, free in zip(steps, ready, strict=True)])
+    return tuple(
+        [free if there else met_option(forecast, free) for there, free in zip(steps, ready, strict=True)]
+    )
 
 
 def met_option(forecast: Forecast, free: Option) -> Option:

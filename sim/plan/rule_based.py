@@ -82,8 +82,8 @@ _NOWHERE: Final = Prospect(Leads.NOWHERE, None)
 _CLASS: Final = 1 << 8
 """Between the ranks of two classes; within a class the fewer columns come first."""
 _FIRST, _FORWARD, _DIAGONAL, _ASIDE, _STAY, _DODGE, _CLOSED, _LAST = range(-_CLASS, 7 * _CLASS, _CLASS)
-"""Ranks, the lowest first. `_FIRST` and `_LAST` are those of dead ends: straight on, which is what would be done
-if the way were free, and all others."""
+"""Ranks, the lowest first. `_FIRST` and those from `_LAST` on are dead ends: straight on, which is what would be done
+if there were a way, then staying, then all others."""
 
 _decided = maker(Decision, "tick", "av", "planner", "move", "options")
 
@@ -185,14 +185,14 @@ def _rank_forward(prospect: Prospect | None) -> int:
 
 def _rank_diagonal(prospect: Prospect | None) -> int:
     if prospect is None or prospect.columns is None:
-        return _LAST
+        return _LAST + 1
     return (_DIAGONAL if prospect.leads is Leads.ON else _CLOSED) + prospect.columns
 
 
 def _rank_aside(prospect: Prospect | None, below: bool) -> int:
     """`below`: whether the way on is straight ahead of the vehicle."""
     if prospect is None or prospect.leads is Leads.NOWHERE:
-        return _LAST
+        return _LAST + 1
     if prospect.leads is Leads.ON:
         return (_DODGE if below else _ASIDE) + (prospect.columns or 0)
     return _CLOSED + 1

@@ -69,6 +69,7 @@ REASONS: Final[dict[str, str]] = {
     "mover_stays": "in the way",
     "mover_enters": "coming",
     "mover_swaps": "head-on",
+    "mover_crosses": "crossing",
 }
 """why a move is not taken, in a few words; who it is stands before those about movers"""
 MOVES: Final[dict[str, str]] = {

@@ -21,6 +21,7 @@ const REASONS = /** @type {Record<string, string>} */ ({
   mover_enters: "something moves in",
   mover_stays: "something stands there",
   mover_swaps: "something comes the other way",
+  mover_crosses: "something crosses the way there",
   disabled_mover: "a disabled vehicle",
 });
 
@@ -41,7 +42,13 @@ export function plain(name) {
 }
 
 /** Planners by the names people know them by; others go by the name they were registered under. */
-const PLANNERS = /** @type {Record<string, string>} */ ({ astar: "A*", dijkstra: "Dijkstra" });
+const PLANNERS = /** @type {Record<string, string>} */ ({
+  rules: "Rules",
+  priority: "Priority rules of the source",
+  astar: "A*",
+  dijkstra: "Dijkstra",
+  exact: "Quickest",
+});
 
 /** @param {string} name */
 export function plannerName(name) {
