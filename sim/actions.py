@@ -19,7 +19,7 @@ Weather = Literal["clear", "rain", "fog", "snow"]
 TimeOfDay = Literal["day", "dusk", "night", "dawn"]
 RoadType = Literal["highway", "city", "rural"]
 Traffic = Literal["none", "light", "normal", "heavy"]
-PlannerName = Literal["priority", "astar", "dijkstra", "dwa", "rl", "cooperative"]
+PlannerName = Literal["rules", "priority", "astar", "dijkstra", "exact", "dwa", "rl", "cooperative"]
 Preference = Literal["avoid_potholes", "smooth_ride", "fastest", "cautious"]
 """What a vehicle can be asked to mind; `balanced` is none of them."""
 Wish = Literal[Preference, "balanced"]

@@ -123,7 +123,7 @@ class Config:
     reset_delay_s: float = 2.0
     road: RoadType | None = None
     traffic: Traffic | None = None
-    planner: str = "priority"
+    planner: str = "rules"
     preferences: tuple[Preference, ...] = ()
     """how planners that weigh costs should weigh them; the balance is in `sim.search.costs`"""
     safety_buffer: int = 1

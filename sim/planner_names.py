@@ -13,10 +13,10 @@ if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
 
 GROUP: Final = "roadtalk.planners"
-BUILT_IN: Final = ("priority", "astar", "dijkstra", "exact")
+BUILT_IN: Final = ("rules", "priority", "astar", "dijkstra", "exact")
 """Names of the planners that come with the project (`sim.plan`)."""
-LOCAL: Final = ("priority",)
-"""Those of them that decide from the fixed hazards and from the movers of the vehicle's row and the next."""
+LOCAL: Final = ("rules", "priority")
+"""Those of them that decide from what never moves and from the movers of the vehicle's row and the next."""
 WEIGHING: Final = ("astar", "dijkstra")
 """Those of them that charge for what is near, and so heed preferences (`sim.search.costs`)."""
 PROMISED: Final = ("dwa", "rl", "cooperative")

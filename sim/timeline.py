@@ -40,7 +40,7 @@ ROAD_WORK, ROAD_CELLS = 4, 80
 SEARCH_WORK = 16
 """What a tick costs with a planner that searches, or one that is not known here."""
 
-_SIMPLE_PLANNERS = frozenset(("priority", "dwa"))
+_SIMPLE_PLANNERS = frozenset(("priority", "rules", "dwa"))
 _DRAWN = frozenset((EventType.EPISODE_STARTED, EventType.ROAD_KEPT))
 
 RECENT_RUNS = 8

@@ -126,9 +126,13 @@ def _clarity_key(clarity: Clarity) -> str:
         return f"gap_{decision.measure}" if clarity.gap else "even"
     if not clarity.free:
         return "none_free"
+    if decision.chosen.dead_end:
+        return "no_way"
     if decision.move is decision.options[0].move:
         return "first"
-    return "only" if clarity.next_best is None else "in_order"
+    if clarity.next_best is None:
+        return "only" if clarity.free == 1 else "only_way"
+    return "on_in_order" if any(option.dead_end for option in decision.preferred) else "in_order"
 
 
 def _of_sample(found: Confidence) -> int:

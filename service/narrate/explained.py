@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from service.narrate.naming import Naming
+from service.narrate.outlook import outlook
 from service.narrate.sayings import Sayings
 from sim.actions import Prefer
 from sim.explain import Cause, Counterfactual, Explanation, Future
@@ -34,6 +35,7 @@ class _Telling:
         self._explanation = explanation
         self._decision = explanation.decision
         self._naming = Naming(sayings, explanation.moment)
+        self._outlook = outlook(sayings, explanation.decision, explanation.moment)
 
     def why(self) -> str:
         """Why the move was made."""
@@ -44,6 +46,10 @@ class _Telling:
             return self._say("fact_asked", tick=decision.tick, did=self._did(decision.move))
         if decision.measure is not Measure.RANK and decision.asked is None:
             return self._joined([self._weighed(), *self._proofs()])
+        if self._outlook is not None and (reasons := self._outlook.reasons("then")):
+            fact = self._fact([decision.option(Move.FORWARD)] if decision.move is not Move.FORWARD else [])
+            told = self._say("because", fact=fact, reasons=reasons)
+            return self._joined([told, self._outlook.choice_of_side(), *self._proofs()])
         if decision.held_back and decision.asked is not None:
             asked = self._sayings.move(decision.asked, "do")
             fact = self._say("fact_held_back", tick=decision.tick, asked=asked)
@@ -83,6 +89,8 @@ class _Telling:
         decision = self._decision
         if decision.measure is not Measure.RANK and option.verdict == "free":
             return self._not_worth(option, do)
+        if option.verdict == "free" and self._outlook is not None and (but := self._outlook.not_made(option)):
+            return self._say("not_but", tick=decision.tick, but=but[0].lower() + but[1:].rstrip("."))
         if option.verdict == "free":
             return self._say(
                 "not_preferred",

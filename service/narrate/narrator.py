@@ -10,6 +10,7 @@ from typing import Any
 from service.narrate.answers import Answers
 from service.narrate.ends import Ends
 from service.narrate.naming import Naming
+from service.narrate.outlook import outlook
 from service.narrate.replies import Replies
 from service.narrate.sayings import Sayings
 from service.sessions.facts import Answerable, Fact, Lesson
@@ -48,7 +49,7 @@ class Narrator:
             return self._say("fault", planner=decision.planner, fault=decision.fault)
         asked, first = decision.asked, decision.options[0]
         ranked = decision.measure is Measure.RANK
-        if first.move is decision.move and ranked and asked is None:
+        if first.move is decision.move is Move.FORWARD and ranked and asked is None:
             return self._straight_on(first, run)  # said most, by far
         naming = Naming(self._sayings, run)
         if asked is not None:
@@ -56,6 +57,11 @@ class Narrator:
         if not ranked:
             return self._weighed(decision, naming)
         chosen = decision.chosen
+        if first.reason.blocks and decision.move is not Move.STAY:
+            return self._other(decision.move, first, naming)
+        ahead = outlook(self._sayings, decision, run)
+        if ahead is not None and not chosen.reason.blocks:
+            return self._say("other", move=self._named(decision.move), reason=ahead.reason("now"))
         if decision.move is not Move.STAY:
             return self._other(decision.move, first, naming)
         if chosen.verdict == "free":

@@ -114,9 +114,9 @@ class Replies:
         change = changed.get(f"config.{parameter}")
         if change is None:
             value = getattr(applied.run.config, parameter, None) or AS_IT_IS.get(parameter, "")
-            return self._say("set_already", name=name, value=value)
-        before = self._say("unset") if change.before is None else change.before
-        said = self._say("set", name=name, before=before, after=change.after)
+            return self._say("set_already", name=name, value=self._value(parameter, value))
+        before = self._say("unset") if change.before is None else self._value(parameter, change.before)
+        said = self._say("set", name=name, before=before, after=self._value(parameter, change.after))
         if parameter in NEEDS_A_NEW_ROAD:
             return f"{said} {self._scenario(applied.run)}"
         counted = self._diff(applied.changes)
@@ -124,6 +124,10 @@ class Replies:
         if parameter in FROM_THE_NEXT_ROAD:
             told.append(self._say("next_road" if not counted else "next_roads_too"))
         return " ".join(sentence for sentence in told if sentence)
+
+    def _value(self, parameter: str, value: object) -> object:
+        """A value as people know it."""
+        return self._sayings.planner(str(value)) if parameter == "planner" else value
 
     def _preferring(self, applied: Applied) -> str:
         config = applied.run.config

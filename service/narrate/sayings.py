@@ -75,6 +75,11 @@ class Sayings:
         """A move as `did`, `do`, `name` or `place`."""
         return str(self._words["moves"][move][form])
 
+    def planner(self, name: str, form: str = "name") -> str:
+        """A planner as people know it, as `name` or after `with`; one of another package by its own name."""
+        known = self._words["planners"].get(name)
+        return name if known is None else str(known[form])
+
     def where(self, cell: Cell) -> str:
         """A cell as people call it: lanes count from 1."""
         return self.say("words", "at_cell", lane=cell[0] + 1, row=cell[1])
@@ -116,6 +121,8 @@ class Sayings:
         movers = [kind_of(name) for name in ids if kind_of(name).moves]
         if reason == "mover_enters" and len(movers) > 1:
             return self.say("words", "both_enter", tense, who=who, place=place)
+        if reason == "mover_crosses" and len(movers) > 1:
+            return self.say("words", "both_cross", tense, who=who, place=place)
         kinds = movers or [kind_of(name) for name in ids]
         a = self.say("words", "a", kinds[0]) if kinds else ""
         return self.say("words", "reasons", reason, tense, who=who, a=a, place=place)

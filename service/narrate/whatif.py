@@ -256,8 +256,7 @@ class Conditions:
     def _setting(self, parameter: str, run: Run) -> str:
         value = getattr(run.config, parameter, None)
         if parameter == "planner":
-            known = self._sayings.words("whatif", "planners")
-            return self._say("planner", planner=known.get(value, value))
+            return self._say("planner", planner=self._sayings.planner(value, "with"))
         name = self._sayings.say("whatif", "settings", parameter)
         return self._say("setting", name=name, value=AS_IT_IS.get(parameter, "") if value is None else value)
 

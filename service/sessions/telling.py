@@ -14,7 +14,7 @@ from service.sessions.words import Words
 from service.store import EntryRecord
 from sim.run import Run
 
-QUICK_PLANNERS = frozenset(("priority",))
+QUICK_PLANNERS = frozenset(("priority", "rules"))
 """Planners that decide in so little time that an answer from hundreds of decisions is at once."""
 
 LONG_QUESTIONS = frozenset(("what_if", "why_not", "confidence"))

@@ -402,9 +402,7 @@ class Batch:
     def _advance(self, ticks: int, threads: int, *, asked: bool) -> None:
         attentive = self._shares[:, ATTENTIVE]
         kernel = ticks_kernel(
-            walking=bool(
-                self._plane_of_boards(WALKERS).any() or (self._wholes[:, PEDESTRIANS] > 0).any()
-            ),
+            walking=bool(self._plane_of_boards(WALKERS).any() or (self._wholes[:, PEDESTRIANS] > 0).any()),
             courteous=bool((self._shares[:, COURTESY] > 0).any() or (attentive % 1.0 > 0).any()),
             bodily=bool(self._plane(SWEPT).any() or (attentive > 0).any()),
             watching=bool(self._plane(WATCHING).any()) and not asked,

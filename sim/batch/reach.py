@@ -395,9 +395,7 @@ def exact_moves(state, lanes, shares, columns, rows, left_edge, right_edge, coun
             keep_shortest(layers, least, row, last, columns, left_edge, right_edge, swept)
             move = step_from(layers, 0, cell, columns, swept)[0]
         else:
-            move, lasted = longest_survival(
-                now, layers, rolled, last, columns, left_edge, right_edge, swept
-            )
+            move, lasted = longest_survival(now, layers, rolled, last, columns, left_edge, right_edge, swept)
         if someone_brakes(now, layers, last):
             prepare(now, block, lane_block, inner, columns, rows, shares[lane], 0)
             stayed, _, kept_clear = search(

@@ -84,7 +84,7 @@ def hung_on(
     Also whether no smaller part would do (all were tried). With all of `names` it comes to the fact, and the
     more telling ones come first.
     """
-    enough = _least(names, lambda kept: tried.keeping(kept) is fact)
+    enough = least(names, lambda kept: tried.keeping(kept) is fact)
     if any(tried.without([name]) is fact for name in enough):  # some have a stand-in
         enough = _of_necessary(tried, fact, names) or enough
     enough, minimal = _smallest(tried, fact, enough)
@@ -134,10 +134,10 @@ def _group(tried: Tried, fact: object, name: str, names: list[str], enough: list
     There are such: without the cause and all that is not one, the others are not enough.
     """
     stand_ins = [other for other in names if other not in enough]
-    return (name, *_least(stand_ins, lambda gone: tried.without([name, *gone]) is not fact))
+    return (name, *least(stand_ins, lambda gone: tried.without([name, *gone]) is not fact))
 
 
-def _least(names: list[str], holds: Callable[[Sequence[str]], bool]) -> list[str]:
+def least(names: list[str], holds: Callable[[Sequence[str]], bool]) -> list[str]:
     """A part of `names` for which it holds and from which nothing can be spared; it holds for all of them.
 
     Looked for among the first names before the later ones are thought of, so that an explanation does not

@@ -42,13 +42,13 @@ from sim.search.reach import steps_left
 from sim.timeline import Timeline
 from sim.world import World
 
-WORK: Final = {"priority": 450, "exact": 450, "astar": 240, "dijkstra": 240}
+WORK: Final = {"priority": 450, "rules": 450, "exact": 450, "astar": 240, "dijkstra": 240}
 """Decisions taken for one answer, by planner; a few more where the last future is run to its end."""
 OTHER_WORK: Final = 120
 """The same for planners that are not the project's own."""
 WALK_SHARE: Final = 2 / 3
 """How much of the work goes into walking the whole tree before futures are drawn instead."""
-PATIENCE: Final = {"priority": 40}
+PATIENCE: Final = {"priority": 40, "rules": 40}
 """Decisions after which futures are looked at for whether they are shut off; at once where not named, as a
 decision then costs as much as the look."""
 MAX_FUTURES: Final = 200

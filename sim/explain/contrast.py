@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from typing import get_args
 
 from sim.actions import Add, Prefer, Wish, WorldAction
+from sim.explain.causes import least, telling_first
 from sim.explain.factors import removal
 from sim.explain.facts import Cause, Counterfactual, Explanation, Role, Verified
 from sim.explain.rerun import Rerun, wall
@@ -32,6 +33,8 @@ def explain_why_not(run: Run, decision: Decision, foil: Move) -> Explanation:
     freed = rerun.without(cleared) is foil
     if freed:
         cleared = spared(cleared, lambda names: rerun.without(names) is foil)
+    if not freed and _led_to(decision, foil) and (opened := _opened(rerun, foil)):
+        cleared, freed = opened, True
     wished = [] if freed else _wished(rerun, cleared, foil)
     walls = [] if freed or wished else _walls(rerun, cleared, foil)
     counterfactuals = []
@@ -65,6 +68,18 @@ def _cleared(rerun: Rerun, decision: Decision, foil: Move) -> list[str]:
         cleared += blockers
         seen = rerun.decision_without(cleared)
     return cleared
+
+
+def _led_to(decision: Decision, foil: Move) -> bool:
+    """Whether it may hang on where the foil leads, and not only on what is in its way."""
+    by_rank = decision.measure is Measure.RANK and decision.asked is None
+    return by_rank and (foil is Move.FORWARD or decision.option(foil).verdict == "free")
+
+
+def _opened(rerun: Rerun, foil: Move) -> list[str]:
+    """The things to take away, the nearest first, until a foil whose cell is free is the move made."""
+    names = telling_first(rerun.run.world, rerun.decision)
+    return least(names, lambda gone: rerun.without(gone) is foil) if rerun.without(names) is foil else []
 
 
 def _wished(rerun: Rerun, cleared: Sequence[str], foil: Move) -> list[WorldAction]:
@@ -101,7 +116,7 @@ def _causes(
     for name in cleared:
         thing = run.world.find(name)
         if thing is not None:
-            role = Role.BLOCKS if name in direct else Role.FOLLOWS
+            role = Role.BLOCKS if name in direct else Role.FOLLOWS if direct else Role.DRIVES
             moves = (foil,) if name in direct else ()
             alone = freed and len(cleared) == 1
             causes.append(Cause(name, thing.kind, thing.cell, role, moves, alone, tuple(cleared)))

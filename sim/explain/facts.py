@@ -31,7 +31,7 @@ class Role(StrEnum):
     BLOCKS = "blocks"
     """it would have been met by a move preferred to the one taken"""
     DRIVES = "drives"
-    """it made another cause go or stay where it blocks"""
+    """it made another cause go or stay where it blocks, or it shuts a way on"""
     FOLLOWS = "follows"
     """it would stand in the way once the others were gone"""
     WEIGHS = "weighs"

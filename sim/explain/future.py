@@ -29,7 +29,7 @@ ticks.
 MAX_FAULTS: Final = 20
 """After so many failures one after the other no answer is expected of a planner any more."""
 
-AT_SIGHT: Final = frozenset(("priority",))
+AT_SIGHT: Final = frozenset(("priority", "rules"))
 """Planners that look one tick ahead, on a road of any size."""
 
 

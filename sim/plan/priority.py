@@ -42,11 +42,13 @@ def options_in_order(forecast: Forecast) -> tuple[Option, ...]:
     ready = _free_options(road.columns, road.rows, forecast.ego)
     if all(steps):
         return ready
-    return tuple([free if there else _met(forecast, free) for there, free in zip(steps, ready, strict=True)])
+    return tuple(
+        [free if there else met_option(forecast, free) for there, free in zip(steps, ready, strict=True)]
+    )
 
 
-def _met(forecast: Forecast, free: Option) -> Option:
-    """A move that is not free, with what it would meet."""
+def met_option(forecast: Forecast, free: Option) -> Option:
+    """A move that is not free, with what it would meet; `free` says where it leads."""
     end = None if free.cell is None else forecast.road.index(free.cell)
     reason, causes = forecast.expect(forecast.ego, end)
     return _option(free.move, free.cell, reason, None, causes)

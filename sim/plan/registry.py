@@ -7,7 +7,7 @@ from typing import Protocol
 from sim import planner_names
 from sim.config import Config
 from sim.forecast import Forecast
-from sim.plan import astar, dijkstra, exact, priority
+from sim.plan import astar, dijkstra, exact, priority, rule_based
 from sim.plan.decision import Decision
 
 
@@ -42,6 +42,7 @@ def planner_named(name: str) -> Planner | None:
 
 for planner in (
     priority.PriorityPlanner(),
+    rule_based.RulesPlanner(),
     astar.AStarPlanner(),
     dijkstra.DijkstraPlanner(),
     exact.ExactPlanner(),

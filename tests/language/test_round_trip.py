@@ -30,7 +30,7 @@ def test_what_the_language_says_of_itself_is_understood(language: Language) -> N
         [{"do": "add", "kind": "pothole", "count": 1, "where": {"cell": [1, 2], "lane": 3}}],
         [{"do": "adjust", "parameter": "traffic", "direction": "up"}],
         [{"do": "adjust", "parameter": "planner", "factor": 2.0}],
-        [{"do": "set", "parameter": "planner", "value": "exact"}],
+        [{"do": "set", "parameter": "planner", "value": "mine"}],
         [{"do": "set", "parameter": "weather", "value": 5}],
         [{"do": "set", "parameter": "columns", "value": "many"}],
     ],

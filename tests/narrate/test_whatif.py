@@ -56,7 +56,7 @@ def asked(run: Run, *change: dict[str, Any]) -> dict[str, Any]:
         ),
         (
             [{"do": "set", "parameter": "planner", "value": "exact"}],
-            "If I planned with the exact planner, I would move diagonally left now instead of moving "
+            "If I planned with the quickest planner, I would move diagonally left now instead of moving "
             "left, and arrive in 4 ticks rather than 5. "
             "As it is, moving left costs me 1 tick against the best I could do.",
         ),

@@ -42,7 +42,13 @@ export function plain(name) {
 }
 
 /** Planners by the names people know them by; others go by the name they were registered under. */
-const PLANNERS = /** @type {Record<string, string>} */ ({ astar: "A*", dijkstra: "Dijkstra" });
+const PLANNERS = /** @type {Record<string, string>} */ ({
+  rules: "Rules",
+  priority: "Priority rules of the source",
+  astar: "A*",
+  dijkstra: "Dijkstra",
+  exact: "Quickest",
+});
 
 /** @param {string} name */
 export function plannerName(name) {
