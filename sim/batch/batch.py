@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import astuple, dataclass
+from dataclasses import astuple, dataclass, replace
 from functools import partial
 from itertools import pairwise
 from typing import Any, Final, Literal
@@ -100,6 +100,10 @@ class Batch:
         sizes = {(config.columns, config.rows) for config in configs}
         if len(sizes) != 1:
             raise ValueError(f"a batch has roads of one size, not of {len(sizes)}")
+        if any(config.layout for config in configs):
+            raise ValueError(
+                'roads of a layout are not drawn here; use Batch.of, with after="stop" or "restart"'
+            )
         self.configs = list(configs)
         self.layout = Layout.of(*sizes.pop())
         self.after: After = after
@@ -145,8 +149,19 @@ class Batch:
 
     @classmethod
     def of(cls, runs: Sequence[Run], *, after: After = "next") -> Batch:
-        """Every lane at a given moment of a run; queued moves and the manual mode are left behind."""
-        batch = cls([run.config for run in runs], after=after)
+        """Every lane at a given moment of a run; queued moves and the manual mode are left behind.
+
+        Raises `ValueError` where a road has a layout and `after` is "next": no more of them are drawn here.
+        """
+        configs = [run.config for run in runs]
+        if after != "next":
+            # Nothing is drawn: a layout says no more than the road that is given.
+            configs = [
+                replace(config, layout=None, solvable=config.layout is None and config.solvable)
+                for config in configs
+            ]
+        batch = cls(configs, after=after)
+        batch.configs = [run.config for run in runs]
         for lane, run in enumerate(runs):
             batch._place(lane, run)
         batch._remember_first()
