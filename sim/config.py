@@ -117,7 +117,7 @@ class Config:
     reset_delay_s: float = 2.0
     road: RoadType | None = None
     layout: Layout | None = None
-    """the family that the road is of (`sim.layouts`), drawn until it can be driven; None: things are scattered"""
+    """the family of roads (`sim.layouts`), drawn until one can be driven; None: things are scattered"""
     traffic: Traffic | None = None
     planner: str = "priority"
     preferences: tuple[Preference, ...] = ()

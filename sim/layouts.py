@@ -1,10 +1,10 @@
 """Families of roads: where the barriers of a layout stand, from a stream of random words.
 
-Structure: a layout is laid band by band from the start to the goal, each band from a sub-stream of its own, so
-that a longer road goes on from a shorter one. Within a band the way through lies away from the one before
+Structure: a layout is laid band by band from the start to the goal, each band from a sub-stream of its own,
+so that a longer road goes on from a shorter one. Within a band the way through lies away from the one before
 (`_far`: the farther of two draws), so that sideways moves are needed. Every band leaves a way through for a
-vehicle on an empty road. Movers are drawn in the busy rows of a band, between which one can wait, and potholes
-where they leave that way open. Whether the road can be driven is then searched (`sim.generate`).
+vehicle on an empty road. Movers are drawn in the busy rows of a band, between which one can wait, and
+potholes where they leave that way open. Whether the road can be driven is then searched (`sim.generate`).
 
 - `walls`: a row of barriers every second or third row, with one gap or two of one cell.
 - `narrows`: an open row or two, then a street of one to three lanes for some rows.
@@ -103,8 +103,14 @@ def least_room(layout: Layout | None, columns: int, rows: int) -> int:
             return between * columns
 
 
+def vehicles_on_average(layout: Layout | None, columns: int, rows: int, spawn_probability: float) -> float:
+    """About how many obstacle vehicles a road has where no exact number is asked for."""
+    a_row = spawn_probability * (columns * _CROSSING if layout == "crossing" else 1)
+    return (rows - 2) * a_row * _BUSY_SHARE.get(layout, 1.0)
+
+
 def crossing(columns: int, spawn_probability: float, stream: Stream) -> int:
-    """Vehicles in one row of a `crossing` road, by the row's own stream: half the average to half as much again."""
+    """Vehicles in one row of a `crossing` road, by the row's own stream: half the average to half more."""
     average = columns * spawn_probability * _CROSSING
     most = min(int(average * 1.5), columns // 2 + columns // 8)
     least = min(ceil(average / 2), most)
@@ -218,7 +224,7 @@ def _maze(columns: int, stream: Stream, through: int) -> _Band:
     wall = [
         column
         for column in range(columns)
-        if abs(column - gap) == 1 or column != gap and stream.uniform(_WALL + column) >= _OPENINGS
+        if column != gap and (abs(column - gap) == 1 or stream.uniform(_WALL + column) >= _OPENINGS)
     ]
     holes = _all_but((column for column in way if 0 <= column < columns), columns)
     return _Band([board_of(rooms), board_of(wall)], [True, False], [holes, 0], gap)
@@ -231,3 +237,12 @@ _BANDS: Final[dict[Layout, Callable[[int, Stream, int], _Band]]] = {
     "crossing": _crossing,
     "maze": _maze,
 }
+
+_BUSY_SHARE: Final[dict[Layout | None, float]] = {
+    "walls": 0.4,
+    "narrows": 0.3,
+    "dead_ends": 0.45,
+    "crossing": 0.75,
+    "maze": 0.5,
+}
+"""Part of the rows that have movers, as counted on many roads."""

@@ -101,9 +101,7 @@ class Batch:
         if len(sizes) != 1:
             raise ValueError(f"a batch has roads of one size, not of {len(sizes)}")
         if any(config.layout for config in configs):
-            raise ValueError(
-                'roads of a layout are not drawn here; use Batch.of, with after="stop" or "restart"'
-            )
+            raise ValueError('roads of a layout: make them with Batch.of, and after="stop" or "restart"')
         self.configs = list(configs)
         self.layout = Layout.of(*sizes.pop())
         self.after: After = after
@@ -155,10 +153,9 @@ class Batch:
         """
         configs = [run.config for run in runs]
         if after != "next":
-            # Nothing is drawn: a layout says no more than the road that is given.
+            # Nothing is drawn again, so that the first worlds drawn here may be any.
             configs = [
-                replace(config, layout=None, solvable=config.layout is None and config.solvable)
-                for config in configs
+                replace(each, layout=None, solvable=False) if each.layout else each for each in configs
             ]
         batch = cls(configs, after=after)
         batch.configs = [run.config for run in runs]
