@@ -20,6 +20,7 @@ from sim.actions import (
     Adjust,
     Amount,
     Drive,
+    Layout,
     PlaceableKind,
     PlannerName,
     Prefer,
@@ -180,6 +181,7 @@ class ScenarioParts:
     weather: Weather | None = None
     time_of_day: TimeOfDay | None = None
     road: RoadType | None = None
+    layout: Layout | None = None
     traffic: Traffic | None = None
     potholes: Amount | None = None
     vehicles: Amount | None = None

@@ -18,6 +18,8 @@ PlaceableKind = Literal["pothole", "vehicle", "barrier", "pedestrian", "av"]
 Weather = Literal["clear", "rain", "fog", "snow"]
 TimeOfDay = Literal["day", "dusk", "night", "dawn"]
 RoadType = Literal["highway", "city", "rural"]
+Layout = Literal["walls", "narrows", "dead_ends", "crossing", "maze"]
+"""A family of roads (`sim.layouts`)."""
 Traffic = Literal["none", "light", "normal", "heavy"]
 PlannerName = Literal["rules", "priority", "astar", "dijkstra", "exact", "dwa", "rl", "cooperative"]
 Preference = Literal["avoid_potholes", "smooth_ride", "fastest", "cautious"]
@@ -117,6 +119,7 @@ class Scenario:
     weather: Weather | None = None
     time_of_day: TimeOfDay | None = None
     road: RoadType | None = None
+    layout: Layout | None = None
     traffic: Traffic | None = None
     potholes: Amount | None = None
     vehicles: Amount | None = None

@@ -10,7 +10,8 @@ from difflib import get_close_matches
 from typing import Any, Final, Literal, get_args
 
 from sim import planner_names
-from sim.actions import Preference, RoadType, SensorName, Traffic
+from sim.actions import Layout, Preference, RoadType, SensorName, Traffic
+from sim.layouts import has_barriers, least_room
 from sim.randomness import MAX_SEED
 from sim.road import Road
 from sim.rules_version import RULES
@@ -61,6 +62,7 @@ Collision = Literal["swept", "cell"]
 CHOICES: Final[dict[str, tuple[str, ...]]] = {
     "collision": get_args(Collision),
     "road": get_args(RoadType),
+    "layout": get_args(Layout),
     "traffic": get_args(Traffic),
     "sensor": ("perfect",),
 }
@@ -90,7 +92,7 @@ _WHOLE: Final = frozenset(
     )
 )
 _SWITCHES: Final = frozenset(("solvable", "repetition"))
-_OPTIONAL: Final = frozenset(("potholes", "vehicles", "road", "traffic"))
+_OPTIONAL: Final = frozenset(("potholes", "vehicles", "road", "layout", "traffic"))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -122,6 +124,8 @@ class Config:
     """whether a vehicle whose situation repeats is STUCK at once, and not at the limit of ticks"""
     reset_delay_s: float = 2.0
     road: RoadType | None = None
+    layout: Layout | None = None
+    """the family of roads (`sim.layouts`), drawn until one can be driven; None: things are scattered"""
     traffic: Traffic | None = None
     planner: str = "rules"
     preferences: tuple[Preference, ...] = ()
@@ -217,17 +221,26 @@ class Config:
         return problems
 
     def _room_problems(self) -> list[Problem]:
-        room = self.columns * (self.rows - 2)
+        if has_barriers(self.layout) and self.barriers:
+            return [Problem("barriers", barriers_refused(self.layout))]
+        room = least_room(self.layout, self.columns, self.rows)
         counts = {
             name: getattr(self, name) or 0 for name in ("vehicles", "pedestrians", "barriers", "potholes")
         }
-        # Drawn things take at most one cell of a row each.
+        # Drawn things take at most one cell of a row each; with a layout they take what is left.
         drawn = (self.rows - 2) * ((self.vehicles is None) + (self.potholes is None))
+        if self.layout is not None:
+            drawn = 0
         if sum(counts.values()) + drawn <= room:
             return []
         largest = max(counts, key=lambda name: counts[name])
         left = max(0, room - drawn - sum(counts.values()) + counts[largest])
         return [Problem(largest, f"too many for this road: there is room for {left}")]
+
+
+def barriers_refused(layout: Layout | None) -> str:
+    """Why a number of barriers cannot be asked for on a road of this layout."""
+    return f"follow from the layout {layout} and cannot be counted; leave them out, or the layout"
 
 
 def _unknown(name: str) -> str:

@@ -11,6 +11,7 @@ from dataclasses import fields
 from sim.actions import Prefer, Scenario, Set, WorldAction
 from sim.config import Config
 from sim.edit_error import EditError
+from sim.layouts import has_barriers
 from sim.scenario import ROADS, TRAFFIC, configured
 from sim.settings import preferring, setting
 
@@ -67,12 +68,14 @@ def _scenario(config: Config) -> Scenario:
     # A probability that is set later takes the place of an exact number.
     vehicles = config.vehicles if config.spawn_probability == spawn else None
     potholes = config.potholes if config.pothole_probability == preset.pothole_probability else None
+    barriers = 0 if has_barriers(config.layout) else preset.barriers
     return Scenario(
         road=config.road,
+        layout=config.layout,
         traffic=config.traffic,
         potholes=potholes,
         vehicles=vehicles,
-        barriers=None if config.barriers == preset.barriers else config.barriers,
+        barriers=None if config.barriers == barriers else config.barriers,
         pedestrians=None if config.pedestrians == preset.pedestrians else config.pedestrians,
         planner=None if config.planner == Config().planner else config.planner,  # type: ignore[arg-type]
         sensor=None if config.sensor == "perfect" else config.sensor,

@@ -3,7 +3,10 @@
 Every kind draws from a stream of its own, so that asking for another number of potholes leaves
 the cars where they were. An exact number takes the free cells of lowest random rank: one more
 adds one and moves none. Where roads must be drivable, the same is drawn again, from streams numbered
-by the attempt, until one is.
+by the attempt, until one is; a road of a layout must always be.
+
+With a layout (`sim.layouts`) its barriers come first. What is drawn beside them keeps to the cells that the
+layout names; an exact number takes the others last.
 """
 
 from __future__ import annotations
@@ -13,6 +16,7 @@ from collections.abc import Iterable, Mapping
 from sim.config import Config, ConfigError, Problem
 from sim.forecast import foretell
 from sim.kinds import Kind
+from sim.layouts import crossing, laid
 from sim.perceive import perceive
 from sim.randomness import Stream, fraction, scaled, word_at
 from sim.road import Board, Road, bits, board_of, cells_of
@@ -40,7 +44,7 @@ def generate(
 
     Raises `GenerationError` where the road must be drivable and none is found.
     """
-    if not config.solvable:
+    if not (config.solvable or config.layout):
         return _drawn(config, episode, (), tick, numbered)
     for attempt in range(MAX_ATTEMPTS):
         world = _drawn(config, episode, (attempt,) if attempt else (), tick, numbered)
@@ -60,22 +64,28 @@ def _drawn(
     config: Config, episode: int, attempt: tuple[int, ...], tick: int, numbered: Mapping[Kind, int] | None
 ) -> World:
     road = config.geometry
-    taken = 0
+    layout = laid(config.layout, road, Stream.of(config.seed, f"layout {config.layout}", episode, *attempt))
+    taken = layout.barriers
 
-    def furnish(kind: Kind, count: int | None, probability: float) -> Board:
+    def furnish(kind: Kind, count: int | None, probability: float, first: Board) -> Board:
         nonlocal taken
         stream = Stream.of(config.seed, f"spawn {kind}", episode, *attempt)
         free = road.between & ~taken
-        chosen = (
-            _one_a_row(road, free, probability, stream) if count is None else _exactly(free, count, stream)
-        )
+        best = free & first
+        if count is not None:
+            chosen = _exactly(best, count, stream)
+            chosen |= _exactly(free & ~first, count - chosen.bit_count(), stream)
+        elif kind is Kind.VEHICLE and config.layout == "crossing":
+            chosen = _several_a_row(road, best, probability, stream)
+        else:
+            chosen = _one_a_row(road, best, probability, stream)
         taken |= chosen
         return chosen
 
-    vehicles = furnish(Kind.VEHICLE, config.vehicles, config.spawn_probability)
-    pedestrians = furnish(Kind.PEDESTRIAN, config.pedestrians, 0.0)
-    barriers = furnish(Kind.BARRIER, config.barriers, 0.0)
-    potholes = furnish(Kind.POTHOLE, config.potholes, config.pothole_probability)
+    vehicles = furnish(Kind.VEHICLE, config.vehicles, config.spawn_probability, layout.movers)
+    pedestrians = furnish(Kind.PEDESTRIAN, config.pedestrians, 0.0, layout.movers)
+    barriers = layout.barriers | furnish(Kind.BARRIER, config.barriers, 0.0, road.between)
+    potholes = furnish(Kind.POTHOLE, config.potholes, config.pothole_probability, layout.potholes)
 
     heading = Stream.of(config.seed, "heading", episode, *attempt)
     right = board_of([cell for cell in bits(vehicles | pedestrians) if heading.below(2, cell)])
@@ -116,6 +126,18 @@ def lowest_ranked(free: Board, count: int, stream: Stream) -> list[int]:
 
 def _exactly(free: Board, count: int, stream: Stream) -> Board:
     return board_of(lowest_ranked(free, count, stream))
+
+
+def _several_a_row(road: Road, free_cells: Board, probability: float, stream: Stream) -> Board:
+    """Several things in each row that has free cells, in those of lowest random rank."""
+    board, columns = 0, road.columns
+    for row in range(1, road.rows - 1):
+        start = row * columns
+        free = free_cells >> start & (1 << columns) - 1
+        if free:
+            draws = stream.narrow(row)
+            board |= _exactly(free, crossing(columns, probability, draws), draws.narrow(_COLUMN)) << start
+    return board
 
 
 def _one_a_row(road: Road, free: Board, probability: float, stream: Stream) -> Board:

@@ -1,6 +1,6 @@
 """From a scenario's words to a configuration: road presets and traffic levels, one table each.
 
-A scenario renews what it can name (road, traffic, counts, planner, sensor) and keeps the rest:
+A scenario renews what it can name (road, layout, traffic, counts, planner, sensor) and keeps the rest:
 the grid, the clock, the seed.
 """
 
@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from typing import Final
 
 from sim.actions import RoadType, Scenario, Traffic
-from sim.config import Config, Problem
+from sim.config import Config, ConfigError, Problem, barriers_refused
+from sim.layouts import has_barriers
 from sim.planner_names import PROMISED
 from sim.rules_version import default_under
 
@@ -59,15 +60,21 @@ def configured(config: Config, scenario: Scenario) -> Config:
     Raises `ConfigError` where the road cannot hold what was asked.
     """
     preset = ROADS[scenario.road]
+    barriers = preset.barriers
+    if has_barriers(scenario.layout):
+        if scenario.barriers is not None:
+            raise ConfigError((Problem("barriers", barriers_refused(scenario.layout)),))
+        barriers = 0
     spawn = TRAFFIC[scenario.traffic] if scenario.traffic else preset.spawn_probability
     return config.with_parts(
         road=scenario.road,
+        layout=scenario.layout,
         traffic=scenario.traffic,
         spawn_probability=spawn,
         pothole_probability=preset.pothole_probability,
         potholes=scenario.potholes,
         vehicles=scenario.vehicles,
-        barriers=preset.barriers if scenario.barriers is None else scenario.barriers,
+        barriers=barriers if scenario.barriers is None else scenario.barriers,
         pedestrians=preset.pedestrians if scenario.pedestrians is None else scenario.pedestrians,
         planner=scenario.planner or default_under(config.rules, "planner", _PLANNER),
         sensor=scenario.sensor or "perfect",

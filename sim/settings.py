@@ -12,6 +12,7 @@ from typing import Any, Final, get_args
 from sim.actions import Adjust, Preference, Set, Traffic, Wish
 from sim.config import RANGES, Config, ConfigError
 from sim.edit_error import EditError
+from sim.layouts import vehicles_on_average
 from sim.planner_names import PROMISED
 from sim.scenario import TRAFFIC
 
@@ -84,7 +85,7 @@ def preferring(config: Config, wish: Wish) -> Config:
 
 def vehicles_for(config: Config) -> int:
     """How many obstacle vehicles a road of this traffic has on average."""
-    return round(config.spawn_probability * (config.rows - 2))
+    return round(vehicles_on_average(config.layout, config.columns, config.rows, config.spawn_probability))
 
 
 def _adjusted(config: Config, action: Adjust) -> object:

@@ -209,7 +209,7 @@ class _Maker:
         """The keys of a scenario, from everything said that is one."""
         parts: dict[str, Any] = {}
         for edge in self._filled.of(
-            "weather", "time_of_day", "road", "traffic", "planner", "sensor", "thing"
+            "weather", "time_of_day", "road", "layout", "traffic", "planner", "sensor", "thing"
         ):
             key, value = edge.concept, edge.sense.value
             if key in without:

@@ -10,7 +10,17 @@ from typing import Any, get_args
 
 from service.actions import MetricName, ViewName, load
 from service.language.sentences import Sentences, Unsayable
-from sim.actions import Parameter, PlannerName, RoadType, SensorName, TimeOfDay, Traffic, Weather, Wish
+from sim.actions import (
+    Layout,
+    Parameter,
+    PlannerName,
+    RoadType,
+    SensorName,
+    TimeOfDay,
+    Traffic,
+    Weather,
+    Wish,
+)
 from sim.kinds import PLACEABLE, Move
 
 CHOICES: dict[str, tuple[str, ...]] = {
@@ -108,6 +118,9 @@ def _settings() -> Iterator[dict[str, Any]]:
     for road in get_args(RoadType):
         yield {"do": "scenario", "road": road, "potholes": 10, "vehicles": 2}
         yield {"do": "scenario", "road": road, "weather": "rain"}
+    for layout in get_args(Layout):
+        yield {"do": "scenario", "layout": layout}
+        yield {"do": "scenario", "layout": layout, "pedestrians": 3}
     yield {"do": "scenario", "potholes": 10}
     yield {"do": "scenario", "traffic": "heavy", "potholes": 5}
 

@@ -248,7 +248,7 @@ class Sentences:
     def _parts(self, parts: Scenario | ScenarioParts) -> str:
         words = self._words["part"]
         said = []
-        for key in ("weather", "time_of_day", "road", "traffic", "planner", "sensor"):
+        for key in ("weather", "time_of_day", "road", "layout", "traffic", "planner", "sensor"):
             value = getattr(parts, key)
             if value is not None:
                 said.append(words[key].format(value=self._value(key, value)))

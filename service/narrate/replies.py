@@ -164,6 +164,10 @@ class Replies:
             for kind, count in run.world.counts().items()
             if count
         ]
+        if run.config.layout is not None:
+            layout = self._sayings.say("replies", "layouts", run.config.layout)
+            key = "scenario_layout" if contents else "scenario_layout_empty"
+            return self._say(key, road=road, layout=layout, contents=self._sayings.joined(contents))
         if not contents:
             return self._say("scenario_empty", road=road)
         return self._say("scenario", road=road, contents=self._sayings.joined(contents))

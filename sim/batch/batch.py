@@ -16,7 +16,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from copy import copy
-from dataclasses import astuple, dataclass
+from dataclasses import astuple, dataclass, replace
 from functools import partial
 from itertools import pairwise
 from typing import Any, Final, Literal, get_args
@@ -133,6 +133,8 @@ class Batch:
         sizes = {(config.columns, config.rows) for config in configs}
         if len(sizes) != 1:
             raise ValueError(f"a batch has roads of one size, not of {len(sizes)}")
+        if any(config.layout for config in configs):
+            raise ValueError('roads of a layout: make them with Batch.of, and after="stop" or "restart"')
         self.configs = list(configs)
         self.layout = Layout.of(*sizes.pop())
         self.after: After = after
@@ -187,8 +189,18 @@ class Batch:
 
     @classmethod
     def of(cls, runs: Sequence[Run], *, after: After = "next") -> Batch:
-        """Every lane at a given moment of a run; queued moves and the manual mode are left behind."""
-        batch = cls([run.config for run in runs], after=after)
+        """Every lane at a given moment of a run; queued moves and the manual mode are left behind.
+
+        Raises `ValueError` where a road has a layout and `after` is "next": no more of them are drawn here.
+        """
+        configs = [run.config for run in runs]
+        if after != "next":
+            # Nothing is drawn again, so that the first worlds drawn here may be any.
+            configs = [
+                replace(each, layout=None, solvable=False) if each.layout else each for each in configs
+            ]
+        batch = cls(configs, after=after)
+        batch.configs = [run.config for run in runs]
         for lane, run in enumerate(runs):
             batch._place(lane, run)
         batch._remember_first()

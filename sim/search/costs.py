@@ -6,8 +6,9 @@ A step that arrives in a cell at a tick costs
          + fixed · [a pothole or barrier is in one of the eight cells around]
          + mover · Σ_{d = 1 … buffer} [a mover is then expected within d cells, diagonals counted as one]
 
-The balance is mostly time: what is charged for nearness decides between ways that take equally long, and
-seldom buys a tick. Simplification: smoothness is a charge on each move and not on changes of direction,
+The balance is mostly time, and a little is given for room: three steps away from a mover are worth a tick and
+the move aside. `fastest` gives nothing. What every preference changes, measured, is the second table of
+bench/FAMILIES.md. Simplification: smoothness is a charge on each move and not on changes of direction,
 so that a state is (column, row, tick) and nothing more.
 """
 
@@ -51,7 +52,7 @@ class Weights:
 
 _MOVES: Final = tuple(Move)
 
-BALANCED: Final = Weights(tick=60, sideways=4, diagonal=3, stay=2, fixed=1, mover=2, buffer=0)
+BALANCED: Final = Weights(tick=60, sideways=12, diagonal=9, stay=4, fixed=2, mover=24, buffer=0)
 """Without preferences; `buffer` is added to the configuration's `safety_buffer`."""
 
 SHIFTS: Final[dict[Preference, Weights]] = {

@@ -122,6 +122,8 @@ class Maker:
                 parts[key] = self.pick(CHOICES[key])
         if self.chance(0.3):
             parts["road"] = self.pick(("highway", "city", "rural"))
+        if self.chance(0.2):
+            parts["layout"] = self.pick(("walls", "narrows", "dead_ends", "crossing", "maze"))
         for kind in KINDS:
             if self.chance(0.3):
                 parts[f"{kind}s"] = self.random.choice((0, self.count()))
