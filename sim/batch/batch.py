@@ -534,17 +534,19 @@ class Batch:
 
     def _watched(self, watch: Watch) -> dict[int, int]:
         """A run's watch as planes of a lane."""
-        kept, columns = watch.kept, self.layout.columns
+        kept, columns, per_word = watch.kept, self.layout.columns, self.layout.rows_per_word
         if kept is None:
             return {IN_ROW: int(_ALL)}
-        ahead = (1 << columns) - 1
+        row = kept.cell // columns
+        whole = (1 << columns) - 1
         values = {IN_ROW: watch.span - 1 + watch.ticks, KEPT_AT: 2 * kept.cell + kept.beat}
-        for own, on, board in (
+        for own, ahead, board in (
             (KEPT_RIGHT, KEPT_RIGHT_AHEAD, kept.right),
             (KEPT_LEFT, KEPT_LEFT_AHEAD, kept.left),
             (KEPT_WALKERS, KEPT_WALKERS_AHEAD, kept.pedestrians),
         ):
-            values |= {own: board >> columns, on: board & ahead}
+            values[own] = board >> columns << row % per_word * columns
+            values[ahead] = (board & whole) << (row - 1) % per_word * columns
         return values
 
     def _plane(self, plane: int) -> Words:

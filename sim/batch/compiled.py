@@ -19,6 +19,8 @@ from types import FunctionType
 from typing import Any, Final
 
 import numba
+import numpy as np
+from numba.cpython.unsafe.numbers import trailing_zeros
 
 from sim import randomness, rules
 
@@ -97,3 +99,9 @@ free_steps = _with_names(rules.free_steps)
 spread = _with_names(rules.spread)
 spread_back = _with_names(rules.spread_back)
 beside = _with_names(rules.beside)
+
+
+@compiled
+def first_bit(word):
+    """The number of the lowest bit of a word that has one."""
+    return np.int64(trailing_zeros(word))

@@ -59,9 +59,8 @@ PLANES: Final = 5
     CAME_RIGHT_AHEAD,
     CAME_LEFT_AHEAD,
     HELD_BACK,
-    NOTABLE,
-) = range(33)
-LANE_PLANES: Final = 33
+) = range(32)
+LANE_PLANES: Final = 32
 """What a world has once: where its vehicle is (word, bit of its row's first cell, its column as a bit,
 cell index), the clock and the end of its episode, packed counters, the keys of its draws, which rules hold
 (all ones or 0: bodies are swept, movers brake, a situation that repeats is STUCK), the watch for that
@@ -69,7 +68,7 @@ cell index), the clock and the end of its episode, packed counters, the keys of 
 
 The watch: `IN_ROW` counts ticks since the vehicle came into its row, all ones before the first is seen; the
 situation is renewed after 1, 3, 7, 15, ... of them. `KEPT_AT` is twice the cell, plus the beat; the other
-planes are the boards of the vehicle's row and of the one ahead."""
+planes are the words that hold the vehicle's row and the one ahead."""
 
 
 SPAWN_PROBABILITY, POTHOLE_PROBABILITY, COURTESY, ATTENTIVE = range(4)

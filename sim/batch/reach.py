@@ -60,8 +60,9 @@ NOW_RIGHT, NOW_LEFT, NOW_WALKERS, ALL_FIXED, RESTING_IN_HOLES, YIELDS, BRAKES, V
 BOARDS: Final = 8
 """Rows of the scratch board of a roll-out (shape: 8, words): the movers, what they meet, who gives way and who
 brakes in the first tick, and the vehicle."""
-BLOCKED, CAME_RIGHT, CAME_LEFT, MOVERS, REACHED, NEEDED = range(6)
-"""Planes of a roll-out (shape: ticks, 6, words); of tick k: after k + 1 ticks, the last two after k."""
+BLOCKED, CAME_RIGHT, CAME_LEFT, CUT_LEFT, CUT_RIGHT, MOVERS, REACHED, NEEDED = range(8)
+FIELDS: Final = 8
+"""Planes of a roll-out (shape: ticks, 8, words); of tick k: after k + 1 ticks, the last two after k."""
 
 
 @compiled
@@ -115,12 +116,13 @@ def prepare(now, block, lane_block, lane, columns, rows, shares, behind):
 
 
 @compiled
-def roll(now, layers, ahead, last, episode_tick, left_edge, right_edge, stands):
+def roll(now, layers, ahead, last, episode_tick, columns, left_edge, right_edge, swept, stands):
     """One tick of the movers of words 0 to `last`, into layer `ahead`.
 
     With `stands` the vehicle does not move in the first tick, and movers brake for it.
     """
     walking = pedestrians_walk(episode_tick + ahead)
+    unused, up, most = np.uint64(64 % columns), np.uint64(64 - columns), np.uint64(columns - 1)
     for w in range(last + 1):
         resting = now[RESTING_IN_HOLES, w]
         if not walking:
@@ -145,6 +147,13 @@ def roll(now, layers, ahead, last, episode_tick, left_edge, right_edge, stands):
         layers[ahead, MOVERS, w] = motion.right | motion.left
         layers[ahead, CAME_RIGHT, w] = motion.came_right
         layers[ahead, CAME_LEFT, w] = motion.came_left
+        crossing, crossing_left = motion.came_right & swept, motion.came_left & swept
+        layers[ahead, CUT_LEFT, w] = crossing | crossing >> most >> _ONE
+        layers[ahead, CUT_RIGHT, w] = crossing_left | crossing_left >> most >> _ONE
+        if w > 0:
+            # The first row of a word lies behind the last one of the word before.
+            layers[ahead, CUT_LEFT, w - 1] |= crossing << up >> unused
+            layers[ahead, CUT_RIGHT, w - 1] |= crossing_left << up >> unused
 
 
 @compiled
@@ -180,20 +189,7 @@ def one_row_back(board, w, columns):
 
 
 @compiled
-def cut_off(layers, ahead, w, last, columns, swept):
-    """Word `w` of the cells straight ahead of vehicles whose diagonal to the left, or right, is cut off."""
-    unused, up = np.uint64(64 % columns), np.uint64(64 - columns)
-    right, left = layers[ahead, CAME_RIGHT, w], layers[ahead, CAME_LEFT, w]
-    right |= right >> np.uint64(columns - 1) >> _ONE
-    left |= left >> np.uint64(columns - 1) >> _ONE
-    if w < last:
-        right |= layers[ahead, CAME_RIGHT, w + 1] << up >> unused
-        left |= layers[ahead, CAME_LEFT, w + 1] << up >> unused
-    return right & swept, left & swept
-
-
-@compiled
-def expand(layers, ahead, first, last, columns, left_edge, right_edge, swept):
+def expand(layers, ahead, first, last, columns, left_edge, right_edge):
     """Step the reached set over one tick, from word `first` on; whether it is not empty."""
     alive = _ZERO
     unused, up = np.uint64(64 % columns), np.uint64(64 - columns)
@@ -204,15 +200,14 @@ def expand(layers, ahead, first, last, columns, left_edge, right_edge, swept):
         on = start >> np.uint64(columns - 1) >> _ONE
         if w < last:
             on |= layers[ahead, REACHED, w + 1] << up >> unused
-        cut_left, cut_right = cut_off(layers, ahead, w, last, columns, swept)
         after = spread(
             start,
             on,
             layers[ahead, BLOCKED, w],
             layers[ahead, CAME_RIGHT, w],
             layers[ahead, CAME_LEFT, w],
-            cut_left,
-            cut_right,
+            layers[ahead, CUT_LEFT, w],
+            layers[ahead, CUT_RIGHT, w],
             left_edge,
             right_edge,
         )
@@ -229,7 +224,7 @@ def search(now, layers, row, last, episode_tick, limit, columns, left_edge, righ
     """
     begin = 1 if stands else 0
     if stands:
-        roll(now, layers, 0, last, episode_tick, left_edge, right_edge, stands)
+        roll(now, layers, 0, last, episode_tick, columns, left_edge, right_edge, swept, stands)
     for w in range(last + 1):
         layers[begin, REACHED, w] = now[VEHICLE, w]
     goal = (_ONE << np.uint64(columns - 1) << _ONE) - _ONE
@@ -237,10 +232,10 @@ def search(now, layers, row, last, episode_tick, limit, columns, left_edge, righ
     # Words before `first` cannot hold the vehicle yet: it gains a row a tick.
     first = row // rows_per_word
     for ahead in range(begin, limit):
-        roll(now, layers, ahead, last, episode_tick, left_edge, right_edge, stands)
+        roll(now, layers, ahead, last, episode_tick, columns, left_edge, right_edge, swept, stands)
         if first > 0 and row - ahead - 1 < first * rows_per_word:
             first -= 1
-        alive = expand(layers, ahead, first, last, columns, left_edge, right_edge, swept)
+        alive = expand(layers, ahead, first, last, columns, left_edge, right_edge)
         if first == 0 and layers[ahead + 1, REACHED, 0] & goal:
             return ahead + 1, ahead + 1, ahead + 1
         if not alive:
@@ -249,7 +244,7 @@ def search(now, layers, row, last, episode_tick, limit, columns, left_edge, righ
 
 
 @compiled
-def keep_shortest(layers, ticks, row, last, columns, left_edge, right_edge, swept):
+def keep_shortest(layers, ticks, row, last, columns, left_edge, right_edge):
     """The backward pass: of every layer, the reached cells that lie on a way of so many ticks."""
     rows_per_word = 64 // columns
     down = np.uint64(64 - columns - 64 % columns)
@@ -271,13 +266,12 @@ def keep_shortest(layers, ticks, row, last, columns, left_edge, right_edge, swep
             layers[ahead, NEEDED, furthest + 1] = _ZERO
         on_before = _ZERO  # of the word before: its last row leads to the first of the next
         for w in range(max(0, nearest - 1), furthest + 1):
-            cut_left, cut_right = cut_off(layers, ahead, w, last, columns, swept)
             beside, on = spread_back(
                 layers[ahead + 1, NEEDED, w],
                 layers[ahead, CAME_RIGHT, w],
                 layers[ahead, CAME_LEFT, w],
-                cut_left,
-                cut_right,
+                layers[ahead, CUT_LEFT, w],
+                layers[ahead, CUT_RIGHT, w],
                 left_edge,
                 right_edge,
             )
@@ -288,19 +282,15 @@ def keep_shortest(layers, ticks, row, last, columns, left_edge, right_edge, swep
 
 
 @compiled
-def crossings(layers, ahead, row, columns, swept):
+def crossings(layers, ahead, row, columns):
     """The columns of a row from which a diagonal to the left, or right, is cut off, as bits."""
     rows_per_word = 64 // columns
-    w, shift = row // rows_per_word, np.uint64(row % rows_per_word * columns)
-    right, left = layers[ahead, CAME_RIGHT, w] >> shift, layers[ahead, CAME_LEFT, w] >> shift
     w, shift = (row - 1) // rows_per_word, np.uint64((row - 1) % rows_per_word * columns)
-    right |= layers[ahead, CAME_RIGHT, w] >> shift
-    left |= layers[ahead, CAME_LEFT, w] >> shift
-    return right & swept, left & swept
+    return layers[ahead, CUT_LEFT, w] >> shift, layers[ahead, CUT_RIGHT, w] >> shift
 
 
 @compiled
-def step_from(layers, ahead, cell, columns, swept):
+def step_from(layers, ahead, cell, columns):
     """The move that stays on a shortest way from a cell, and where it leads; ties in the order of moves."""
     rows_per_word = 64 // columns
     row, column = cell // columns, cell % columns
@@ -308,7 +298,7 @@ def step_from(layers, ahead, cell, columns, swept):
     shift = np.uint64(row % rows_per_word * columns + column)
     came_right = layers[ahead, CAME_RIGHT, w] >> shift & _ONE
     came_left = layers[ahead, CAME_LEFT, w] >> shift & _ONE
-    cut_left, cut_right = crossings(layers, ahead, row, columns, swept)
+    cut_left, cut_right = crossings(layers, ahead, row, columns)
     cut_left, cut_right = cut_left >> np.uint64(column) & _ONE, cut_right >> np.uint64(column) & _ONE
     for move in range(6):
         sideways = -1 if move == 1 or move == 3 else 1 if move == 2 or move == 4 else 0
@@ -328,7 +318,7 @@ def step_from(layers, ahead, cell, columns, swept):
 
 
 @compiled
-def longest_survival(now, layers, rolled, last, columns, left_edge, right_edge, swept):
+def longest_survival(now, layers, rolled, last, columns, left_edge, right_edge):
     """The move after which one can keep clear longest within the layers rolled, and for how many ticks.
 
     Waiting and 0 if none is free.
@@ -338,15 +328,14 @@ def longest_survival(now, layers, rolled, last, columns, left_edge, right_edge, 
     for move in range(6):
         alive = False
         for w in range(last + 1):
-            cut_left, cut_right = cut_off(layers, 0, w, last, columns, swept)
             steps = free_steps(
                 vehicle[w],
                 one_row_on(vehicle, w, last, columns),
                 layers[0, BLOCKED, w],
                 layers[0, CAME_RIGHT, w],
                 layers[0, CAME_LEFT, w],
-                cut_left,
-                cut_right,
+                layers[0, CUT_LEFT, w],
+                layers[0, CUT_RIGHT, w],
                 left_edge,
                 right_edge,
             )
@@ -362,7 +351,7 @@ def longest_survival(now, layers, rolled, last, columns, left_edge, right_edge, 
             alive |= target != _ZERO
         ticks = 1 if alive else 0
         while alive and ticks < rolled:
-            alive = expand(layers, ticks, 0, last, columns, left_edge, right_edge, swept)
+            alive = expand(layers, ticks, 0, last, columns, left_edge, right_edge)
             if alive:
                 ticks += 1
         if ticks > best_ticks:
@@ -375,7 +364,7 @@ def exact_moves(state, lanes, shares, columns, rows, left_edge, right_edge, coun
     """For every lane the move of the exact planner and the least ticks to the goal (−1: no way)."""
     words = -(-rows // (64 // columns))
     now = np.empty((BOARDS, words), np.uint64)
-    layers = np.empty((10 * rows + 3, 6, words), np.uint64)
+    layers = np.empty((10 * rows + 3, FIELDS, words), np.uint64)
     for lane in range(count):
         block, inner = state[lane // LANES], lane % LANES
         lane_block = lanes[lane // LANES]
@@ -392,10 +381,10 @@ def exact_moves(state, lanes, shares, columns, rows, left_edge, right_edge, coun
             now, layers, row, last, episode_tick, limit, columns, left_edge, right_edge, swept, False
         )
         if least >= 0:
-            keep_shortest(layers, least, row, last, columns, left_edge, right_edge, swept)
-            move = step_from(layers, 0, cell, columns, swept)[0]
+            keep_shortest(layers, least, row, last, columns, left_edge, right_edge)
+            move = step_from(layers, 0, cell, columns)[0]
         else:
-            move, lasted = longest_survival(now, layers, rolled, last, columns, left_edge, right_edge, swept)
+            move, lasted = longest_survival(now, layers, rolled, last, columns, left_edge, right_edge)
         if someone_brakes(now, layers, last):
             prepare(now, block, lane_block, inner, columns, rows, shares[lane], 0)
             stayed, _, kept_clear = search(
@@ -418,7 +407,7 @@ def drivable(block, lane_block, lane, columns, rows, shares):
     for row in range(rows_per_word):
         first_column |= _ONE << np.uint64(row * columns)
     now = np.empty((BOARDS, words), np.uint64)
-    layers = np.empty((10 * rows + 3, 6, words), np.uint64)
+    layers = np.empty((10 * rows + 3, FIELDS, words), np.uint64)
     last = prepare(now, block, lane_block, lane, columns, rows, shares, 0)
     row = np.int64(lane_block[CELL * LANES + lane]) // columns
     episode_tick = np.int64(lane_block[EPISODE_TICK * LANES + lane])

@@ -20,6 +20,7 @@ from sim.batch.reach import (
     BOARDS,
     CAME_LEFT,
     CAME_RIGHT,
+    FIELDS,
     MOVERS,
     STAY,
     crossings,
@@ -77,12 +78,12 @@ def _charges(into, near, layers, ahead, last, weights, first_row, last_row, colu
 
 
 @compiled
-def _cost_of_way(layers, near, ticks, cell, last, weights, columns, left_edge, right_edge, swept):
+def _cost_of_way(layers, near, ticks, cell, last, weights, columns, left_edge, right_edge):
     """What the exact search's way costs (an upper bound for the least)."""
     rows_per_word = 64 // columns
     total = 0
     for ahead in range(ticks):
-        move, cell = step_from(layers, ahead, cell, columns, swept)
+        move, cell = step_from(layers, ahead, cell, columns)
         total += weights[TICK]
         total += weights[SIDEWAYS] if move == 1 or move == 2 else 0
         total += weights[DIAGONAL] if move == 3 or move == 4 else 0
@@ -100,7 +101,7 @@ def _cost_of_way(layers, near, ticks, cell, last, weights, columns, left_edge, r
 
 @compiled
 def _sweep(
-    value, entering, near, layers, horizon, cell, last, weights, columns, left_edge, right_edge, swept, totals
+    value, entering, near, layers, horizon, cell, last, weights, columns, left_edge, right_edge, totals
 ):
     """Cost-to-go backwards from `horizon` ticks ahead; writes the totals of the six moves now."""
     rows_per_word = 64 // columns
@@ -123,7 +124,7 @@ def _sweep(
             w, shift = row // rows_per_word, np.uint64(row % rows_per_word * columns)
             met_left = layers[ahead, CAME_RIGHT, w] >> shift
             met_right = layers[ahead, CAME_LEFT, w] >> shift
-            cut_left, cut_right = crossings(layers, ahead, row, columns, swept)
+            cut_left, cut_right = crossings(layers, ahead, row, columns)
             here, on, into = entering[row], entering[row - 1], value[row]
             for column in range(1, columns + 1):
                 at = np.uint64(column - 1)
@@ -136,7 +137,7 @@ def _sweep(
                 into[column] = min(min(best, here[column] + wait), FAR)
     w = start_row // rows_per_word
     at = np.uint64(start_row % rows_per_word * columns + start_column)
-    cut_left, cut_right = crossings(layers, 0, start_row, columns, swept)
+    cut_left, cut_right = crossings(layers, 0, start_row, columns)
     aslant = np.uint64(start_column)
     here, on, column = entering[start_row], entering[start_row - 1], start_column + 1
     totals[0] = on[column] + tick
@@ -168,12 +169,12 @@ def _totals_of_way(
     totals,
 ):
     """The totals of the six moves now, of a search that has met the goal after `ticks`."""
-    keep_shortest(layers, ticks, cell // columns, last, columns, left_edge, right_edge, swept)
+    keep_shortest(layers, ticks, cell // columns, last, columns, left_edge, right_edge)
     _around(now[ALL_FIXED], near[0], last, columns, left_edge, right_edge)
-    bound = _cost_of_way(layers, near, ticks, cell, last, weights, columns, left_edge, right_edge, swept)
+    bound = _cost_of_way(layers, near, ticks, cell, last, weights, columns, left_edge, right_edge)
     horizon = min(bound // weights[TICK], limit)
     for ahead in range(rolled, horizon):
-        roll(now, layers, ahead, last, episode_tick, left_edge, right_edge, False)
+        roll(now, layers, ahead, last, episode_tick, columns, left_edge, right_edge, swept, False)
     _sweep(
         value,
         entering,
@@ -186,7 +187,6 @@ def _totals_of_way(
         columns,
         left_edge,
         right_edge,
-        swept,
         totals,
     )
 
@@ -196,7 +196,7 @@ def weighted_moves(state, lanes, shares, charges, columns, rows, left_edge, righ
     """For every lane the move of least cost to the goal and that cost (−1: no way)."""
     words = -(-rows // (64 // columns))
     now = np.empty((BOARDS, words), np.uint64)
-    layers = np.empty((10 * rows + 3, 6, words), np.uint64)
+    layers = np.empty((10 * rows + 3, FIELDS, words), np.uint64)
     near = np.empty((2 + charges[:, BUFFER].max(), words), np.uint64)
     value = np.full((rows, columns + 2), FAR, np.int32)
     entering = np.full((rows, columns + 2), FAR, np.int32)
@@ -250,9 +250,7 @@ def weighted_moves(state, lanes, shares, charges, columns, rows, left_edge, righ
                 if totals.min() < least:
                     least, move = totals.min(), np.argmin(totals)
             elif least == FAR and not stands:
-                move, lasted = longest_survival(
-                    now, layers, rolled, last, columns, left_edge, right_edge, swept
-                )
+                move, lasted = longest_survival(now, layers, rolled, last, columns, left_edge, right_edge)
             elif least == FAR and kept_clear > lasted:
                 move = STAY
         moves[lane] = move

@@ -16,6 +16,7 @@ import numpy as np
 from sim.batch.compiled import (
     brake,
     compiled,
+    first_bit,
     followed_board,
     fraction,
     free_steps,
@@ -54,7 +55,6 @@ from sim.batch.layout import (
     LEFT,
     MOVES,
     NEXT_ROW,
-    NOTABLE,
     OUTCOME,
     OWN_ROW,
     PLANES,
@@ -91,14 +91,6 @@ assert PEDESTRIAN_PERIOD > 1
 
 
 @compiled
-def _rows_of(boards, plane, i, word, shift, word_ahead, shift_ahead, row_mask):
-    """The vehicle's row and the one ahead, of one plane of a lane."""
-    own = boards[(np.int64(word) * PLANES + plane) * LANES + i] >> shift
-    ahead = boards[(np.int64(word_ahead) * PLANES + plane) * LANES + i] >> shift_ahead
-    return own & row_mask, ahead & row_mask
-
-
-@compiled
 def _hold_back(boards, v, i, walking):
     """Undo the step of the mover that entered the cell of lane `i`, which stands: it has braked."""
     at = np.int64(v[WORD * LANES + i]) * PLANES * LANES + i
@@ -112,38 +104,43 @@ def _hold_back(boards, v, i, walking):
 
 
 @compiled
-def _repeats(boards, v, i, at, top, row_size, row_mask, walking):
-    """Whether lane `i`, which has not left its row, is in the situation kept; keeps this one when it is time.
+def _offsets(v, i):
+    """Where a lane's two rows lie: the offsets of their words among the boards."""
+    word = np.int64(v[WORD * LANES + i])
+    word_ahead = word - (1 if v[SHIFT * LANES + i] == _ZERO else 0)
+    return word * PLANES * LANES + i, word_ahead * PLANES * LANES + i
 
-    `at` is its cell and beat as in `KEPT_AT` (`sim.repetition.watched`).
-    """
-    word, shift = v[WORD * LANES + i], v[SHIFT * LANES + i]
-    carried = shift == _ZERO
-    word_ahead = word - (_ONE if carried else _ZERO)
-    shift_ahead = top if carried else shift - row_size
-    right = _rows_of(boards, RIGHT, i, word, shift, word_ahead, shift_ahead, row_mask)
-    left = _rows_of(boards, LEFT, i, word, shift, word_ahead, shift_ahead, row_mask)
-    walkers = (_ZERO, _ZERO)
+
+@compiled
+def _keep(boards, v, i, spot, walking):
+    """Keep the situation of lane `i`. `spot`: its cell and beat, as in `KEPT_AT`."""
+    own, ahead = _offsets(v, i)
+    v[KEPT_AT * LANES + i] = spot
+    v[KEPT_RIGHT * LANES + i] = boards[own + RIGHT * LANES]
+    v[KEPT_LEFT * LANES + i] = boards[own + LEFT * LANES]
+    v[KEPT_RIGHT_AHEAD * LANES + i] = boards[ahead + RIGHT * LANES]
+    v[KEPT_LEFT_AHEAD * LANES + i] = boards[ahead + LEFT * LANES]
     if walking:
-        walkers = _rows_of(boards, WALKERS, i, word, shift, word_ahead, shift_ahead, row_mask)
-    ticks = v[IN_ROW * LANES + i]
-    if (
-        ticks > _ONE
-        and v[KEPT_AT * LANES + i] == at
-        and v[KEPT_RIGHT * LANES + i] == right[0]
-        and v[KEPT_RIGHT_AHEAD * LANES + i] == right[1]
-        and v[KEPT_LEFT * LANES + i] == left[0]
-        and v[KEPT_LEFT_AHEAD * LANES + i] == left[1]
-        and v[KEPT_WALKERS * LANES + i] == walkers[0]
-        and v[KEPT_WALKERS_AHEAD * LANES + i] == walkers[1]
-    ):
-        return True
-    if ticks & (ticks + _ONE) == _ZERO:
-        v[KEPT_AT * LANES + i] = at
-        v[KEPT_RIGHT * LANES + i], v[KEPT_RIGHT_AHEAD * LANES + i] = right
-        v[KEPT_LEFT * LANES + i], v[KEPT_LEFT_AHEAD * LANES + i] = left
-        v[KEPT_WALKERS * LANES + i], v[KEPT_WALKERS_AHEAD * LANES + i] = walkers
-    return False
+        v[KEPT_WALKERS * LANES + i] = boards[own + WALKERS * LANES]
+        v[KEPT_WALKERS_AHEAD * LANES + i] = boards[ahead + WALKERS * LANES]
+
+
+@compiled
+def _repeats(boards, v, i, columns, walking):
+    """Whether the rows of lane `i`, which has not left its row, hold what they held when it was kept."""
+    own, ahead = _offsets(v, i)
+    differ = boards[own + RIGHT * LANES] ^ v[KEPT_RIGHT * LANES + i]
+    differ |= boards[own + LEFT * LANES] ^ v[KEPT_LEFT * LANES + i]
+    differ_ahead = boards[ahead + RIGHT * LANES] ^ v[KEPT_RIGHT_AHEAD * LANES + i]
+    differ_ahead |= boards[ahead + LEFT * LANES] ^ v[KEPT_LEFT_AHEAD * LANES + i]
+    if walking:
+        differ |= boards[own + WALKERS * LANES] ^ v[KEPT_WALKERS * LANES + i]
+        differ_ahead |= boards[ahead + WALKERS * LANES] ^ v[KEPT_WALKERS_AHEAD * LANES + i]
+    row = ((_ONE << np.uint64(columns - 1)) << _ONE) - _ONE
+    shift = v[SHIFT * LANES + i]
+    top = np.uint64((64 // columns - 1) * columns)
+    shift_ahead = top if shift == _ZERO else shift - np.uint64(columns)
+    return (differ >> shift | differ_ahead >> shift_ahead) & row == _ZERO
 
 
 @cache
@@ -174,7 +171,6 @@ def ticks_kernel(
         row_size = np.uint64(columns)
         top = np.uint64((rows_per_word - 1) * columns)
         last_bit = _ONE << np.uint64(columns - 1)
-        row_mask = (last_bit << _ONE) - _ONE
         limit = np.uint64(10 * rows)
         end_field = np.uint64(END_FIELD)
         sideways = _ONE << np.uint64(MOVE_FIELD)
@@ -248,6 +244,7 @@ def ticks_kernel(
                             v[CAME_RIGHT_AHEAD * LANES + i] = came_right if ahead else kept
                             kept = v[CAME_LEFT_AHEAD * LANES + i]
                             v[CAME_LEFT_AHEAD * LANES + i] = came_left if ahead else kept
+                ended = braking = met = due = _ZERO  # lanes that need more, as bits
                 for i in range(LANES):
                     shift, word = v[SHIFT * LANES + i], v[WORD * LANES + i]
                     bit, cell = v[COLUMN_BIT * LANES + i], v[CELL * LANES + i]
@@ -359,51 +356,58 @@ def ticks_kernel(
                     v[ENDS * LANES + i] += ending
                     v[TICKS_TO_GOAL * LANES + i] += arriving
                     v[OUTCOME * LANES + i] = outcome
-                    notable = outcome
+                    this_lane = _ONE << np.uint64(i)
+                    ended |= this_lane if outcome != RUNNING else _ZERO
                     if bodily:
                         held_back = held_back if stays else _ZERO
                         v[HELD_BACK * LANES + i] = held_back
-                        notable |= held_back
+                        braking |= this_lane if held_back != _ZERO else _ZERO
                     if watching:
                         in_row = _ZERO if goes_on else v[IN_ROW * LANES + i] + _ONE
                         v[IN_ROW * LANES + i] = in_row
                         spot = cell_after << _ONE | tick % _PERIOD
-                        met = (in_row > _ONE) & (v[KEPT_AT * LANES + i] == spot)
-                        due = (in_row > _ZERO) & (in_row & (in_row + _ONE) == _ZERO)
-                        notable |= v[WATCHING * LANES + i] if met | due else _ZERO
-                    v[NOTABLE * LANES + i] = notable
-                for i in range(LANES):
-                    if v[NOTABLE * LANES + i] == _ZERO:
-                        continue
-                    if bodily and v[HELD_BACK * LANES + i] != _ZERO:
-                        _hold_back(boards, v, i, walking)
-                    if watching and v[OUTCOME * LANES + i] == RUNNING and v[WATCHING * LANES + i] != _ZERO:
-                        tick = v[EPISODE_TICK * LANES + i]
-                        spot = v[CELL * LANES + i] << _ONE | tick % _PERIOD
-                        if v[IN_ROW * LANES + i] != _ZERO and _repeats(
-                            boards, v, i, spot, top, row_size, row_mask, walking
-                        ):
-                            v[OUTCOME * LANES + i] = STUCK
-                            v[ENDS * LANES + i] += _ONE << (STUCK - _ONE) * end_field
-                    if v[OUTCOME * LANES + i] != RUNNING:
-                        if held:
-                            lane = block * LANES + i
-                            if renewed and v[SINCE_END * LANES + i] == np.uint64(wholes[lane, HOLD_TICKS]):
-                                begin_next(boards, v, i, columns, rows, wholes[lane], shares[lane])
-                        else:
-                            first, u = first_state[block], first_lanes[block]
-                            v[WORD * LANES + i] = u[WORD * LANES + i]
-                            v[SHIFT * LANES + i] = u[SHIFT * LANES + i]
-                            v[COLUMN_BIT * LANES + i] = u[COLUMN_BIT * LANES + i]
-                            v[CELL * LANES + i] = u[CELL * LANES + i]
-                            v[EPISODE_TICK * LANES + i] = u[EPISODE_TICK * LANES + i]
-                            v[OUTCOME * LANES + i] = RUNNING
-                            v[IN_ROW * LANES + i] = _ALL
-                            for w in range(words):
-                                at = w * PLANES * LANES + i
-                                boards[at + RIGHT * LANES] = first[at + RIGHT * LANES]
-                                boards[at + LEFT * LANES] = first[at + LEFT * LANES]
-                                if walking:
-                                    boards[at + WALKERS * LANES] = first[at + WALKERS * LANES]
+                        watched = v[WATCHING * LANES + i] if outcome == RUNNING else _ZERO
+                        again = (in_row > _ONE) & (v[KEPT_AT * LANES + i] == spot)
+                        met |= watched & this_lane if again else _ZERO
+                        renewed_now = (in_row > _ZERO) & (in_row & (in_row + _ONE) == _ZERO)
+                        due |= watched & this_lane if renewed_now else _ZERO
+                while bodily and braking != _ZERO:
+                    i = first_bit(braking)
+                    braking &= braking - _ONE
+                    _hold_back(boards, v, i, walking)
+                while watching and met != _ZERO:
+                    i = first_bit(met)
+                    met &= met - _ONE
+                    if _repeats(boards, v, i, columns, walking):
+                        v[OUTCOME * LANES + i] = STUCK
+                        v[ENDS * LANES + i] += _ONE << (STUCK - _ONE) * end_field
+                        ended |= _ONE << np.uint64(i)
+                while watching and due != _ZERO:
+                    i = first_bit(due)
+                    due &= due - _ONE
+                    beat = v[EPISODE_TICK * LANES + i] % _PERIOD
+                    _keep(boards, v, i, v[CELL * LANES + i] << _ONE | beat, walking)
+                while ended != _ZERO:
+                    i = first_bit(ended)
+                    ended &= ended - _ONE
+                    if held:
+                        lane = block * LANES + i
+                        if renewed and v[SINCE_END * LANES + i] == np.uint64(wholes[lane, HOLD_TICKS]):
+                            begin_next(boards, v, i, columns, rows, wholes[lane], shares[lane])
+                    else:
+                        first, u = first_state[block], first_lanes[block]
+                        v[WORD * LANES + i] = u[WORD * LANES + i]
+                        v[SHIFT * LANES + i] = u[SHIFT * LANES + i]
+                        v[COLUMN_BIT * LANES + i] = u[COLUMN_BIT * LANES + i]
+                        v[CELL * LANES + i] = u[CELL * LANES + i]
+                        v[EPISODE_TICK * LANES + i] = u[EPISODE_TICK * LANES + i]
+                        v[OUTCOME * LANES + i] = RUNNING
+                        v[IN_ROW * LANES + i] = _ALL
+                        for w in range(words):
+                            at = w * PLANES * LANES + i
+                            boards[at + RIGHT * LANES] = first[at + RIGHT * LANES]
+                            boards[at + LEFT * LANES] = first[at + LEFT * LANES]
+                            if walking:
+                                boards[at + WALKERS * LANES] = first[at + WALKERS * LANES]
 
     return compiled(run)

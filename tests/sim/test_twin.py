@@ -2,67 +2,20 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from random import Random
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from sim.actions import Add, Where
-from sim.config import Config
-from sim.courtesy import yielding
-from sim.edit import apply
+from sim.config import Collision
 from sim.kinds import Kind, Mode, Move, Outcome
-from sim.road import bits
 from sim.run import Run, advance
 from sim.world import World
 from tests.sim import twin
 from tests.sim.roads import run_on, worlds
-
-
-def courteous(run: Run) -> set[tuple[int, int]]:
-    """The draw the twin cannot make: which movers give way this tick."""
-    return {run.world.road.cell(cell) for cell in bits(yielding(run.world, run.config))}
-
-
-def drive_both(run: Run, ticks: int) -> None:
-    """Advance both until the episode ends, comparing everything there is to compare."""
-    slow = twin.position(run.world)
-    for _ in range(ticks):
-        move, slow = twin.step(slow, courteous=courteous(run))
-        tick = advance(run)
-        run = tick.run
-        assert tick.decision is not None
-        assert tick.decision.move is move
-        assert twin.position(run.world) == slow
-        if slow.outcome is not Outcome.RUNNING:
-            return
-
-
-def random_run(random: Random) -> Run:
-    """A run on a road of any size and density, some movers held by potholes."""
-    columns, rows = random.randint(3, 12), random.randint(4, 40)
-    room = columns * (rows - 2)
-    density = random.choice((0.0, 0.05, 0.1, 0.2, 0.4, 0.7))
-
-    def some(share: float) -> int:
-        return random.randint(0, int(room * density * share))
-
-    config = Config(
-        columns=columns,
-        rows=rows,
-        seed=random.randrange(2**40),
-        vehicles=random.choice((None, some(0.5))) if room - 2 * rows > room * density else some(0.5),
-        potholes=some(0.3),
-        barriers=some(0.1),
-        pedestrians=some(0.3),
-        courtesy=random.choice((0.0, 0.0, 0.5, 1.0)),
-    )
-    run = Run.start(config)
-    for thing in list(run.world.things()):
-        if thing.kind.moves and random.random() < 0.1:
-            run = apply(run, Add(kind="pothole", count=1, where=Where(cell=thing.cell))).run
-    return run
+from tests.sim.twin_run import braking, drive_both, random_run
 
 
 @pytest.mark.parametrize("part", range(4))
@@ -73,9 +26,16 @@ def test_same_state_every_tick_on_random_roads(part: int) -> None:
 
 
 @settings(max_examples=150, deadline=None)
-@given(worlds(), st.sampled_from([0.0, 0.5, 1.0]))
-def test_same_state_on_any_crowded_road(world: World, courtesy: float) -> None:
-    drive_both(run_on(world, courtesy=courtesy, seed=3), 30)
+@given(
+    worlds(),
+    st.sampled_from([0.0, 0.5, 1.0]),
+    st.sampled_from([0.0, 0.5, 1.0]),
+    st.sampled_from(["swept", "cell"]),
+)
+def test_same_state_on_any_crowded_road(
+    world: World, courtesy: float, attentive: float, collision: Collision
+) -> None:
+    drive_both(run_on(world, courtesy=courtesy, attentive=attentive, collision=collision, seed=3), 30)
 
 
 @settings(max_examples=150, deadline=None)
@@ -86,11 +46,9 @@ def test_a_persons_moves_lead_to_the_same_states_and_ends(world: World, moves: l
     for asked in moves:
         tick = advance(run)
         assert tick.decision is not None
-        later = twin.moved_bodies(slow)
-        wanted = (slow.av[0] + asked.offset[0], slow.av[1] + asked.offset[1])
-        granted = asked if twin.will_be_free(slow, later, wanted) else Move.STAY
+        granted = asked if twin.outlook(slow, asked, twin.moved_bodies(slow), braking(run))[2] else Move.STAY
         assert tick.decision.move is granted
-        _, slow = twin.step(slow, granted)
+        _, slow = twin.step(slow, granted, (), braking(run))
         run = tick.run
         assert twin.position(run.world) == slow
         if slow.outcome is not Outcome.RUNNING:
@@ -115,3 +73,26 @@ def test_the_result_of_an_episode_stands_still(part: int) -> None:
         run = advance(run).run
         assert (run.world.episode, run.world.episode_tick) == (2, 0)
         assert run.world.count(Kind.AV) == 1
+
+
+def test_all_that_is_to_be_compared_happens() -> None:
+    """Or the comparisons above would say little."""
+    random, counted = Random("what happens"), None
+    for _ in range(60):
+        more = drive_both(random_run(random), 420)
+        counted = more if counted is None else counted + more
+    assert counted is not None
+    assert all(counted[what] for what in ("success", "crash", "stuck", "repetition", "braked")), counted
+
+
+def test_rectangles_that_glide() -> None:
+    half = (Fraction(1, 2), Fraction(1, 2))
+    still = ((0, 0), (0, 0))
+    assert twin.together(still, half, ((1, 0), (0, 0)), half)
+    assert twin.together(((0, 0), (1, 0)), half, ((1, 0), (0, 0)), half)  # through one another
+    assert not twin.together(still, half, ((1, 0), (2, 0)), half)
+    assert not twin.together(((0, 0), (1, 0)), half, ((1, 0), (2, 0)), half)  # one behind the other
+    # Around a corner they touch at their own corners, at half time, and nowhere else.
+    assert not twin.together(((0, 0), (1, 0)), half, ((1, 0), (1, 1)), half)
+    bigger = (Fraction(51, 100), Fraction(1, 2))
+    assert twin.together(((0, 0), (1, 0)), half, ((1, 0), (1, 1)), bigger)

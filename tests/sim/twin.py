@@ -1,16 +1,17 @@
 """A slow, readable twin of one tick, written from the description of the world and nothing else.
 
 It exists to disagree: `sim` does everything with boards of bits, this does it with one object per
-thing and sets of cells, and shares only the names of moves, kinds and outcomes and the form worlds
-come in. Left out on purpose: randomness (who is courteous is handed in), episodes after the first,
-and more than one autonomous vehicle.
+thing, sets of cells, and rectangles that glide, and shares only the names of moves, kinds and outcomes
+and the form worlds come in. Left out on purpose: randomness (who is courteous and who is attentive is handed
+in), episodes after the first, and more than one autonomous vehicle.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Hashable
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
 
 from sim.kinds import Cell, Kind, Move, Outcome
 from sim.world import World
@@ -25,6 +26,11 @@ STEPS: dict[Move, Cell] = {
     Move.FORWARD_RIGHT: (1, -1),
     Move.STAY: (0, 0),
 }
+Size = tuple[Fraction, Fraction]
+"""Across the road and along it, in cells."""
+EGO: Size = (Fraction(32, 100), Fraction(66, 100))
+VEHICLE: Size = (Fraction(66, 100), Fraction(32, 100))
+PEDESTRIAN: Size = (Fraction(30, 100), Fraction(32, 100))
 
 
 @dataclass(frozen=True)
@@ -35,6 +41,10 @@ class Body:
     cell: Cell
     heading: str
     walks: bool
+
+    @property
+    def size(self) -> Size:
+        return PEDESTRIAN if self.walks else VEHICLE
 
     def beside(self, heading: str) -> Cell:
         return (self.cell[0] + SIDE[heading], self.cell[1])
@@ -120,47 +130,134 @@ def moved_bodies(now: Position, courteous: Collection[Cell] = ()) -> tuple[Body,
     )
 
 
-def will_be_free(now: Position, later: Collection[Body], cell: Cell) -> bool:
-    """Whether the vehicle may be in a cell next, the movers' next cells being known."""
-    if not now.holds(cell) or cell in now.fixed:
-        return False
-    if any(body.cell == cell for body in later):
-        return False
-    came_from = {body.id: body.cell for body in now.bodies}
-    return not any(came_from[body.id] == cell and body.cell == now.av for body in later)
+def braked_bodies(now: Position, later: Collection[Body], attentive: Collection[Cell]) -> tuple[Body, ...]:
+    """The same, where the vehicle stays: who would enter its cell and is attentive keeps its own cell, and
+    faces the way it would have gone."""
+    return tuple(
+        replace(body, cell=before.cell)
+        if body.cell == now.av != before.cell and before.cell in attentive
+        else body
+        for before, body in zip(now.bodies, later, strict=True)
+    )
 
 
-def priority_move(now: Position, later: Collection[Body]) -> Move:
+def together(one: tuple[Cell, Cell], one_size: Size, other: tuple[Cell, Cell], other_size: Size) -> bool:
+    """Whether two rectangles that glide in one tick from the middle of a cell to the middle of another, each
+    without speeding up, ever share a point that is on the edge of neither."""
+    begin, end = Fraction(-1), Fraction(2)  # when they do; the tick lasts from 0 to 1
+    for axis in (0, 1):
+        room = (one_size[axis] + other_size[axis]) / 2
+        apart = one[0][axis] - other[0][axis]
+        speed = (one[1][axis] - one[0][axis]) - (other[1][axis] - other[0][axis])
+        if speed == 0:
+            if abs(apart) >= room:
+                return False
+            continue
+        times = sorted(((-room - apart) / speed, (room - apart) / speed))
+        begin, end = max(begin, times[0]), min(end, times[1])
+    return begin < end and begin < 1 and end > 0
+
+
+def crashes(now: Position, av: Cell, later: Collection[Body], *, swept: bool) -> bool:
+    """Whether the vehicle, going to the cell `av` in this tick, collides. Without `swept` only cells count."""
+    if av in now.fixed:
+        return True
+    for before, body in zip(now.bodies, later, strict=True):
+        if max(abs(before.cell[0] - now.av[0]), abs(before.cell[1] - now.av[1])) > 2:
+            continue  # in one tick they do not come together from so far
+        if swept and together((now.av, av), EGO, (before.cell, body.cell), body.size):
+            return True
+        if not swept and (body.cell == av or (body.cell == now.av and before.cell == av)):
+            return True
+    return False
+
+
+def outlook(
+    now: Position,
+    move: Move,
+    moved: tuple[Body, ...],
+    attentive: Collection[Cell] | None = None,
+    *,
+    swept: bool = True,
+) -> tuple[Cell, tuple[Body, ...], bool]:
+    """Where a move leads, where the movers are then, and whether it ends in no collision and on the road.
+
+    `moved`: the movers if nobody brakes. `attentive`: cells of movers who do; None for all of them.
+    """
+    columns, rows = STEPS[move]
+    av = (now.av[0] + columns, now.av[1] + rows)
+    if move is Move.STAY:
+        braking = {body.cell for body in now.bodies} if attentive is None else attentive
+        moved = braked_bodies(now, moved, braking)
+    return av, moved, now.holds(av) and not crashes(now, av, moved, swept=swept)
+
+
+def priority_move(
+    now: Position,
+    moved: tuple[Body, ...],
+    attentive: Collection[Cell] | None = None,
+    *,
+    swept: bool = True,
+) -> Move:
     """Forward, then left, right, then the diagonals, then stay; staying if nothing is free."""
-    for move, (columns, rows) in STEPS.items():
-        if will_be_free(now, later, (now.av[0] + columns, now.av[1] + rows)):
+    for move in STEPS:
+        if outlook(now, move, moved, attentive, swept=swept)[2]:
             return move
     return Move.STAY
 
 
-def step(now: Position, move: Move | None = None, courteous: Collection[Cell] = ()) -> tuple[Move, Position]:
+def step(
+    now: Position,
+    move: Move | None = None,
+    courteous: Collection[Cell] = (),
+    attentive: Collection[Cell] | None = None,
+    *,
+    swept: bool = True,
+) -> tuple[Move, Position]:
     """One tick of a running episode: the move taken (the priority rule's unless one is given), and
     the moment after it."""
-    later = moved_bodies(now, courteous)
-    taken = priority_move(now, later) if move is None else move
-    columns, rows = STEPS[taken]
-    av = (now.av[0] + columns, now.av[1] + rows)
+    moved = moved_bodies(now, courteous)
+    taken = priority_move(now, moved, attentive, swept=swept) if move is None else move
+    av, later, free = outlook(now, taken, moved, attentive, swept=swept)
     after = replace(now, tick=now.tick + 1, episode_tick=now.episode_tick + 1, av=av, bodies=later)
-    return taken, replace(after, outcome=judged(now, after))
+    return taken, replace(after, outcome=judged(after, free=free))
 
 
-def judged(before: Position, after: Position) -> Outcome:
+def judged(after: Position, *, free: bool) -> Outcome:
     """How the moment after a tick stands."""
-    came_from = {body.id: body.cell for body in before.bodies}
-    together = any(body.cell == after.av for body in after.bodies)
-    swapped = any(
-        came_from[body.id] == after.av and body.cell == before.av and after.av != before.av
-        for body in after.bodies
-    )
-    if after.av in after.fixed or together or swapped:
+    if not free:
         return Outcome.CRASH
     if after.av[1] == 0:
         return Outcome.SUCCESS
     if after.episode_tick > 10 * after.rows:
         return Outcome.STUCK
     return Outcome.RUNNING
+
+
+@dataclass
+class Memory:
+    """Every situation since the vehicle came into its row, or since it was first left to the rule.
+
+    A situation is what has a part in what comes: the vehicle's cell, whether pedestrians walk, and who is
+    where and facing which way in its row and in the one ahead.
+    """
+
+    row: int = -1
+    situations: list[Hashable] = field(default_factory=list)
+
+    def noticed(self, now: Position) -> bool:
+        """Remember this moment; whether it is seen to be like the one to compare with.
+
+        That is the latest of number 0, 1, 3, 7, 15 and so on that lies before.
+        """
+        if now.av[1] != self.row:
+            self.row, self.situations = now.av[1], []
+        near = frozenset(
+            (body.cell, body.heading, body.walks)
+            for body in now.bodies
+            if body.cell[1] in (now.av[1], now.av[1] - 1)
+        )
+        self.situations.append((now.av, now.episode_tick % 2, near))
+        number = len(self.situations) - 1
+        before = [2**power - 1 for power in range(number.bit_length() + 1) if 2**power - 1 < number]
+        return bool(before) and self.situations[before[-1]] == self.situations[number]
