@@ -9,6 +9,7 @@ PARTS = (
     "world",
     "sim",
     "worlds",
+    "planners",
     "scaling",
     "language",
     "explain",

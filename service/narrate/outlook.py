@@ -1,4 +1,4 @@
-"""What the planner `rules` went by, in words: where moves lead, what closes a way on, which side is nearer."""
+"""What the planner `rules` went by, in words: where moves lead, what closes a way, which side is nearer."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ class Outlook:
         if theirs is None or theirs.columns is None:
             return self._say("only_side", side=self._side(decision.move))
         if theirs.leads is Leads.CLOSED:
-            return self._say("closed_side", side=self._side(other), who=self._who(theirs, "then"))
+            return self._say("closed_side", side=self._side(other), who=self._who(theirs))
         if decision.option(other) in decision.preferred:
             return ""  # it is told what was in the way there
         return self._nearer(decision.move, mine, theirs)
@@ -105,7 +105,7 @@ class Outlook:
         if prospect.leads is Leads.NOWHERE:
             return self._say("dead_end", tense, place=place)
         if prospect.leads is Leads.CLOSED:
-            return self._say("closed", tense, who=self._who(prospect, tense), place=place)
+            return self._say("closed", tense, who=self._who(prospect), place=place)
         return ""
 
     def _closed_aside(self, tense: str, met: list[Option]) -> list[str]:
@@ -131,7 +131,7 @@ class Outlook:
     def _side(self, move: Move) -> str:
         return self._say("sides", move)
 
-    def _who(self, prospect: Prospect, tense: str) -> str:
+    def _who(self, prospect: Prospect) -> str:
         """The mover that closes a way, from the driver's seat."""
         assert prospect.closer is not None
         return self._naming.thing(self._forecast.slices.movers(0)[prospect.closer])

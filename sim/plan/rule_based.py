@@ -11,15 +11,15 @@ movers that are locked in between them. The ranking:
 
 A way on is closed while a mover comes toward the vehicle in between: the two would meet before the vehicle is
 there, and it would be pinned against the mover. So a row is entered only where its way on is open.
-Guarantees: never a step into a cell that will be taken while staying is free; never into a dead end that fixed
-hazards make while a move that leads on is free, or staying; LOCAL (`sim.planner_names`): besides what never
-moves, the movers of the vehicle's row and the one ahead decide.
-Simplifications: no memory, one tick of forecast. Beyond it a mover is taken to drive on, and to turn at the next
-thing that never moves, as if it were alone. A way that a mover keeps closed is waited for, which ends as STUCK.
-Left comes before right only among equals.
-Source: the order of the pygame study this project grew from (`priority`), changed where that runs into livelocks
-and dead ends. A diagonal that leads on comes before a step aside because it gains a row: fewer vehicles get stuck
-(`python -m bench planners`).
+Guarantees: never a step into a cell that will be taken while any is free; never into a dead end that fixed
+hazards make while staying is free; LOCAL (`sim.planner_names`): besides what never moves, the movers of the
+vehicle's row and of the one ahead decide.
+Simplifications: no memory, one tick of forecast. Beyond it a mover is taken to drive on, and to turn at the
+next thing that never moves, as if it were alone. A way that a mover keeps closed is waited for, which ends as
+STUCK. Left comes before right only among equals.
+Source: the order of the pygame study this project grew from (`priority`), changed where that runs into
+livelocks and dead ends. A diagonal that leads on comes before a step aside because it gains a row: fewer
+vehicles get stuck (measured, see `sim/README.md`).
 """
 
 from __future__ import annotations
@@ -82,8 +82,8 @@ _NOWHERE: Final = Prospect(Leads.NOWHERE, None)
 _CLASS: Final = 1 << 8
 """Between the ranks of two classes; within a class the fewer columns come first."""
 _FIRST, _FORWARD, _DIAGONAL, _ASIDE, _STAY, _DODGE, _CLOSED, _LAST = range(-_CLASS, 7 * _CLASS, _CLASS)
-"""Ranks, the lowest first. `_FIRST` and those from `_LAST` on are dead ends: straight on, which is what would be done
-if there were a way, then staying, then all others."""
+"""Ranks, the lowest first. `_FIRST` and those from `_LAST` on are dead ends: straight on, which is what would
+be done if there were a way; then staying; then all others."""
 
 _decided = maker(Decision, "tick", "av", "planner", "move", "options")
 
@@ -137,8 +137,8 @@ def standing(forecast: Forecast) -> Standing:
 def _toward(forecast: Forecast, ways: Ways, end: int, side: int) -> Prospect | None:
     """From a cell to the nearest way on to one side of it; None where there is none.
 
-    The vehicle gets there by steps aside and one diagonal. A mover that comes toward it is met before if it is
-    nearer than twice the way. One that drives away is taken for its mirror image behind the cell it turns in.
+    The vehicle gets there by steps aside and one diagonal. A mover that comes toward it is met before that if
+    it is nearer than twice the way. One that drives away is taken for its mirror image behind where it turns.
     """
     columns = forecast.road.columns
     column = end % columns
@@ -164,7 +164,7 @@ def _nearness(prospect: Prospect) -> tuple[bool, int]:
 
 
 def _ranks(standing: Standing) -> tuple[int, ...]:
-    """The rank of every move, in the order of `ORDER`; the lowest comes first, and among equals the earlier."""
+    """The rank of every move, in the order of `ORDER`: the lowest comes first, among equals the earlier."""
     forward, left, right, forward_left, forward_right, _ = standing.prospects
     below = standing.columns == 0
     return (
@@ -209,7 +209,7 @@ def _first(options: Sequence[Option]) -> Move:
 
 @lru_cache(maxsize=4_096)
 def _ends(columns: int, rows: int, index: int) -> tuple[tuple[int | None, tuple[int, ...]], ...]:
-    """Where every move from a cell leads, in the order of `ORDER`, and on which sides of it to look for a way on."""
+    """Where every move leads, in the order of `ORDER`, and on which sides of it to look for a way on."""
     road = Road.of(columns, rows)
     sides = {Move.LEFT: (-1,), Move.RIGHT: (1,)}
     return tuple((road.moved(index, move), sides.get(move, (-1, 1))) for move in ORDER)

@@ -29,7 +29,7 @@ class Ways:
     """the open cells by the columns to go aside to a way on (`columns_aside`)"""
 
     def columns_aside(self, cell: int) -> int | None:
-        """The fewest columns to go aside from a cell, in its row and by a diagonal, to an open cell of the next row.
+        """The fewest columns from a cell, in its row and by a diagonal, to an open cell of the next row.
 
         0 where the cell straight ahead is open, and in row 0; None where no way leads on.
         """
@@ -80,7 +80,7 @@ def _filled(free: Board, seeds: Board) -> Board:
 
 
 def locked_in(movers: Board, fixed: Board, left_edge: Board, right_edge: Board) -> Board:
-    """The movers that can never leave their cell: on both sides is the edge, something fixed or another such."""
+    """The movers that can never leave their cell: the edge, something fixed or another such on both sides."""
     # A mover never enters a cell that another stands in, so a row of them between two walls is a wall.
     locked = movers
     while True:
