@@ -9,6 +9,7 @@ PARTS = (
     "world",
     "sim",
     "worlds",
+    "families",
     "scaling",
     "language",
     "explain",
