@@ -10,6 +10,7 @@ PARTS = (
     "sim",
     "worlds",
     "planners",
+    "families",
     "scaling",
     "language",
     "explain",

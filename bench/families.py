@@ -1,6 +1,6 @@
 """What planners and preferences do on every family of roads, with intervals. The tables of FAMILIES.md.
 
-python -m bench.families --seeds 60 --write
+python -m bench.families --seeds 50 --write
 
 Every planner drives the first episodes of the same seeds, tick by tick, by the live engine. Preferences are
 compared with `balanced` seed by seed: an interval of mean differences that leaves out 0 is an effect.

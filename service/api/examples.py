@@ -18,6 +18,10 @@ NEW_SESSION: Examples = {
         "summary": "A road in figures",
         "value": {"name": "narrow", "config": {"columns": 6, "rows": 20, "potholes": 5}, "paused": True},
     },
+    "layout": {
+        "summary": "A road of a family",
+        "value": {"config": {"layout": "maze", "pedestrians": 3}, "seed": 7},
+    },
 }
 FORK: Examples = {
     "now": {"summary": "From here", "value": {}},

@@ -106,6 +106,11 @@ OPEN = run_on(road("........", "...o....", "......>.", ".o......", "...A...."))
         (SetCount(kind="vehicle", count=1), "There is 1 car already."),
         (Scenario(road="highway", potholes=2, vehicles=0), "A new highway: 2 potholes."),
         (Scenario(potholes=0, vehicles=0), "A new road with nothing on it."),
+        (Scenario(layout="crossing", potholes=2, vehicles=0), "A new road: crossing traffic, 2 potholes."),
+        (
+            Scenario(layout="crossing", road="city", pedestrians=0, barriers=0, potholes=0, vehicles=0),
+            "A new city road: crossing traffic.",
+        ),
         (Reset(), "Back at the start of this road."),
         (SetMode(mode=Mode.AUTO), "That is how it is already."),
         (Drive(move=Move.LEFT), "Next I move left, then I drive on by myself."),

@@ -7,7 +7,7 @@ from typing import get_args
 
 import pytest
 
-from sim.actions import Layout, Scenario
+from sim.actions import Layout, Preference, Scenario
 from sim.batch import Batch
 from sim.config import RANGES, Config, ConfigError
 from sim.defects import state_defects
@@ -220,3 +220,20 @@ def test_a_batch_takes_roads_of_a_layout_from_runs() -> None:
     restarting = Batch.of(runs, after="restart")
     restarting.run(400)
     assert (restarting.episodes == 1).all()
+
+
+def ticks(seed: int, layout: Layout | None, *preferences: Preference) -> int:
+    """How long `astar` takes on a first road."""
+    run = Run.start(Config(layout=layout, seed=seed, planner="astar", preferences=preferences))
+    while run.world.outcome is Outcome.RUNNING:
+        run = advance(run).run
+    assert run.world.outcome is Outcome.SUCCESS
+    return run.world.episode_tick
+
+
+@pytest.mark.parametrize("layout", ["walls", "maze"])
+def test_who_asks_for_the_fastest_way_gets_there_sooner(layout: Layout) -> None:
+    """The figures with intervals are in bench/FAMILIES.md."""
+    saved = [ticks(seed, layout) - ticks(seed, layout, "fastest") for seed in range(16)]
+    assert min(saved) >= 0
+    assert sum(saved) > 0
