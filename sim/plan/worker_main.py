@@ -1,0 +1,191 @@
+"""The process of one planner of another package: `python -m sim.plan.worker_main module:Class`.
+
+Questions come and answers go on the socket that is its standard input, a line each: a number, a space, JSON
+(`codec`, `answer`). What the planner prints goes elsewhere. Limits are set before anything of the planner is
+loaded. All that runs here is the planner's to spoil: whoever asks believes nothing but what `answer` lets through.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import numbers
+import os
+import resource
+import sys
+from collections.abc import Callable
+from importlib.metadata import EntryPoint
+from typing import Any, Final
+
+from sim.config import Config
+from sim.forecast import foretell
+from sim.kinds import Move
+from sim.perceive import Percept
+from sim.plan.answer import FaultError, checked_cost, clean, quoted
+from sim.plan.codec import CHECKED, asked, percept_values
+from sim.plan.decision import Decision, Option
+from sim.planner_names import GROUP
+
+MOST_MEMORY: Final = 2**30
+"""Bytes of address space."""
+MOST_CPU_S: Final = 3_600
+"""Seconds of processor time in the life of one process; it is stopped while it is not asked."""
+MOST_FILE: Final = 64 * 2**20
+"""Bytes of a file that it writes."""
+MOST_FILES: Final = 256
+NICE: Final = 10
+"""So much later than the service is it given a processor where there are too few."""
+MAX_HORIZON: Final = 10_000
+
+
+def main(target: str) -> None:
+    """Load the planner, then answer until nobody asks any more."""
+    line = _settle()
+    with os.fdopen(os.dup(line), "rb") as questions:
+        try:
+            planner = EntryPoint("planner", target, GROUP).load()()
+        except BaseException as error:  # sys.exit() among them
+            _send(line, b"0", {"fault": _named("could not be loaded", error)})
+            return
+        _send(line, b"0", {"ready": True})
+        for each in questions:
+            number, _, question = each.partition(b" ")
+            checked = question.startswith(CHECKED)
+            _send(line, number, _answer(planner, question.removeprefix(CHECKED), in_full=checked))
+
+
+def answered(planner: Any, percept: Percept, config: Config) -> object:
+    """What a planner decides of a forecast that reaches as far as it asks. Raises what it raises."""
+    horizon = planner.horizon(config)
+    if isinstance(horizon, bool) or not isinstance(horizon, int) or not 1 <= horizon <= MAX_HORIZON:
+        raise ValueError(f"a horizon of {quoted(horizon)} ticks")
+    return planner.decide(foretell(percept, horizon), config)
+
+
+def told(decision: object, percept: Percept) -> dict[str, Any]:
+    """A decision as an answer: its move and its costs. Raises `FaultError` where it is none for this moment."""
+    if not isinstance(decision, Decision):
+        raise FaultError(f"answered {quoted(decision)}, which is no decision")
+    move: object = decision.move
+    if not isinstance(move, Move):
+        raise FaultError(f"answered {quoted(move)}, which is no move")
+    if (decision.tick, decision.av) != (percept.tick, percept.ego_id):
+        raise FaultError("answered for another moment or vehicle")
+    if percept.road.moved(percept.ego, move) is None:
+        raise FaultError(f"answered {move}, which leads off the road")
+    options: object = decision.options
+    if (
+        not isinstance(options, tuple)
+        or not all(isinstance(option, Option) and isinstance(option.move, Move) for option in options)
+        or sorted(option.move for option in options) != sorted(Move)
+    ):
+        raise FaultError("answered without a verdict on each of the six moves")
+    return {"move": move.value, "costs": {each.move.value: _cost(each) for each in options}}
+
+
+def claims(planner: Any, decision: Decision) -> dict[str, Any]:
+    """What a decision says beyond the move and costs, for who compares it with what is so."""
+    return {
+        "name": quoted(planner.name),
+        "planner": quoted(decision.planner),
+        "options": {
+            option.move.value: [
+                quoted(getattr(option.reason, "value", option.reason)),
+                quoted(option.cell),
+                quoted(tuple(sorted(option.causes))),
+                option.cost is not None,
+            ]
+            for option in decision.options
+        },
+    }
+
+
+def witnessed(planner: Any, percept: Percept, config: Config) -> dict[str, Any]:
+    """An answer, with what the decision claims and whether the percept was changed. Raises `FaultError`."""
+    shown = percept_values(percept)
+    try:
+        decision = answered(planner, percept, config)
+    except IndexError as error:
+        beyond = "horizon" in str(error)
+        raise FaultError(_named("read too far:" if beyond else "raised", error)) from error
+    except BaseException as error:
+        raise FaultError(_named("raised", error)) from error
+    answer = told(decision, percept)
+    assert isinstance(decision, Decision)  # else `told` raised
+    try:
+        said = claims(planner, decision)
+    except BaseException as error:
+        raise FaultError(_named("answered options that raise", error)) from error
+    return {"answer": answer, "claims": said, "changed": percept_values(percept) != shown}
+
+
+def _answer(planner: Any, question: bytes, *, in_full: bool) -> dict[str, Any]:
+    try:
+        percept, config = asked(question)
+        if in_full:
+            return witnessed(planner, percept, config)
+        return told(answered(planner, percept, config), percept)
+    except FaultError as fault:
+        return {"fault": str(fault)}
+    except BaseException as error:  # sys.exit() among them
+        return {"fault": _named("raised", error)}
+
+
+def _cost(option: Option) -> float | None:
+    cost: object = option.cost
+    if isinstance(cost, numbers.Real) and not isinstance(cost, bool | int | float):
+        cost = float(cost)  # of another library
+    return checked_cost(cost, option.move)
+
+
+def _named(what: str, error: BaseException) -> str:
+    """What was raised, its text in quotes: they are the planner's words."""
+    try:
+        text = str(error)
+    except BaseException:
+        text = ""
+    said = f': "{text}"' if text else ""
+    return clean(f"{what} {type(error).__name__}{said}")
+
+
+def _send(line: int, number: bytes, values: dict[str, Any]) -> None:
+    data = b"%s %s\n" % (number, json.dumps(values, separators=(",", ":"), allow_nan=False).encode())
+    while data:
+        data = data[os.write(line, data) :]
+
+
+def _settle() -> int:
+    """Set the limits, and take the line away from standard input; answers the line."""
+    line = os.dup(0)
+    nothing = os.open(os.devnull, os.O_RDWR)
+    os.dup2(nothing, 0)
+    os.close(nothing)
+    for limit, most in (
+        (resource.RLIMIT_AS, MOST_MEMORY),
+        (resource.RLIMIT_CPU, MOST_CPU_S),
+        (resource.RLIMIT_FSIZE, MOST_FILE),
+        (resource.RLIMIT_NOFILE, MOST_FILES),
+        (resource.RLIMIT_CORE, 0),
+    ):
+        hard = resource.getrlimit(limit)[1]
+        most = most if hard == resource.RLIM_INFINITY else min(most, hard)
+        with contextlib.suppress(OSError, ValueError):  # macOS knows no limit of address space
+            resource.setrlimit(limit, (most, most))
+    os.nice(NICE)
+    _end_with_parent()
+    return line
+
+
+def _end_with_parent() -> None:
+    """On Linux, be killed when whoever asks has ended: a process that stands still would see no end of line."""
+    if sys.platform == "linux":
+        import ctypes
+        import signal
+
+        set_death_signal = 1
+        call: Callable[..., int] = ctypes.CDLL(None).prctl
+        call(set_death_signal, signal.SIGKILL)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])
