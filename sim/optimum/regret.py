@@ -12,7 +12,7 @@ from sim.judge import collisions, outcome
 from sim.kinds import Move, Outcome
 from sim.optimum.least import foreseen, least_cost, least_ticks
 from sim.plan.costs import weights
-from sim.run import Run, commit, decide
+from sim.run import Run, commit
 from sim.search.spacetime import SpaceTime
 from sim.timeline import Timeline
 
@@ -50,7 +50,7 @@ def regret(run: Run, move: Move) -> Regret:
 def regrets(timeline: Timeline, first: int, stop: int) -> Iterator[tuple[int, Regret]]:
     """(tick, regret) of the decisions taken in ticks `first` to before `stop`. Raises `IndexError`."""
     for run in timeline.between(first, stop):
-        decision = decide(run)
+        decision = timeline.decided(run)
         if decision is not None:
             yield run.world.tick, regret(run, decision.move)
 

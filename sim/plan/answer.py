@@ -1,8 +1,8 @@
 """What a planner of another package may answer, and the decision that is made of it.
 
 An answer is a move and six costs, as JSON: `{"move": "left", "costs": {"forward": null, "left": 2, ...}}`.
-Nothing else is heard. Cells, verdicts, causes, the tick, the vehicle and the planner's name are this project's
-own: they come from its forecast and from the question. What is not such an answer is a fault with a name.
+Nothing else is heard. Cells, verdicts, causes, the tick, the vehicle and the planner's name are made here,
+from this project's forecast and from the question. What is not such an answer is a fault with a name.
 """
 
 from __future__ import annotations
@@ -105,9 +105,7 @@ def decision_of(answer: Answer, percept: Percept, config: Config) -> Decision:
         )
         for option in options_in_order(foretell(percept, 1))
     ]
-    options.sort(
-        key=lambda option: (option.cost is None, option.cost or 0.0, option.move is not answer.move)
-    )
+    options.sort(key=lambda option: (option.cost is None, option.cost or 0.0, option.move is not answer.move))
     return Decision(
         percept.tick, percept.ego_id, config.planner, answer.move, tuple(options), measure=Measure.OWN
     )

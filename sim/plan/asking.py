@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Iterator
+from concurrent.futures import Future
 from contextlib import contextmanager
 from contextvars import ContextVar
 from time import monotonic
@@ -17,9 +18,8 @@ from typing import Final
 from sim.config import Config
 from sim.perceive import Percept
 from sim.plan import worker
-from sim.plan.answer import Answer, FaultError, decision_of
+from sim.plan.answer import Answer, FaultError
 from sim.plan.codec import question
-from sim.plan.decision import Decision
 from sim.plan.remembered import answers, key_of
 from sim.plan.worker import SilentError
 
@@ -60,30 +60,39 @@ def not_in_this_thread() -> Iterator[None]:
 
 
 def remembered(percept: Percept, config: Config) -> Answer | str | None:
-    """What the planner answered to this before, or the fault that was met; None if it is not known any more."""
+    """What the planner answered to this before, or the fault that was met; None if that is not known."""
     return answers.find(key_of(config.planner, question(percept, config)))
 
 
-def answered(percept: Percept, config: Config) -> Decision:
-    """The decision of the planner that the configuration names. Raises `FaultError` and `SilentError`."""
+def ask(percept: Percept, config: Config) -> Future[Answer]:
+    """What the planner that the configuration names answers, once it does.
+
+    The future raises `FaultError` and `SilentError`.
+    """
     asked = worker.worker_of(config.planner)
-    if asked is None:
-        raise FaultError("is not installed")
+    if asked is not None:
+        return asked.ask(percept, config)
+    missing: Future[Answer] = Future()
+    missing.set_exception(FaultError("is not installed"))
+    return missing
+
+
+def answered(percept: Percept, config: Config) -> Answer:
+    """The same, waited for. Raises `FaultError` and `SilentError`."""
     if threading.get_ident() in _serving:
         found = remembered(percept, config)
         if found is None:
             raise SilentError(NOT_HERE)
         if isinstance(found, str):
             raise FaultError(found)
-        return decision_of(found, percept, config)
+        return found
     patience = _patience.get()
     if patience is None:
-        return decision_of(asked.ask(percept, config).result(), percept, config)
+        return ask(percept, config).result()
     began = monotonic()
     try:
-        answer = asked.ask(percept, config).result(max(0.0, patience.left_s))
+        return ask(percept, config).result(max(0.0, patience.left_s))
     except TimeoutError:
         raise SilentError(f"did not answer within {patience.seconds:g} s in all") from None
     finally:
         patience.left_s -= monotonic() - began
-    return decision_of(answer, percept, config)

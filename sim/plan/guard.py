@@ -1,15 +1,16 @@
 """Asking a planner for a decision, so that whatever it does the session stands.
 
 Planners of this program are called as they are. One that another package brings is asked in a process of
-its own (`sim.plan.worker`), and of what it answers a move and costs are taken, nothing else (`sim.plan.answer`):
-an answer that is none, a move that leads off the road, something raised, or no answer in time make the vehicle
-stay, and the decision's `fault` says what happened.
+its own (`sim.plan.worker`). Of what it answers a move and costs are taken, nothing else (`sim.plan.answer`).
+An answer that is none, a move that leads off the road, something raised, or no answer in time make the
+vehicle stay, and the decision's `fault` says what happened.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from sim.config import Config
 from sim.forecast import foretell
@@ -18,6 +19,9 @@ from sim.perceive import Percept
 from sim.plan.decision import Decision, Measure
 from sim.plan.priority import options_in_order
 from sim.plan.registry import planner_named
+
+if TYPE_CHECKING:
+    from sim.plan.answer import Answer
 
 NOT_KNOWN: Final = "did not answer as it should"
 """The fault of a decision of which no more is known any more."""
@@ -33,12 +37,18 @@ def planned(percept: Percept, config: Config) -> Decision:
     planner = planner_named(config.planner)
     if planner is not None:
         return planner.decide(foretell(percept, planner.horizon(config)), config)
-    from sim.plan.answer import FaultError
     from sim.plan.asking import answered
+
+    return taken(lambda: answered(percept, config), percept, config)
+
+
+def taken(answered: Callable[[], Answer], percept: Percept, config: Config) -> Decision:
+    """What an answer of another package's planner comes to, or that there is none."""
+    from sim.plan.answer import FaultError, decision_of
     from sim.plan.worker import SilentError
 
     try:
-        return answered(percept, config)
+        return decision_of(answered(), percept, config)
     except SilentError as silence:
         return stayed(percept, config, str(silence), timed_out=True)
     except FaultError as fault:

@@ -59,7 +59,17 @@ LOG_BYTES: Final = 2_000
 
 _PRINTED_BYTES, _PRINTED_S = 4_096, 0.02
 """Not more is read of what a process prints, and not more often: who floods waits."""
-_PASSED_ON: Final = ("PATH", "HOME", "LANG", "LC_ALL", "LC_CTYPE", "TMPDIR", "TZ", "VIRTUAL_ENV", "LD_LIBRARY_PATH")
+_PASSED_ON: Final = (
+    "PATH",
+    "HOME",
+    "LANG",
+    "LC_ALL",
+    "LC_CTYPE",
+    "TMPDIR",
+    "TZ",
+    "VIRTUAL_ENV",
+    "LD_LIBRARY_PATH",
+)
 """Of the environment: keys and passwords of the service are not for planners."""
 _ONE_THREAD: Final = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 _STANDS_STILL: Final = sys.platform == "linux"
