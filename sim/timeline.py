@@ -150,8 +150,9 @@ class Timeline:
     def advance(self, decided: Decision | None = None) -> Tick:
         """One tick on, with what was `decided` for it elsewhere, if it was.
 
-        Raises `PlannerSilentError`; nothing has then changed. A planner that did not answer in time may answer
-        when the tick is run again, so a tick without its answer must not become part of what is replayed.
+        Raises `PlannerSilentError`; nothing has then changed. A planner that did not answer in time may
+        answer when the tick is run again, so a tick without its answer must not become part of what is
+        replayed.
         """
         tick = _answered(advance(self.run, decided))
         self._recent.append(self.run)

@@ -82,7 +82,7 @@ class SilentError(Exception):
 
 
 class Worker:
-    """One planner's process, started when first asked. Safe to use from several threads; it answers in turn."""
+    """One planner's process, started when first asked. Several threads may ask; it answers in turn."""
 
     def __init__(
         self,
@@ -104,7 +104,7 @@ class Worker:
         self._rests_until = 0.0
 
     def ask(self, percept: Percept, config: Config) -> Future[Answer]:
-        """What it answers. The future raises `FaultError` or `SilentError`; who no longer waits lets it be."""
+        """What it answers. The future raises `FaultError` or `SilentError`; it is not to be cancelled."""
 
         async def asked() -> Answer:
             return await self._asked(question(percept, config))
@@ -287,8 +287,10 @@ class _Line:
             self._ours.close()
 
     async def gone(self) -> None:
-        """Once it has been killed: wait until it is no more."""
-        while self._process.poll() is None:
+        """Once it has been killed: wait until it is no more, which is soon."""
+        for _ in range(500):
+            if self._process.poll() is not None:
+                return
             await asyncio.sleep(0.01)
 
     def _rest(self) -> None:

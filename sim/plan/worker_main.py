@@ -2,7 +2,7 @@
 
 Questions come and answers go on the socket that is its standard input, a line each: a number, a space, JSON
 (`codec`, `answer`). What the planner prints goes elsewhere. Limits are set before anything of the planner is
-loaded. All that runs here is the planner's to spoil: whoever asks believes nothing but what `answer` lets through.
+loaded. All that runs here is the planner's to spoil: whoever asks hears only what `answer` lets through.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ def answered(planner: Any, percept: Percept, config: Config) -> object:
 
 
 def told(decision: object, percept: Percept) -> dict[str, Any]:
-    """A decision as an answer: its move and its costs. Raises `FaultError` where it is none for this moment."""
+    """A decision's move and costs, as an answer. Raises `FaultError` where it is none for this moment."""
     if not isinstance(decision, Decision):
         raise FaultError(f"answered {quoted(decision)}, which is no decision")
     move: object = decision.move
@@ -177,7 +177,7 @@ def _settle() -> int:
 
 
 def _end_with_parent() -> None:
-    """On Linux, be killed when whoever asks has ended: a process that stands still would see no end of line."""
+    """On Linux, be killed when whoever asks has ended: who stands still would not see the line end."""
     if sys.platform == "linux":
         import ctypes
         import signal
