@@ -8,6 +8,7 @@ from this project's forecast and from the question. What is not such an answer i
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import isfinite
@@ -30,8 +31,49 @@ MOST_TOLD: Final = 160
 _MOVES: Final = {move.value: move for move in Move}
 
 
+FAULTS: Final = {
+    "raised": "raised {kind}",
+    "unloadable": "could not be loaded ({kind})",
+    "unstartable": "could not be started",
+    "horizon": "asked for a horizon that cannot be",
+    "too-far": "read beyond its horizon",
+    "no-decision": "answered what is no decision",
+    "no-move": "answered what is no move",
+    "elsewhere": "answered for another moment or vehicle",
+    "off-road": "answered a move that leads off the road",
+    "no-verdicts": "answered without a verdict on each of the six moves",
+    "no-number": "answered a cost that is no number",
+    "not-finite": "answered a cost that is no finite number",
+    "too-large": "answered a cost that is too large a number",
+    "no-json": "answered what is no JSON of an answer",
+    "more": "answered something else than a move and six costs",
+    "too-long": "answered at too great a length",
+    "out-of-turn": "answered out of turn",
+    "died": "took its process down ({kind})",
+    "closed": "closed the line on which it was asked",
+}
+"""What a planner may do instead of answering, to follow its name. Its own words are in none of them."""
+
+_KIND: Final = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,59}")
+
+
 class FaultError(Exception):
-    """What a planner did instead of answering, to follow its name: "raised ValueError"."""
+    """What a planner did instead of answering, to follow its name: "raised ValueError".
+
+    `detail` is in its own words, for its author and nobody else.
+    """
+
+    def __init__(self, message: str, detail: str = "") -> None:
+        super().__init__(message)
+        self.detail = detail
+
+
+class CodedError(FaultError):
+    """A fault of those in `FAULTS`."""
+
+    def __init__(self, code: str, kind: str = "", detail: str = "") -> None:
+        super().__init__(FAULTS[code].format(kind=kind), detail)
+        self.code, self.kind = code, kind
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,8 +87,8 @@ class Answer:
 def parsed(line: bytes) -> Answer:
     """The answer on a line. Raises `FaultError`, also where the line names a fault."""
     values = loaded(line)
-    if set(values) == {"fault"}:
-        raise FaultError(clean(values["fault"]))
+    if "fault" in values:
+        raise fault_of(values)
     return answer_of(values)
 
 
@@ -57,21 +99,30 @@ def loaded(line: bytes) -> dict[str, Any]:
             line.decode("utf-8"), object_pairs_hook=_each_once, parse_constant=_no_number, parse_float=_number
         )
     except (ValueError, RecursionError):
-        raise FaultError("answered what is no JSON of an answer") from None
+        raise CodedError("no-json") from None
     if not isinstance(values, dict):
-        raise FaultError("answered what is no JSON of an answer")
+        raise CodedError("no-json")
     return values
+
+
+def fault_of(values: Mapping[str, Any]) -> FaultError:
+    """The fault that a planner's process tells of."""
+    code, kind, detail = (values.get(key) for key in ("fault", "kind", "detail"))
+    if not isinstance(code, str) or code not in FAULTS:
+        return CodedError("no-json")
+    known = isinstance(kind, str) and _KIND.fullmatch(kind)
+    return CodedError(code, kind if known else "something", clean(detail))  # type: ignore[arg-type]
 
 
 def answer_of(values: Mapping[str, Any]) -> Answer:
     """The answer of such values. Raises `FaultError`."""
     if set(values) != {"move", "costs"}:
-        raise FaultError("answered something else than a move and costs")
+        raise CodedError("more")
     move, costs = values["move"], values["costs"]
     if not isinstance(move, str) or move not in _MOVES:
-        raise FaultError(f"answered {quoted(move)}, which is no move")
+        raise CodedError("no-move", detail=quoted(move))
     if not isinstance(costs, dict) or set(costs) != set(_MOVES):
-        raise FaultError("answered without a cost for each of the six moves")
+        raise CodedError("no-verdicts")
     return Answer(_MOVES[move], tuple(checked_cost(costs[each.value], each) for each in Move))
 
 
@@ -79,11 +130,13 @@ def checked_cost(cost: object, move: Move) -> float | None:
     """A cost as a number. Raises `FaultError` for what is none, or none that can be."""
     if cost is None:
         return None
+    detail = f"{quoted(cost)} for {move}"
     if isinstance(cost, bool) or not isinstance(cost, int | float):
-        raise FaultError(f"answered with {quoted(cost)} as the cost of {move}, which is no number")
-    if not -MOST_COST <= cost <= MOST_COST:  # false for what is no number, too
-        told = "no finite number" if isinstance(cost, float) and not isfinite(cost) else "too large a number"
-        raise FaultError(f"answered with {told} as the cost of {move}")
+        raise CodedError("no-number", detail=detail)
+    if isinstance(cost, float) and not isfinite(cost):
+        raise CodedError("not-finite", detail=detail)
+    if not -MOST_COST <= cost <= MOST_COST:
+        raise CodedError("too-large", detail=detail)
     return float(cost)
 
 
@@ -93,7 +146,7 @@ def decision_of(answer: Answer, percept: Percept, config: Config) -> Decision:
     Cheapest first, a move without a cost last. Raises `FaultError` for a move that leads off the road.
     """
     if percept.road.moved(percept.ego, answer.move) is None:
-        raise FaultError(f"answered {answer.move}, which leads off the road")
+        raise CodedError("off-road", detail=answer.move)
     costs = dict(zip(Move, answer.costs, strict=True))
     options = [
         Option(
@@ -113,6 +166,8 @@ def decision_of(answer: Answer, percept: Percept, config: Config) -> Decision:
 
 def quoted(value: object) -> str:
     """Something foreign, for a person: short, on one line, and of plain characters."""
+    if isinstance(value, int) and abs(value) >= 10**40:
+        return "a number of many digits"
     try:
         told = ascii(value)
     except BaseException:  # whatever its own `__repr__` does
@@ -121,9 +176,9 @@ def quoted(value: object) -> str:
 
 
 def clean(text: object) -> str:
-    """A fault that a planner's process has told of, as above."""
-    if not isinstance(text, str) or not text:
-        return "answered what is no JSON of an answer"
+    """Words of a planner's process, as above."""
+    if not isinstance(text, str):
+        return ""
     plain = "".join(each if each.isprintable() else " " for each in text[: MOST_TOLD + 1])
     return plain if len(plain) <= MOST_TOLD else f"{plain[:MOST_TOLD]}..."
 

@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import asyncio
 import atexit
-import json
 import logging
 import os
 import signal
@@ -31,7 +30,7 @@ from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 from sim.config import Config
 from sim.perceive import Percept
-from sim.plan.answer import MOST_BYTES, Answer, FaultError, answer_of, loaded, parsed
+from sim.plan.answer import MOST_BYTES, Answer, CodedError, FaultError, answer_of, fault_of, loaded, parsed
 from sim.plan.codec import CHECKED, question
 from sim.plan.remembered import Remembered, answers, key_of
 from sim.planner_names import installed
@@ -54,7 +53,7 @@ MOST_FAILURES: Final = 5
 REST_S: Final = 30.0
 CHECK_BYTES: Final = 32_768
 """Of an answer that is told in full, for the checker."""
-LOG_BYTES: Final = 2_000
+LOG_BYTES: Final = 500
 """Of what a process prints are logged; the rest is thrown away."""
 
 _PRINTED_BYTES, _PRINTED_S = 4_096, 0.02
@@ -117,8 +116,10 @@ class Worker:
         async def asked() -> tuple[Answer, dict[str, Any]]:
             async with self._turn:
                 values = loaded(await self._exchanged(CHECKED + question(percept, config), CHECK_BYTES))
+            if "fault" in values:
+                raise fault_of(values)
             if set(values) != {"answer", "claims", "changed"} or not isinstance(values["answer"], dict):
-                return parsed(json.dumps(values).encode()), {}
+                raise CodedError("more")
             return answer_of(values["answer"]), values
 
         return _planners().begin(asked())
@@ -155,6 +156,8 @@ class Worker:
         try:
             return parsed(await self._exchanged(what, MOST_BYTES))
         except FaultError as fault:
+            if fault.detail:
+                _LOG.info("the planner %s %s: %s", self.name, fault, ascii(fault.detail))
             return str(fault)
 
     async def _exchanged(self, what: bytes, most: int) -> bytes:
@@ -213,7 +216,7 @@ class _Line:
         except OSError as error:
             self._ours.close()
             os.close(self._printed)
-            raise FaultError(f"could not be started ({error.strerror})") from error
+            raise CodedError("unstartable", detail=str(error.strerror)) from error
         finally:
             theirs.close()
             os.close(printing)
@@ -227,9 +230,8 @@ class _Line:
         """Wait until its planner is loaded. Raises `SilentError` and `FaultError`."""
         self._reader, self._writer = await asyncio.open_unix_connection(sock=self._ours, limit=CHECK_BYTES)
         told = loaded(await self._told(0, MOST_BYTES, within_s, "did not start"))
-        if set(told) != {"ready"}:
-            parsed(json.dumps(told).encode())  # names the fault
-            raise FaultError("answered before it was asked")
+        if told != {"ready": True}:
+            raise fault_of(told)
         self._rest()
 
     async def exchanged(self, what: bytes, most: int, within_s: float, late: str) -> bytes:
@@ -251,17 +253,17 @@ class _Line:
         except TimeoutError:
             raise SilentError(f"{late} within {within_s:g} s") from None
         except asyncio.LimitOverrunError:
-            raise FaultError(f"answered more than {most} bytes") from None
+            raise CodedError("too-long") from None
         except (asyncio.IncompleteReadError, ConnectionError):
-            raise FaultError(await self._ended()) from None
+            raise await self._ended() from None
         if len(line) > most:
-            raise FaultError(f"answered more than {most} bytes")
+            raise CodedError("too-long")
         which, _, told = line.partition(b" ")
         if which != b"%d" % number:
-            raise FaultError("answered out of turn")
+            raise CodedError("out-of-turn")
         return told
 
-    async def _ended(self) -> str:
+    async def _ended(self) -> CodedError:
         """How its process ended, if it has."""
         for _ in range(20):
             code = self._process.poll()
@@ -269,9 +271,9 @@ class _Line:
                 self._signal(signal.SIGKILL)  # what it has left behind, while nobody else has the number
                 self._killed = True
                 how = f"exit status {code}" if code >= 0 else f"killed by {_signal_name(-code)}"
-                return f"took its process down ({how})"
+                return CodedError("died", how)
             await asyncio.sleep(0.01)
-        return "closed the line on which it was asked"
+        return CodedError("closed")
 
     def kill(self) -> None:
         """End it, and whatever it has started in its group."""

@@ -14,6 +14,7 @@ import os
 import resource
 import sys
 from collections.abc import Callable
+from functools import partial
 from importlib.metadata import EntryPoint
 from typing import Any, Final
 
@@ -21,7 +22,7 @@ from sim.config import Config
 from sim.forecast import foretell
 from sim.kinds import Move
 from sim.perceive import Percept
-from sim.plan.answer import FaultError, checked_cost, clean, quoted
+from sim.plan.answer import CodedError, checked_cost, clean, quoted
 from sim.plan.codec import CHECKED, asked, percept_values
 from sim.plan.decision import Decision, Option
 from sim.planner_names import GROUP
@@ -45,41 +46,42 @@ def main(target: str) -> None:
         try:
             planner = EntryPoint("planner", target, GROUP).load()()
         except BaseException as error:  # sys.exit() among them
-            _send(line, b"0", {"fault": _named("could not be loaded", error)})
+            _send(line, b"0", _told(_raised("unloadable", error)))
             return
         _send(line, b"0", {"ready": True})
         for each in questions:
             number, _, question = each.partition(b" ")
-            checked = question.startswith(CHECKED)
-            _send(line, number, _answer(planner, question.removeprefix(CHECKED), in_full=checked))
+            in_full = question.startswith(CHECKED)
+            work = partial(_answer, planner, question.removeprefix(CHECKED), in_full=in_full)
+            _send(line, number, fault_met(work))
 
 
 def answered(planner: Any, percept: Percept, config: Config) -> object:
     """What a planner decides of a forecast that reaches as far as it asks. Raises what it raises."""
     horizon = planner.horizon(config)
     if isinstance(horizon, bool) or not isinstance(horizon, int) or not 1 <= horizon <= MAX_HORIZON:
-        raise ValueError(f"a horizon of {quoted(horizon)} ticks")
+        raise CodedError("horizon", detail=quoted(horizon))
     return planner.decide(foretell(percept, horizon), config)
 
 
 def told(decision: object, percept: Percept) -> dict[str, Any]:
-    """A decision's move and costs, as an answer. Raises `FaultError` where it is none for this moment."""
+    """A decision's move and costs, as an answer. Raises `CodedError` where it is none for this moment."""
     if not isinstance(decision, Decision):
-        raise FaultError(f"answered {quoted(decision)}, which is no decision")
+        raise CodedError("no-decision", detail=quoted(decision))
     move: object = decision.move
     if not isinstance(move, Move):
-        raise FaultError(f"answered {quoted(move)}, which is no move")
+        raise CodedError("no-move", detail=quoted(move))
     if (decision.tick, decision.av) != (percept.tick, percept.ego_id):
-        raise FaultError("answered for another moment or vehicle")
+        raise CodedError("elsewhere")
     if percept.road.moved(percept.ego, move) is None:
-        raise FaultError(f"answered {move}, which leads off the road")
+        raise CodedError("off-road", detail=move)
     options: object = decision.options
     if (
         not isinstance(options, tuple)
         or not all(isinstance(option, Option) and isinstance(option.move, Move) for option in options)
         or sorted(option.move for option in options) != sorted(Move)
     ):
-        raise FaultError("answered without a verdict on each of the six moves")
+        raise CodedError("no-verdicts")
     return {"move": move.value, "costs": {each.move.value: _cost(each) for each in options}}
 
 
@@ -101,34 +103,36 @@ def claims(planner: Any, decision: Decision) -> dict[str, Any]:
 
 
 def witnessed(planner: Any, percept: Percept, config: Config) -> dict[str, Any]:
-    """An answer, with what the decision claims and whether the percept was changed. Raises `FaultError`."""
+    """An answer, with what the decision claims and whether the percept was changed. Raises `CodedError`."""
     shown = percept_values(percept)
     try:
         decision = answered(planner, percept, config)
     except IndexError as error:
-        beyond = "horizon" in str(error)
-        raise FaultError(_named("read too far:" if beyond else "raised", error)) from error
-    except BaseException as error:
-        raise FaultError(_named("raised", error)) from error
+        raise _raised("too-far" if "horizon" in str(error) else "raised", error) from error
     answer = told(decision, percept)
     assert isinstance(decision, Decision)  # else `told` raised
-    try:
-        said = claims(planner, decision)
-    except BaseException as error:
-        raise FaultError(_named("answered options that raise", error)) from error
-    return {"answer": answer, "claims": said, "changed": percept_values(percept) != shown}
+    return {
+        "answer": answer,
+        "claims": claims(planner, decision),
+        "changed": percept_values(percept) != shown,
+    }
 
 
-def _answer(planner: Any, question: bytes, *, in_full: bool) -> dict[str, Any]:
+def fault_met(work: Callable[[], dict[str, Any]]) -> dict[str, Any]:
+    """What the work results in, or the fault that was met instead, whatever was raised."""
     try:
-        percept, config = asked(question)
-        if in_full:
-            return witnessed(planner, percept, config)
-        return told(answered(planner, percept, config), percept)
-    except FaultError as fault:
-        return {"fault": str(fault)}
+        return work()
+    except CodedError as fault:
+        return _told(fault)
     except BaseException as error:  # sys.exit() among them
-        return {"fault": _named("raised", error)}
+        return _told(_raised("raised", error))
+
+
+def _answer(planner: Any, asked_for: bytes, *, in_full: bool) -> dict[str, Any]:
+    percept, config = asked(asked_for)
+    return (
+        witnessed(planner, percept, config) if in_full else told(answered(planner, percept, config), percept)
+    )
 
 
 def _cost(option: Option) -> float | None:
@@ -138,14 +142,16 @@ def _cost(option: Option) -> float | None:
     return checked_cost(cost, option.move)
 
 
-def _named(what: str, error: BaseException) -> str:
-    """What was raised, its text in quotes: they are the planner's words."""
+def _told(fault: CodedError) -> dict[str, Any]:
+    return {"fault": fault.code, "kind": fault.kind, "detail": fault.detail}
+
+
+def _raised(code: str, error: BaseException) -> CodedError:
     try:
         text = str(error)
-    except BaseException:
+    except BaseException:  # whatever its own `__str__` does
         text = ""
-    said = f': "{text}"' if text else ""
-    return clean(f"{what} {type(error).__name__}{said}")
+    return CodedError(code, type(error).__name__, clean(text))
 
 
 def _send(line: int, number: bytes, values: dict[str, Any]) -> None:

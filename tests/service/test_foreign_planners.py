@@ -71,11 +71,11 @@ async def test_a_good_one_drives_as_the_rule_does(service: Service) -> None:
 @pytest.mark.parametrize(
     ("planner", "said"),
     [
-        ("raises", 'raised ZeroDivisionError: "no way out"'),
+        ("raises", "raised ZeroDivisionError"),
         ("dies", "took its process down (exit status 3)"),
-        ("nonsense", "answered 'sideways', which is no decision"),
-        ("sideways", "answered 'sideways', which is no move"),
-        ("endless", 'raised ValueError: "a horizon of -1 ticks"'),
+        ("nonsense", "answered what is no decision"),
+        ("sideways", "answered what is no move"),
+        ("endless", "asked for a horizon that cannot be"),
     ],
 )
 async def test_whatever_it_does_the_vehicle_stays_and_the_log_says_why(
