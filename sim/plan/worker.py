@@ -46,6 +46,8 @@ START_S: Final = 20.0
 """Time for a process to start and load its planner."""
 MOST_PROCESSES: Final = 32
 """More planners than this take turns."""
+MOST_AT_ONCE: Final = max(4, os.cpu_count() or 1)
+"""So many decide at once, so that each has a processor to do so in time; the others wait for their turn."""
 MOST_STARTING: Final = 2
 """So many processes start at once; the others wait for their turn."""
 MOST_FAILURES: Final = 5
@@ -167,7 +169,8 @@ class Worker:
         try:
             line = self._line or await self._started()
             _planners().used(self)
-            told = await line.exchanged(what, most, self._budget_s, "did not answer")
+            async with _planners().deciding:
+                told = await line.exchanged(what, most, self._budget_s, "did not answer")
         except (SilentError, FaultError):
             self.leave()
             self._failures += 1
@@ -324,6 +327,7 @@ class _Planners:
 
     def __init__(self) -> None:
         self._loop = asyncio.new_event_loop()
+        self.deciding = asyncio.Semaphore(MOST_AT_ONCE)
         self._start = asyncio.Semaphore(MOST_STARTING)
         self._room = asyncio.Condition()
         self._with_process: dict[Worker, None] = {}
