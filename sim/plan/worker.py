@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import asyncio
 import atexit
+import json
 import logging
 import os
 import signal
@@ -184,7 +185,8 @@ class Worker:
 
     async def _started(self) -> _Line:
         async with _planners().starting(self):
-            self._line = _Line(self.name, self._target)
+            self._line = _Line(self.name, _planners().spawner)
+            await self._line.start(self._target)
             await self._line.ready(self._start_s)
             return self._line
 
@@ -196,42 +198,111 @@ class Worker:
         _planners().gone(self)
 
 
-class _Line:
-    """A process, and the line to it."""
+class _Spawner:
+    """The process that the others are started from. For the planners' thread."""
 
-    def __init__(self, name: str, target: str) -> None:
-        self._name = name
-        self._number = 0
-        self._ours, theirs = socket.socketpair()
-        self._printed, printing = os.pipe()
-        paths = [os.path.abspath(path) for path in sys.path]
-        environment = {key: os.environ[key] for key in _PASSED_ON if key in os.environ}
-        environment |= _ONE_THREAD | {"PYTHONPATH": os.pathsep.join(paths), "PYTHONDONTWRITEBYTECODE": "1"}
+    def __init__(self) -> None:
+        self._turn = asyncio.Lock()
+        self._process: subprocess.Popen[bytes] | None = None
+        self._socket: socket.socket | None = None
+
+    async def start(self, target: str, *files: int) -> int:
+        """Start the process of a planner with these files; answers its number. Raises `CodedError`."""
         try:
+            number = await self._asked({"start": target, "paths": _paths()}, *files)
+        except (OSError, ValueError) as error:
+            raise CodedError("unstartable", detail=str(error)) from error
+        assert number is not None
+        return number
+
+    async def code(self, number: int) -> int | None:
+        """The code that a process ended with; of a signal, its negative. None while it runs."""
+        return await self._asked({"look": number})
+
+    async def reap(self, number: int) -> None:
+        """A process has been killed and is looked at no more."""
+        await self._asked({"reap": number})
+
+    def end(self) -> None:
+        """End it, and with it (on Linux) all that it has started."""
+        if self._socket is not None:
+            self._socket.close()
+        if self._process is not None:
+            self._process.kill()
+            self._process.wait()
+        self._socket = self._process = None
+
+    async def _asked(self, request: dict[str, Any], *files: int) -> int | None:
+        loop = asyncio.get_running_loop()
+        async with self._turn:
+            if self._socket is None or self._process is None or self._process.poll() is not None:
+                self.end()
+                self._begin()
+            line = self._socket
+            assert line is not None
+            try:
+                async with asyncio.timeout(START_S):
+                    socket.send_fds(line, [json.dumps(request).encode() + b"\n"], list(files))
+                    answer = b""
+                    while not answer.endswith(b"\n"):
+                        part = await loop.sock_recv(line, 256)
+                        if not part:
+                            raise ConnectionError("the process that starts planners has ended")
+                        answer += part
+            except OSError:  # a planner may have stopped it, or ended it; a timeout is one, too
+                self.end()
+                raise
+        found = json.loads(answer)
+        return found if isinstance(found, int) else None
+
+    def _begin(self) -> None:
+        ours, theirs = socket.socketpair()
+        ours.setblocking(False)
+        environment = {key: os.environ[key] for key in _PASSED_ON if key in os.environ}
+        environment |= _ONE_THREAD | {"PYTHONPATH": os.pathsep.join(_paths()), "PYTHONDONTWRITEBYTECODE": "1"}
+        with theirs:
             self._process = subprocess.Popen(
-                [sys.executable, "-P", "-m", "sim.plan.worker_main", target],
+                [sys.executable, "-P", "-m", "sim.plan.spawner_main"],
                 stdin=theirs,
-                stdout=printing,
-                stderr=printing,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
                 env=environment,
                 process_group=0,
             )
-        except OSError as error:
-            self._ours.close()
-            os.close(self._printed)
-            raise CodedError("unstartable", detail=str(error.strerror)) from error
+        self._socket = ours
+
+
+class _Line:
+    """A process, and the line to it."""
+
+    def __init__(self, name: str, spawner: _Spawner) -> None:
+        self._name = name
+        self._spawner = spawner
+        self._number = 0
+        self._process: int | None = None
+        self._reader: asyncio.StreamReader | None = None
+        self._writer: asyncio.StreamWriter | None = None
+        self._reading: asyncio.Future[None] | None = None
+        self._reaping: asyncio.Future[None] | None = None
+
+    async def start(self, target: str) -> None:
+        """Start the process. Raises `CodedError`."""
+        ours, theirs = socket.socketpair()
+        printed, printing = os.pipe()
+        try:
+            self._process = await self._spawner.start(target, theirs.fileno(), printing)
+        except BaseException:
+            ours.close()
+            os.close(printed)
+            raise
         finally:
             theirs.close()
             os.close(printing)
-        self._reader: asyncio.StreamReader | None = None
-        self._writer: asyncio.StreamWriter | None = None
-        self._reading = asyncio.ensure_future(self._read_printed())
-        self._reaping: asyncio.Future[None] | None = None
-        self._killed = False
+        self._reading = asyncio.ensure_future(self._read_printed(printed))
+        self._reader, self._writer = await asyncio.open_unix_connection(sock=ours, limit=CHECK_BYTES)
 
     async def ready(self, within_s: float) -> None:
         """Wait until its planner is loaded. Raises `SilentError` and `FaultError`."""
-        self._reader, self._writer = await asyncio.open_unix_connection(sock=self._ours, limit=CHECK_BYTES)
         told = loaded(await self._told(0, MOST_BYTES, within_s, "did not start"))
         if told != {"ready": True}:
             raise fault_of(told)
@@ -268,53 +339,54 @@ class _Line:
 
     async def _ended(self) -> CodedError:
         """How its process ended, if it has."""
+        assert self._process is not None
         for _ in range(20):
-            code = self._process.poll()
+            code = await self._spawner.code(self._process)
             if code is not None:
-                self._signal(signal.SIGKILL)  # what it has left behind, while nobody else has the number
-                self._killed = True
-                how = f"exit status {code}" if code >= 0 else f"killed by {_signal_name(-code)}"
-                return CodedError("died", how)
+                return CodedError(
+                    "died", f"exit status {code}" if code >= 0 else f"killed by {_signal_name(-code)}"
+                )
             await asyncio.sleep(0.01)
         return CodedError("closed")
 
     def kill(self) -> None:
         """End it, and whatever it has started in its group."""
-        if not self._killed:
-            self._signal(signal.SIGKILL)
-            self._process.kill()
-            self._killed = True
-        self._reaping = asyncio.ensure_future(self.gone())
-        self._reading.cancel()
+        self._signal(signal.SIGKILL)
+        if self._process is not None:
+            self._reaping = asyncio.ensure_future(self._reaped(self._process))
+            self._process = None
+        if self._reading is not None:
+            self._reading.cancel()
         if self._writer is not None:
             self._writer.transport.abort()
-        else:
-            self._ours.close()
 
     async def gone(self) -> None:
-        """Once it has been killed: wait until it is no more, which is soon."""
-        for _ in range(500):
-            if self._process.poll() is not None:
-                return
-            await asyncio.sleep(0.01)
+        """Once it has been killed: wait until its number is given back."""
+        if self._reaping is not None:
+            await self._reaping
+
+    async def _reaped(self, process: int) -> None:
+        with suppress(OSError, ValueError):  # whoever starts them has ended, and they with it
+            await self._spawner.reap(process)
 
     def _rest(self) -> None:
         if _STANDS_STILL:
             self._signal(signal.SIGSTOP)
 
     def _signal(self, number: int) -> None:
-        with suppress(ProcessLookupError, PermissionError):
-            os.killpg(self._process.pid, number)
+        if self._process is not None:
+            with suppress(ProcessLookupError, PermissionError):
+                os.killpg(self._process, number)
 
-    async def _read_printed(self) -> None:
+    async def _read_printed(self, printed: int) -> None:
         """Log the beginning of what it prints, and read on in small bites."""
         loop, reader = asyncio.get_running_loop(), asyncio.StreamReader(limit=_PRINTED_BYTES)
-        with os.fdopen(self._printed, "rb", buffering=0) as end:
+        with os.fdopen(printed, "rb", buffering=0) as end:
             transport, _ = await loop.connect_read_pipe(lambda: asyncio.StreamReaderProtocol(reader), end)
             kept = b""
             try:
-                while printed := await reader.read(_PRINTED_BYTES):
-                    kept += printed[: LOG_BYTES - len(kept)]
+                while part := await reader.read(_PRINTED_BYTES):
+                    kept += part[: LOG_BYTES - len(kept)]
                     await asyncio.sleep(_PRINTED_S)
             finally:
                 transport.close()
@@ -327,6 +399,7 @@ class _Planners:
 
     def __init__(self) -> None:
         self._loop = asyncio.new_event_loop()
+        self.spawner = _Spawner()
         self.deciding = asyncio.Semaphore(MOST_AT_ONCE)
         self._start = asyncio.Semaphore(MOST_STARTING)
         self._room = asyncio.Condition()
@@ -383,6 +456,7 @@ class _Planners:
         async def ended() -> None:
             for worker in list(self._with_process):
                 worker.leave()
+            self.spawner.end()
 
         if not self._ended:
             self._ended = True
@@ -410,6 +484,10 @@ def worker_of(name: str) -> Worker | None:
     """The process of the installed planner of that name; None if there is none."""
     point = installed().get(name)
     return None if point is None else Worker(name, point.value)
+
+
+def _paths() -> list[str]:
+    return [os.path.abspath(path) for path in sys.path]
 
 
 def _signal_name(number: int) -> str:

@@ -1,8 +1,8 @@
-"""The process of one planner of another package: `python -m sim.plan.worker_main module:Class`.
+"""The process of one planner of another package: what is done in it, from its beginning to its end.
 
-Questions come and answers go on the socket that is its standard input, a line each: a number, a space, JSON
-(`codec`, `answer`). What the planner prints goes elsewhere. Limits are set before anything of the planner is
-loaded. All that runs here is the planner's to spoil: whoever asks hears only what `answer` lets through.
+Questions come and answers go on a socket of its own, a line each: a number, a space, JSON (`codec`,
+`answer`). What the planner prints goes elsewhere. Limits are set before anything of it is loaded. All
+that runs here is the planner's to spoil: whoever asks hears only what `answer` lets through.
 """
 
 from __future__ import annotations
@@ -39,9 +39,9 @@ NICE: Final = 10
 MAX_HORIZON: Final = 10_000
 
 
-def main(target: str) -> None:
-    """Load the planner, then answer until nobody asks any more."""
-    line = _settle()
+def serve(target: str, line: int, printing: int) -> None:
+    """Load the planner, then answer on the line until nobody asks any more. For a process of its own."""
+    line = _settle(line, printing)
     with os.fdopen(os.dup(line), "rb") as questions:
         try:
             planner = EntryPoint("planner", target, GROUP).load()()
@@ -160,12 +160,15 @@ def _send(line: int, number: bytes, values: dict[str, Any]) -> None:
         data = data[os.write(line, data) :]
 
 
-def _settle() -> int:
-    """Set the limits, and take the line away from standard input; answers the line."""
-    line = os.dup(0)
-    nothing = os.open(os.devnull, os.O_RDWR)
-    os.dup2(nothing, 0)
-    os.close(nothing)
+def _settle(line: int, printing: int) -> int:
+    """Set the limits, and keep no file but these; answers the line's new number."""
+    kept = os.dup(line) if line < 4 else line
+    with open(os.devnull, "rb") as nothing:
+        os.dup2(nothing.fileno(), 0)
+    for number in (1, 2):
+        os.dup2(printing, number)
+    os.dup2(kept, 3)
+    os.closerange(4, 4_096)
     for limit, most in (
         (resource.RLIMIT_AS, MOST_MEMORY),
         (resource.RLIMIT_CPU, MOST_CPU_S),
@@ -178,11 +181,11 @@ def _settle() -> int:
         with contextlib.suppress(OSError, ValueError):  # macOS knows no limit of address space
             resource.setrlimit(limit, (most, most))
     os.nice(NICE)
-    _end_with_parent()
-    return line
+    end_with_parent()
+    return 3
 
 
-def _end_with_parent() -> None:
+def end_with_parent() -> None:
     """On Linux, be killed when whoever asks has ended: who stands still would not see the line end."""
     if sys.platform == "linux":
         import ctypes
@@ -191,7 +194,3 @@ def _end_with_parent() -> None:
         set_death_signal = 1
         call: Callable[..., int] = ctypes.CDLL(None).prctl
         call(set_death_signal, signal.SIGKILL)
-
-
-if __name__ == "__main__":
-    main(sys.argv[1])

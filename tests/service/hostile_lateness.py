@@ -1,7 +1,7 @@
 """How late ticks are while planners that mean harm drive other sessions.
 
-`python -m tests.service.hostile_lateness` prints it. Half of the figures are from before: the same sessions, with nobody hostile. A hostile planner that was taken
-over from is let drive again every second.
+`python -m tests.service.hostile_lateness` prints it. The first figures are from before: the same sessions,
+with nobody hostile. A hostile planner that was taken over from is let drive again every second.
 """
 
 from __future__ import annotations

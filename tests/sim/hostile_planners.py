@@ -214,14 +214,14 @@ class Patches(Hostile):
     """The program itself, in its own process."""
 
     def harm(self, good: Decision) -> Any:
-        import __main__
         import sim.plan.answer
         import sim.plan.guard
+        import sim.plan.worker_main
 
         def forged(*_: object, **__: object) -> Any:
             return {"move": "stay", "costs": FREE, "planner": "astar", "causes": ["pedestrian-666"]}
 
-        __main__.told = forged  # type: ignore[attr-defined]
+        sim.plan.worker_main.told = forged
         sim.plan.guard.planned = forged
         sim.plan.answer.checked_cost = forged
         return good
