@@ -267,7 +267,7 @@ class _Spawner:
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.DEVNULL,
                 env=environment,
-                process_group=0,
+                start_new_session=True,  # Linux shares out processors session by session
             )
         self._socket = ours
 
