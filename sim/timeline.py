@@ -154,7 +154,7 @@ class Timeline:
         answer when the tick is run again, so a tick without its answer must not become part of what is
         replayed.
         """
-        tick = _answered(advance(self.run, decided))
+        tick = _answered(advance(self.run) if decided is None else advance(self.run, decided))
         self._recent.append(self.run)
         self._went_on(tick, len(self.entries))
         return tick

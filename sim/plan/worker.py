@@ -263,7 +263,7 @@ class _Spawner:
         with theirs:
             self._process = subprocess.Popen(
                 [sys.executable, "-P", "-m", "sim.plan.spawner_main"],
-                stdin=theirs,
+                stdin=theirs.fileno(),
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.DEVNULL,
                 env=environment,

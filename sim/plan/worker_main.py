@@ -136,8 +136,8 @@ def _answer(planner: Any, asked_for: bytes, *, in_full: bool) -> dict[str, Any]:
 
 
 def _cost(option: Option) -> float | None:
-    cost: object = option.cost
-    if isinstance(cost, numbers.Real) and not isinstance(cost, bool | int | float):
+    cost: Any = option.cost
+    if isinstance(cost, numbers.Real) and type(cost) not in (bool, int, float):
         cost = float(cost)  # of another library
     return checked_cost(cost, option.move)
 
