@@ -65,6 +65,7 @@ from service.talk.languages import DEFAULT, Language, Languages
 from service.talk.listener import Listener
 from service.talk.phrasebook import Phrasebook
 from service.version import VERSION
+from sim.plan.asking import not_in_this_thread
 
 _DESCRIPTION = """
 A vehicle that drives itself along a road of obstacles and potholes, live; changed and questioned in
@@ -129,7 +130,8 @@ def create_app(
         clock.start()
         sleeper = asyncio.create_task(manager.sleeper().run())
         try:
-            yield
+            with not_in_this_thread():
+                yield
         finally:
             sleeper.cancel()
             clock.stop()

@@ -20,6 +20,7 @@ from service import garbage, logs
 from service.api.heads import StrictHead
 from service.api.sockets import StrictSocket
 from service.app import create_app
+from service.commands.checking import check_planner
 from service.commands.doctor import doctor
 from service.commands.listing import sessions
 from service.commands.replaying import replay
@@ -35,7 +36,6 @@ from service.store import Store, StoreError, open_store
 from service.strays import strays
 from service.version import VERSION
 from service.window.command import play
-from sim import planner_names
 
 STOP_S = 1
 """How long a stopping service waits for requests under way."""
@@ -121,30 +121,6 @@ def serve(
         listener.close()
 
 
-@cli.command("check-planner")
-def check_planner(
-    name: Annotated[str, typer.Argument(help="The planner's name, for instance: astar")],
-) -> None:
-    """Try a planner's promises on many roads. Exits with 1 when one is broken.
-
-    Example: roadtalk check-planner astar
-    """
-    from sim.plan.checker import MAX_TOLD, check, found
-
-    planner = found(name)
-    if planner is None:
-        _fail(f"There is no planner called {name}. There are: {', '.join(planner_names.names())}.")
-    report = check(planner)
-    for defect in report.defects[:MAX_TOLD]:
-        typer.echo(f"{defect.promise:<14} seed {defect.seed}, tick {defect.tick}: {defect.what}")
-    if len(report.defects) > MAX_TOLD:
-        typer.echo(f"... and {len(report.defects) - MAX_TOLD} more")
-    broken = len({defect.promise for defect in report.defects})
-    typer.echo(f"{name}: {report.decisions} decisions, {broken} promises broken")
-    if report.defects:
-        raise typer.Exit(1)
-
-
 @cli.command("language-eval")
 def language_eval(
     file: Annotated[Path, typer.Argument(help="JSON lines of {text, actions, clarify?}.", exists=True)],
@@ -172,6 +148,7 @@ def language_eval(
 
 for _command in (say, watch, replay, sessions, doctor, play):
     cli.command()(_command)
+cli.command("check-planner")(check_planner)
 
 
 def server_config(app: FastAPI, settings: Settings) -> uvicorn.Config:

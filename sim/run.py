@@ -96,9 +96,9 @@ def decide(run: Run) -> Decision | None:
     return obey(decision, Move.STAY) if run.mode is Mode.MANUAL else decision
 
 
-def advance(run: Run) -> Tick:
-    """One tick."""
-    decision = decide(run)
+def advance(run: Run, decided: Decision | None = None) -> Tick:
+    """One tick; `decided`: what the present state leads to, where that is known already."""
+    decision = decide(run) if decided is None else decided
     if decision is None:
         return _hold(run)
     moved = repeated(run, decision.move, by_person=decision.asked is not None, fault=decision.fault)

@@ -18,7 +18,9 @@ from sim.chain import Chain
 from sim.config import Config
 from sim.edit import Applied, apply
 from sim.events import Event, EventType
+from sim.perceive import perceive
 from sim.plan import Decision
+from sim.plan.guard import failed, is_foreign, recorded
 from sim.run import Run, Tick, advance, decide
 from sim.track import Track
 
@@ -145,15 +147,14 @@ class Timeline:
         twin._track = self._track.copy()
         return twin
 
-    def advance(self) -> Tick:
-        """One tick on. Raises `PlannerSilentError`; nothing has then changed.
+    def advance(self, decided: Decision | None = None) -> Tick:
+        """One tick on, with what was `decided` for it elsewhere, if it was.
 
-        A planner that did not answer in time may answer when the tick is run again, so a tick without its
-        answer must not become part of what is replayed.
+        Raises `PlannerSilentError`; nothing has then changed. A planner that did not answer in time may
+        answer when the tick is run again, so a tick without its answer must not become part of what is
+        replayed.
         """
-        tick = advance(self.run)
-        if tick.decision is not None and tick.decision.timed_out:
-            raise PlannerSilentError(tick.decision.planner, tick.decision.fault or "")
+        tick = _answered(advance(self.run) if decided is None else advance(self.run, decided))
         self._recent.append(self.run)
         self._went_on(tick, len(self.entries))
         return tick
@@ -177,7 +178,7 @@ class Timeline:
         """Make `entries` the log, as if nothing else had ever been said, and replay to the present tick.
 
         The new log may differ from the old at tick `since` and later; the time taken is that of
-        the ticks since then.
+        the ticks since then. Raises `PlannerSilentError`; of this timeline nothing is then to be used.
         """
         present = self.tick
         self._recent.clear()
@@ -196,7 +197,7 @@ class Timeline:
                 self.run = self._track.after(self.run)
                 self._worked(1, 1, position)
             else:
-                self._went_on(advance(self.run), position)
+                self._went_on(_answered(advance(self.run)), position)
 
     def rewind(self, tick: int) -> None:
         """Make a past tick the present; what was said or happened after it is gone. Raises `IndexError`."""
@@ -251,7 +252,26 @@ class Timeline:
 
     def decision(self, tick: int) -> Decision | None:
         """The decision taken at a tick (None while a result stood), derived anew. Raises `IndexError`."""
-        return decide(self.at(tick))
+        return self.decided(self.at(tick))
+
+    def decided(self, run: Run) -> Decision | None:
+        """The decision taken in a state of this timeline (None while a result stood).
+
+        Derived anew, but for that of a planner of another package: where its move is noted it is not asked
+        again. In the present state it is what would be decided now.
+        """
+        tick, config = run.world.tick, run.config
+        if tick < self.tick and is_foreign(config.planner):
+            move = self._track.planned(tick)
+            if move is not None:
+                return recorded(perceive(run.world, config), config, move)
+            if self._track.failed(tick):
+                return failed(perceive(run.world, config), config)
+        return decide(run)
+
+    def led_to(self, run: Run) -> Tick:
+        """The tick that a state of this timeline led to."""
+        return advance(run, self.decided(run))
 
     def _check(self, tick: int) -> None:
         if not 0 <= tick <= self.tick:
@@ -310,6 +330,13 @@ class Timeline:
             work += _action_work(applied)
             position += 1
         return run, position, work
+
+
+def _answered(tick: Tick) -> Tick:
+    """A tick whose planner answered in time. Raises `PlannerSilentError`."""
+    if tick.decision is not None and tick.decision.timed_out:
+        raise PlannerSilentError(tick.decision.planner, tick.decision.fault or "")
+    return tick
 
 
 def _tick_work(run: Run) -> int:

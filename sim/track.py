@@ -3,6 +3,7 @@
 Deciding is most of what a tick takes, with a planner that searches nearly all. A fork shares its parent's
 bytes: they are cut into blocks that never change. Leaves out why a move was made: that is asked for seldom,
 and derived anew. Where a planner failed, and where nothing was decided, the tick is run as if it were new.
+But a planner of another package is not asked again: it is noted that it failed, and that the vehicle stayed.
 """
 
 from __future__ import annotations
@@ -11,7 +12,9 @@ from collections.abc import Sequence
 from typing import Final
 
 from sim.kinds import Move
+from sim.perceive import perceive
 from sim.plan.decision import Decision
+from sim.plan.guard import failed, is_foreign
 from sim.run import Run, advance, repeated
 
 BLOCK: Final = 256
@@ -20,6 +23,7 @@ BLOCK: Final = 256
 _BY_PLANNER: Final = dict(zip(Move, (b"a", b"b", b"c", b"d", b"e", b"f"), strict=True))
 _BY_PERSON: Final = {move: sign.upper() for move, sign in _BY_PLANNER.items()}
 _OTHERWISE: Final = b"-"
+_FAILED: Final = b"x"
 _MEANT: Final = {
     sign[0]: (move, by_person)
     for by_person, signs in ((False, _BY_PLANNER), (True, _BY_PERSON))
@@ -57,7 +61,8 @@ class Track:
     def note(self, decision: Decision | None) -> None:
         """What was decided at the next tick."""
         if decision is None or decision.fault is not None:
-            self._tail += _OTHERWISE
+            foreign = decision is not None and is_foreign(decision.planner)
+            self._tail += _FAILED if foreign else _OTHERWISE
         else:
             self._tail += (_BY_PLANNER if decision.asked is None else _BY_PERSON)[decision.move]
         if len(self._tail) == BLOCK:
@@ -71,10 +76,26 @@ class Track:
 
     def after(self, run: Run) -> Run:
         """The state one tick on, from one that it was noted in."""
-        number, place = divmod(run.world.tick, BLOCK)
+        sign = self._sign(run.world.tick)
+        meant = _MEANT.get(sign)
+        if meant is not None:
+            move, by_person = meant
+            return repeated(run, move, by_person=by_person)
+        if sign == _FAILED[0]:
+            decision = failed(perceive(run.world, run.config), run.config)
+            return repeated(run, decision.move, by_person=False, fault=decision.fault)
+        return advance(run).run
+
+    def planned(self, tick: int) -> Move | None:
+        """The move that a planner made at a tick; None where a person did, nobody did, or it failed."""
+        move, by_person = _MEANT.get(self._sign(tick), (None, True))
+        return None if by_person else move
+
+    def failed(self, tick: int) -> bool:
+        """Whether a planner of another package failed at a tick."""
+        return self._sign(tick) == _FAILED[0]
+
+    def _sign(self, tick: int) -> int:
+        number, place = divmod(tick, BLOCK)
         block = self._blocks[number] if number < len(self._blocks) else self._tail
-        meant = _MEANT.get(block[place]) if place < len(block) else None
-        if meant is None:
-            return advance(run).run
-        move, by_person = meant
-        return repeated(run, move, by_person=by_person)
+        return block[place] if place < len(block) else _OTHERWISE[0]

@@ -14,7 +14,7 @@ from service.api.errors import documented
 from service.api.preconditions import TheTerms, made_once
 from service.api.respond import StrictRoute, etag, json_response
 from service.api.speech import result_json
-from service.api.views import told_runs
+from service.api.views import told_decision
 from service.problems import (
     Ambiguous,
     DoesNotFit,
@@ -111,8 +111,13 @@ async def step(
         runs = [outcome.before, *(tick.run for tick in outcome.ticks)]
         standing = replace(session.standing, paused=True, sequence=outcome.sequence)
         state = state_json(standing, runs[-1])
+        decisions = [
+            told_decision(here.words, run, tick.decision)
+            for run, tick in zip(runs, outcome.ticks, strict=False)
+            if tick.decision is not None
+        ]
         return json_response(
-            {"ticks": body.ticks, "decisions": told_runs(here.words, runs[:-1]), "state": state},
+            {"ticks": body.ticks, "decisions": decisions, "state": state},
             headers=etag(outcome.sequence),
         )
 

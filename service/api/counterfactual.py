@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from anyio import to_thread
 from fastapi import APIRouter, Body, Response
 from pydantic import Field
 
@@ -30,6 +29,7 @@ from service.problems import (
     UnknownSession,
 )
 from service.sessions.availability import refusal
+from service.sessions.elsewhere import QUESTION_S, asks_others, off_loop
 from service.sessions.pace import sets_pace
 from service.wire.beside import beside_json
 from sim.actions import (
@@ -120,7 +120,7 @@ async def counterfactual(
         return beside_json(standing, told, body.ticks)
 
     try:
-        value = await to_thread.run_sync(found)
+        value = await off_loop(asks_others(timeline), QUESTION_S, found)
     except QuestionError as error:
         field = "move" if error.code in ("off_road", "same_move") else "at_tick"
         raise invalid([FieldProblem(field, _WORDS[error.code].format(**error.facts))]) from error

@@ -96,7 +96,7 @@ async def moving(
         runs = list(timeline.between(start, end + 1))
         _check_frames(runs, form, fps, side, most)
         try:
-            return film(view, runs, form, fps=fps, size=(side, side), turn=turn)
+            return film(view, runs, form, fps=fps, size=(side, side), turn=turn, decided=timeline.decided)
         except _GoneError:
             return None
 

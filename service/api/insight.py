@@ -19,12 +19,13 @@ from service.api.respond import StrictRoute, json_response
 from service.api.shapes import Answered, CellPair, Decision
 from service.api.views import told_decision
 from service.problems import FieldProblem, Invalid, NotRestorable, UnknownSession
+from service.sessions.elsewhere import QUESTION_S, asks_others, off_loop
 from sim.forecast import foretell
 from sim.kinds import Move
 from sim.optimum.regret import regret
 from sim.perceive import perceive
 from sim.plan import Decision as Taken
-from sim.run import Run, decide
+from sim.run import Run
 from sim.timeline import Timeline
 
 router = APIRouter(tags=["watching"], route_class=StrictRoute)
@@ -92,7 +93,7 @@ async def forecast(
     way = session.timeline.copy()
     if tick is not None and tick > way.tick:
         raise invalid([FieldProblem("tick", f"has not come yet: it is tick {way.tick}")])
-    run, decision = await to_thread.run_sync(_decided, way, tick)
+    run, decision = await off_loop(asks_others(way), QUESTION_S, lambda: _decided(way, tick))
     expected = foretell(perceive(run.world, run.config), ticks)
     if decision is not None:
         expected = expected.after(decision.move)
@@ -131,7 +132,7 @@ async def regrets(
 
 def _judged(way: Timeline, first: int, stop: int) -> Iterator[dict[str, Any]]:
     for run in way.between(first, stop):
-        decision = decide(run)
+        decision = way.decided(run)
         if decision is None:
             continue
         loss = regret(run, decision.move)
@@ -147,4 +148,4 @@ def _judged(way: Timeline, first: int, stop: int) -> Iterator[dict[str, Any]]:
 
 def _decided(way: Timeline, tick: int | None) -> tuple[Run, Taken | None]:
     run = way.run if tick is None else way.at(tick)
-    return run, decide(run)
+    return run, way.decided(run)

@@ -30,7 +30,8 @@ from anyio import CapacityLimiter, to_thread
 from service.sessions.pace import MAX
 from service.sessions.session import Session
 from sim.plan import Decision
-from sim.run import Run, decide
+from sim.run import Run
+from sim.timeline import Timeline
 from sim.view import encode, render
 
 _LOG = structlog.get_logger(__name__)
@@ -128,7 +129,8 @@ class Reel:
         if run is last and phase == self._phase:
             return
         self._run, self._before, self._phase = run, before, phase
-        picture = await to_thread.run_sync(self._drawn, run, before, phase, limiter=self._drawing)
+        timeline = self._session.timeline.copy()
+        picture = await to_thread.run_sync(self._drawn, timeline, run, before, phase, limiter=self._drawing)
         self.drawn += 1
         header = HEADER.pack(MAGIC, VERSION, FORMS[self._wanted.form], phase, run.world.tick)
         self._newest = header + picture
@@ -149,12 +151,12 @@ class Reel:
         pace = self._session.pace
         return 0.0 if pace == MAX else run.config.step_seconds / float(pace)
 
-    def _drawn(self, run: Run, before: Run | None, phase: float) -> bytes:
+    def _drawn(self, timeline: Timeline, run: Run, before: Run | None, phase: float) -> bytes:
         """In a thread; the one `look` under way waits for it."""
         decision = None
         if before is not None:
             if self._decided is None or self._decided[0] is not before:
-                self._decided = before, decide(before)
+                self._decided = before, timeline.decided(before)
             decision = self._decided[1]
         size = (self._wanted.side, self._wanted.side)
         world = None if before is None else before.world

@@ -27,7 +27,7 @@ from service.sessions.words import Words
 from service.talk.languages import DEFAULT
 from service.wire.state import Standing, state_json
 from sim.kinds import Cell, Move, Outcome
-from sim.run import Run, decide
+from sim.run import Run
 from sim.timeline import Timeline
 
 router = APIRouter(tags=["time"], route_class=StrictRoute)
@@ -191,7 +191,7 @@ def _moments(
     before: Run | None = None
     for run in way.between(max(0, first - 1), stop):
         if run.world.tick >= first:
-            decision = None if before is None else decide(before)
+            decision = None if before is None else way.decided(before)
             told = None
             if before is not None and decision is not None:
                 told = told_decision(words, before, decision)
@@ -211,13 +211,13 @@ def _seen(way: Timeline, first: int, stop: int) -> tuple[str, list[dict[str, Any
     for before, after in pairwise(runs):
         tick = before.world.tick
         if tick >= first:
-            letters.append(_letter(before, after, by_itself=tick + 1 not in said_at))
+            letters.append(_letter(way, before, after, by_itself=tick + 1 not in said_at))
         if first <= tick + 1 < stop or tick + 1 == way.tick:
             marks += _near_miss(before, after) + _own_marks(after)
     return "".join(letters), marks
 
 
-def _letter(before: Run, after: Run, *, by_itself: bool) -> str:
+def _letter(way: Timeline, before: Run, after: Run, *, by_itself: bool) -> str:
     """How the vehicle moved; what was said on arriving may have put it elsewhere (not `by_itself`)."""
     if before.world.outcome is not Outcome.RUNNING:
         return _HELD
@@ -225,7 +225,7 @@ def _letter(before: Run, after: Run, *, by_itself: bool) -> str:
         old, new = before.world, after.world
         (column, row), (new_column, new_row) = old.road.cell(old.av), new.road.cell(new.av)
         return _BY_OFFSET[new_column - column, new_row - row]
-    decision = decide(before)
+    decision = way.decided(before)
     assert decision is not None  # it was running
     return _LETTERS[decision.move]
 

@@ -11,7 +11,8 @@ from service.store import SessionRecord
 from service.wire.decision import decision_json
 from sim.plan import Decision
 from sim.rules_version import note_on
-from sim.run import Run, decide
+from sim.run import Run
+from sim.timeline import Timeline
 
 PREFIX = "/api/v1"
 
@@ -96,7 +97,7 @@ def told_decision(words: Words, run: Run, decision: Decision) -> dict[str, Any]:
     return decision_json(decision, words.decision(decision, run))
 
 
-def told_runs(words: Words, runs: list[Run]) -> list[dict[str, Any]]:
-    """The decisions taken in these states; where a result stood there is none."""
-    decided = ((run, decide(run)) for run in runs)
+def told_runs(words: Words, timeline: Timeline, first: int, stop: int) -> list[dict[str, Any]]:
+    """The decisions taken from tick `first` to before `stop`; where a result stood there is none."""
+    decided = ((run, timeline.decided(run)) for run in timeline.between(first, stop))
     return [told_decision(words, run, decision) for run, decision in decided if decision is not None]

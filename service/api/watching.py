@@ -59,7 +59,7 @@ async def decisions(
     timeline = session.timeline.copy()
     first = max(0, timeline.tick - limit) if after is None else min(after + 1, timeline.tick)
     stop = min(timeline.tick, first + limit)
-    items = await to_thread.run_sync(lambda: told_runs(here.words, list(timeline.between(first, stop))))
+    items = await to_thread.run_sync(told_runs, here.words, timeline, first, stop)
     return json_response({"items": items, "after": stop - 1, "more": stop < timeline.tick})
 
 
@@ -74,7 +74,7 @@ async def decision(session: TheSession, here: Here, tick: Annotated[int, Path(ge
     timeline = session.timeline.copy()
     if tick >= timeline.tick:
         raise UnknownDecision(f"Tick {tick} has not been decided yet: it is tick {timeline.tick}.")
-    items = await to_thread.run_sync(lambda: told_runs(here.words, list(timeline.between(tick, tick + 1))))
+    items = await to_thread.run_sync(told_runs, here.words, timeline, tick, tick + 1)
     if not items:
         raise UnknownDecision(f"At tick {tick} the result of an episode stood; nothing was decided.")
     return json_response(items[0])

@@ -57,7 +57,8 @@ def doctor() -> None:
     """Check that the service can run here. Exits with 1 when something is wrong.
 
     Looks at Python, packages, settings, database, port, words, language
-    model, pictures, a display for the window and, for the tests, Chromium.
+    model, planners, pictures, a display for the window and, for the tests,
+    Chromium.
 
     Example: roadtalk doctor
     """
@@ -164,6 +165,19 @@ def language(_: Settings) -> Finding:
     return Finding("ok", f"loads: {', '.join(codes)}; the page is there")
 
 
+def planners(_: Settings) -> Finding:
+    """Which other packages bring planners, and whether one of them takes a name that is not its to take."""
+    from sim.planner_names import installed, refused
+
+    wrong = [f"{where} asks for the name {name}, and is not used: {why}" for name, where, why in refused()]
+    if wrong:
+        return Finding("note", "; ".join(wrong), "Ask who makes that package to rename its planner.")
+    there = installed()
+    if not there:
+        return Finding("ok", "those of Roadtalk; other packages bring none")
+    return Finding("ok", f"of other packages: {', '.join(there)}; try them with: roadtalk check-planner")
+
+
 def chromium(_: Settings) -> Finding:
     """For the tests that drive a browser; the service needs none."""
     for name in CHROMIUMS:
@@ -181,6 +195,7 @@ CHECKS: dict[str, Callable[[Settings], Finding]] = {
     "port": port,
     "language": language,
     "model": fitness.model,
+    "planners": planners,
     "pictures": fitness.pictures,
     "window": fitness.window,
     "Chromium": chromium,

@@ -91,6 +91,7 @@ class Confidences:
             gap=f"{gap:g}",
             cost="" if cost is None else f"{cost:g}",
             seconds=f"{gap * run.config.step_seconds:g}",
+            planner=decision.planner,
         )
 
     def _when(self, ticks: tuple[int, int], run: Run) -> str:
@@ -118,6 +119,8 @@ class Confidences:
 
 def _clarity_key(clarity: Clarity) -> str:
     decision = clarity.decision
+    if decision.measure is Measure.OWN:
+        return "own"
     if decision.measure is not Measure.RANK:
         if decision.chosen.cost is None:
             return "no_way"

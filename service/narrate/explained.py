@@ -106,6 +106,8 @@ class _Telling:
         """What the move costs in all, and the next best."""
         decision, chosen = self._decision, self._decision.chosen
         fact = self._say("fact", tick=decision.tick, did=self._did(decision.move))
+        if decision.measure is Measure.OWN:
+            return self._say("own", fact=fact, planner=decision.planner)
         if chosen.cost is None:
             return self._say("weighed_no_way", fact=fact)
         costs = f"{chosen.cost:g}"
@@ -124,6 +126,8 @@ class _Telling:
     def _not_worth(self, option: Option, do: str) -> str:
         """Why a free move was not taken by a planner that knows what each costs in all."""
         decision, best = self._decision, self._decision.chosen.cost
+        if decision.measure is Measure.OWN:
+            return self._say("not_own", tick=decision.tick, planner=decision.planner)
         if option.cost is None or best is None:
             return self._say("not_dead_end", tick=decision.tick, do=do)
         more = option.cost - best

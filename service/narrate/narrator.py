@@ -54,6 +54,8 @@ class Narrator:
         naming = Naming(self._sayings, run)
         if asked is not None:
             return self._asked(decision, asked, naming)
+        if decision.measure is Measure.OWN:
+            return self._own(decision, naming)
         if not ranked:
             return self._weighed(decision, naming)
         chosen = decision.chosen
@@ -160,6 +162,19 @@ class Narrator:
             return self._say("other", move=name, reason=self._sayings.met(straight, "now", naming))
         more = straight.cost - chosen.cost
         return self._say(f"saves_{decision.measure}", move=name, more=f"{more:g}")
+
+    def _own(self, decision: Decision, naming: Naming) -> str:
+        """The move of another package's planner, with what is so, and without a reason: none is known."""
+        name, straight = self._named(decision.move), decision.option(Move.FORWARD)
+        if decision.chosen.reason.blocks:
+            reason = self._sayings.met(decision.chosen, "now", naming)
+            return self._say("own_though", move=name, planner=decision.planner, reason=reason)
+        if decision.move is Move.FORWARD:
+            return self._say("first_choice")
+        if straight.reason.blocks:
+            reason = self._sayings.met(straight, "now", naming)
+            return self._say("own_past", move=name, planner=decision.planner, reason=reason)
+        return self._say("own", move=name, planner=decision.planner)
 
     def _asked(self, decision: Decision, asked: Move, naming: Naming) -> str:
         if decision.held_back:

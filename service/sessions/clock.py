@@ -218,7 +218,10 @@ class WheelClock:
         return self._now() - self._put_off_s
 
     def _fall_behind(self, now: float) -> None:
-        """Something due is left; where that goes on and on, put all off by as much as the first is late."""
+        """Something due is left, in the first slot; where that goes on and on, put all off by so much.
+
+        That is how late the first is.
+        """
         late_s = now - self._order[0] * SLOT_S
         if self._behind_since is None:
             self._behind_since = now
@@ -251,9 +254,13 @@ class WheelClock:
                         self._tell()
                 now = self._time()  # once for each: when it ended is when the next one begins
                 if now - began > TURN_S:
-                    return False
+                    break
+            if tickers:
+                return False
             heapq.heappop(order)
             del self._slots[slot]
+            if now - began > TURN_S:
+                return not order or order[0] * SLOT_S > now
         return True
 
     def _hurry(self) -> None:

@@ -53,6 +53,7 @@ from sim.advice import NoAdviceError, advise
 from sim.edit import Change, differences
 from sim.edit_error import EditError
 from sim.kinds import Kind
+from sim.planner_names import installed
 from sim.run import Run
 from sim.timeline import PlannerSilentError, Timeline
 
@@ -62,6 +63,9 @@ STEPS = (*WORLD_ACTIONS, Rewind, Load)
 
 _MOVES_TIME = (StepTicks, Undo, Redo, Rewind)
 """Actions for which ticks are run."""
+
+_DECIDES_ANEW = (StepTicks, Undo, Redo)
+"""Those for which decisions are taken."""
 
 
 class Draft:
@@ -109,6 +113,16 @@ class Draft:
             if isinstance(action, Rewind) and action.ticks <= timeline.tick:
                 ticks += timeline.work_to(timeline.tick - action.ticks)
         return ticks
+
+    def asks_others(self, actions: Sequence[Action]) -> bool:
+        """Whether a planner of another package may have to be asked for these."""
+        return bool(installed()) and any(isinstance(action, _DECIDES_ANEW) for action in actions)
+
+    def could_take_back(self, action: Action) -> bool:
+        """Whether there is something to undo or to redo, where that is the action."""
+        if isinstance(action, Undo):
+            return next(iter(self.history.latest_first(self.timeline.entries)), None) is not None
+        return not isinstance(action, Redo) or bool(self.history.undone)
 
     def _do(self, sequence: int, position: int, action: Action) -> Fact:
         sentence = availability.refusal(action)
@@ -190,8 +204,7 @@ class Draft:
         try:
             return Stepped(self.timeline.tick, tuple(self.timeline.advance() for _ in range(ticks)))
         except PlannerSilentError as silence:
-            sentence = f"{silence}. Drive yourself, or choose another planner."
-            raise NotAvailable(sentence, errors=[FieldProblem("planner", sentence)]) from silence
+            raise not_answered(silence) from silence
 
     def _undo(self, position: int) -> Undone:
         self._close_step()
@@ -254,7 +267,10 @@ class Draft:
         before = self.timeline.run
         kept = len(self.timeline.entries) - len(step.before)
         if step.jump is None:
-            self.timeline.rewrite(self.timeline.entries.first(kept).plus(step.after), step.since)
+            try:
+                self.timeline.rewrite(self.timeline.entries.first(kept).plus(step.after), step.since)
+            except PlannerSilentError as silence:
+                raise not_answered(silence) from silence
         else:
             self.timeline = step.jump.after.copy()
             self._jumped = True
@@ -285,6 +301,12 @@ class _Mark:
     def again(self) -> _Mark:
         """Another for the same moment."""
         return _Mark(self.timeline, self.paused, self.kept)
+
+
+def not_answered(silence: PlannerSilentError) -> NotAvailable:
+    """The problem of a planner that did not answer in time."""
+    sentence = f"{silence}. Drive yourself, or choose another planner."
+    return NotAvailable(sentence, errors=[FieldProblem("planner", sentence)])
 
 
 def ticks_to_run(actions: Sequence[Action]) -> int:

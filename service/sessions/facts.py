@@ -97,6 +97,11 @@ def views_of(facts: tuple[Fact, ...]) -> dict[str, bool]:
     return {fact.view: fact.shown for fact in facts if isinstance(fact, Viewed)}
 
 
+def asked_about(facts: tuple[Fact, ...]) -> list[Timeline]:
+    """The timelines that questions are about."""
+    return [fact.timeline for fact in facts if isinstance(fact, Asked)]
+
+
 def happened_in(facts: tuple[Fact, ...]) -> list[tuple[Run, Applied | Tick]]:
     """The parts that bring events, each with the run they happened in, in order."""
     parts: list[tuple[Run, Applied | Tick]] = []

@@ -28,6 +28,7 @@ from service.problems import (
     UnknownSession,
 )
 from service.sessions.draft import Draft, check_ticks
+from service.sessions.elsewhere import REPLAY_S, STEPS_S, patiently
 from service.sessions.forking import way_of
 from service.sessions.keeping import Keeper
 from service.sessions.pace import NORMAL
@@ -195,7 +196,8 @@ class SessionManager:
                         actions=contract.dump(each),
                     )
                 )
-                await to_thread.run_sync(repeat, session, self._around.words, entries[-1])
+                again = partial(repeat, session, self._around.words, entries[-1])
+                await to_thread.run_sync(patiently(STEPS_S, again))
             session.record = replace(record, tick=session.timeline.tick)
             session.paused = session.paused if paused is None else paused
             kept = () if answer is None else (answer(session),)
@@ -326,9 +328,10 @@ class SessionManager:
         try:
             entries = await self._around.store.entries(session_id)
             snapshot = await self.keeper.find(session_id)
-            session, unfit = await to_thread.run_sync(woken, record, entries, snapshot, self._around)
+            back = partial(woken, record, entries, snapshot, self._around)
+            session, unfit = await to_thread.run_sync(patiently(REPLAY_S, back))
         except ReplayError as error:
-            sequence = entries[error.position].sequence
+            sequence = entries[error.position].sequence if error.position < len(entries) else None
             _LOG.error(
                 "a kept session cannot be replayed", session=session_id, entry=sequence, error=str(error)
             )
@@ -350,9 +353,10 @@ class SessionManager:
         try:
             words, most = self._around.words, self._around.settings.max_recording_ticks
             again = partial(replay, session, words, recorded.entries, recorded.tick, most=most)
-            await to_thread.run_sync(again)
+            await to_thread.run_sync(patiently(REPLAY_S, again))
         except ReplayError as error:
-            field = f"recording.entries.{error.position}"
+            at = error.position
+            field = f"recording.entries.{at}" if at < len(recorded.entries) else "recording.tick"
             if error.differs:
                 raise RecordingMismatch(
                     f"{error} It was changed, or made by other rules.",

@@ -18,6 +18,8 @@ def possible(draft: Draft, sequence: int, actions: tuple[Action, ...]) -> bool:
     """Whether these would be done on a draft, and change something; long work is taken to be possible."""
     if any(not isinstance(action, TRIED) for action in actions):
         return all(refusal(action) is None for action in actions)
+    if draft.asks_others(actions):
+        return all(draft.could_take_back(action) for action in actions)
     try:
         facts = draft.perform(sequence + 1, actions)
     except ProblemError:

@@ -18,7 +18,7 @@ from pydantic import ValidationError
 from service import actions as contract
 from service.actions import Action
 from service.problems import Invalid, ProblemError, RecordingMismatch
-from service.sessions.draft import Draft, ticks_to_run
+from service.sessions.draft import Draft, not_answered, ticks_to_run
 from service.sessions.facts import Answerable, happened_in
 from service.sessions.forking import Way
 from service.sessions.log import Log
@@ -28,14 +28,15 @@ from service.sessions.words import Words
 from service.store import Branch, EntryRecord
 from sim.edit_error import EditError
 from sim.events import Event
-from sim.run import Run
+from sim.run import Run, Tick
+from sim.timeline import PlannerSilentError, Timeline
 
 if TYPE_CHECKING:
     from service.sessions.session import Session
 
 
 class ReplayError(Exception):
-    """What was kept cannot be done again; `position` is that of the entry.
+    """What was kept cannot be done again; `position` is that of the entry, or after the last of them.
 
     `differs`: it can, but leads elsewhere than it once did.
     """
@@ -106,7 +107,10 @@ class Replay:
                 self.one(entry, said, held=len(entries) - position <= self._log.kept)
             except (ProblemError, ValidationError) as error:
                 raise ReplayError(position, error) from error
-        self.run_to(tick)
+        try:
+            self.run_to(tick)
+        except ProblemError as error:
+            raise ReplayError(len(entries), error) from error
         self.tell()
 
     def _common(
@@ -121,14 +125,17 @@ class Replay:
             try:
                 said = next(actions)
                 while timeline.tick < entry.tick:
-                    timeline.advance()
+                    _went_on(timeline)
                 timeline.apply(entry.sequence, said)  # type: ignore[arg-type]  # nothing else comes along
                 self._check(entry)
             except (ProblemError, EditError, ValidationError) as error:
                 raise ReplayError(common, error) from error
             common += 1
-        while timeline.tick < branch.tick:
-            timeline.advance()
+        try:
+            while timeline.tick < branch.tick:
+                _went_on(timeline)
+        except ProblemError as error:
+            raise ReplayError(common, error) from error
         self._session.mixed.update(each["sequence"] for each in branch.instead)
         self._session.begin_with(Way(timeline, branch, common))
         return common
@@ -167,10 +174,10 @@ class Replay:
                 self._add((event, run))
 
     def run_to(self, tick: int) -> None:
-        """Let time pass."""
+        """Let time pass. Raises `ProblemError` where a planner does not answer in time."""
         timeline = self._session.timeline
         while timeline.tick < tick:
-            done = timeline.advance()
+            done = _went_on(timeline)
             for event in done.events:
                 self._add((event, done.run))
 
@@ -198,6 +205,13 @@ class Replay:
         if found != entry.digest:
             told = f"Entry {entry.sequence} ends in {found}, not in {entry.digest} as it once did."
             raise RecordingMismatch(told)
+
+
+def _went_on(timeline: Timeline) -> Tick:
+    try:
+        return timeline.advance()
+    except PlannerSilentError as silence:
+        raise not_answered(silence) from silence
 
 
 def _loaded(entries: Sequence[EntryRecord]) -> Iterator[tuple[Action, ...]]:

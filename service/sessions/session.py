@@ -19,10 +19,12 @@ from anyio import to_thread
 
 from service.actions import Action, Advise, Ask, Hide, Show
 from service.problems import NotSaved, UnknownName, UnknownSession
+from service.sessions.asking import Asking
 from service.sessions.clock import Clock
 from service.sessions.conversation import Conversation
 from service.sessions.draft import Draft, check_ticks
-from service.sessions.facts import Fact, happened_in, views_of
+from service.sessions.elsewhere import QUESTION_S, STEPS_S, asks_others, names_another, off_loop
+from service.sessions.facts import Fact, asked_about, happened_in, views_of
 from service.sessions.footing import Footing
 from service.sessions.forking import Way, is_mixed
 from service.sessions.history import History
@@ -48,7 +50,7 @@ from sim.events import Event
 from sim.explain.summary import long_to_tell
 from sim.kinds import Mode
 from sim.plan import Decision
-from sim.run import Run, Tick, decide
+from sim.run import Run, Tick
 from sim.timeline import PlannerSilentError, Timeline
 
 _LOG = structlog.get_logger(__name__)
@@ -92,6 +94,7 @@ class Session:
         self.watchers = Watchers()
         self.stages = Stages(self.watchers)
         self._later = Later(self._write_late)
+        self._asking = Asking(self._planned)
         self._around = around
         self._turn = asyncio.Lock()
         self._changing = False
@@ -134,7 +137,7 @@ class Session:
     def decision_at(self, tick: int) -> tuple[Decision, Run] | None:
         """The decision taken at a past tick, and the state it was taken in; None while a result stood."""
         run = self.timeline.at(tick)
-        decision = decide(run)
+        decision = self.timeline.decided(run)
         return None if decision is None else (decision, run)
 
     # Time
@@ -156,12 +159,24 @@ class Session:
             # In real time the words of an ending are done by the next tick; in a hurry they are waited for.
             if self._changing or self.paused or (self._later.busy and hurried(self.pace)):
                 return
+            if self._asking.busy or self._asking.begin(self.timeline.run):
+                return  # a planner of another package decides this one, and nobody waits for it here
             self._tick_once()
 
-    def _tick_once(self) -> None:
+    def _planned(self, run: Run, decision: Decision) -> None:
+        """A planner of another package has decided, or has not in time."""
+        if self._ended or self._changing or self.paused or self.timeline.run is not run:
+            return  # asked anew when its turn comes
+        try:
+            self._tick_once(decision)
+        except Exception as error:
+            self._around.clock.remove(self)
+            self.tick_failed(error)
+
+    def _tick_once(self, decided: Decision | None = None) -> None:
         before = self.timeline.run
         try:
-            tick = self.timeline.advance()
+            tick = self.timeline.advance(decided)
         except PlannerSilentError as silence:
             self._hand_over(silence)
             return
@@ -281,10 +296,15 @@ class Session:
                 self._take_tick_due()
 
     async def _perform(self, draft: Draft, utterance: Utterance) -> tuple[Fact, ...]:
+        actions = utterance.actions
+        work = partial(draft.perform, self.sequence + 1, actions)
         try:
-            if draft.work_ticks(utterance.actions) > THREAD_TICKS:
-                return await to_thread.run_sync(draft.perform, self.sequence + 1, utterance.actions)
-            return draft.perform(self.sequence + 1, utterance.actions)
+            if draft.asks_others(actions):
+                foreign = asks_others(draft.timeline) or names_another(actions)
+                return await off_loop(foreign, STEPS_S, work)
+            if draft.work_ticks(actions) > THREAD_TICKS:
+                return await to_thread.run_sync(work)
+            return work()
         except UnknownName as problem:
             raise await told_where(self._around.store, problem, utterance.actions) from None
 
@@ -293,7 +313,7 @@ class Session:
         told = partial(outcome_of, self._around.words, self.run, utterance, facts, sequence)
         if not long_to_answer(self.run.config.planner, facts):
             return told()
-        return await to_thread.run_sync(told)
+        return await off_loop(any(asks_others(timeline) for timeline in asked_about(facts)), QUESTION_S, told)
 
     async def _save(self, outcome: Outcome, draft: Draft, terms: Terms) -> None:
         kept = () if terms.answer is None else (terms.answer(outcome),)

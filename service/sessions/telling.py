@@ -8,7 +8,7 @@ from typing import Any
 
 from service import actions as contract
 from service.sessions.draft import Draft
-from service.sessions.facts import Answerable, Asked, Fact, changes_of
+from service.sessions.facts import Answerable, Asked, Fact, asked_about, changes_of
 from service.sessions.utterance import Outcome, Utterance
 from service.sessions.words import Words
 from service.store import EntryRecord
@@ -67,4 +67,7 @@ def reply(words: Words, facts: tuple[Fact, ...], answers: Sequence[dict[str, Any
 def long_to_answer(planner: str, facts: tuple[Fact, ...]) -> bool:
     """Whether a question has a slow planner run many times, or whole episodes."""
     asked = {fact.ask.about for fact in facts if isinstance(fact, Asked)}
-    return bool(asked) and (planner not in QUICK_PLANNERS or bool(LONG_QUESTIONS & asked))
+    if not asked:
+        return False
+    earlier = {timeline.config.planner for timeline in asked_about(facts)}
+    return not {planner, *earlier} <= QUICK_PLANNERS or bool(LONG_QUESTIONS & asked)

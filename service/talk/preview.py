@@ -55,7 +55,8 @@ def _tried(actions: tuple[Action, ...], session: Session) -> Preview:
     if not doing:
         return Preview("asks", actions)
     draft = Draft(session.timeline, session.paused, session.history, session.pace)
-    if isinstance(doing[0], Teach | Forget) or draft.work_ticks(doing) > MOST_TICKS:
+    long = draft.asks_others(doing) or draft.work_ticks(doing) > MOST_TICKS
+    if isinstance(doing[0], Teach | Forget) or long:
         return Preview("does", actions)
     try:
         return Preview("does", actions, changes_of(draft.perform(session.sequence + 1, doing)))

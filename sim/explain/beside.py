@@ -16,7 +16,7 @@ from sim.explain.future import Story, followed, told
 from sim.explain.stakes import after_move
 from sim.kinds import Mode, Move, Outcome
 from sim.plan import Decision
-from sim.run import Run, Tick, decide
+from sim.run import Run, Tick
 from sim.timeline import Timeline
 
 Ticks = tuple[tuple[Run, Tick], ...]
@@ -52,7 +52,7 @@ def beside_move(timeline: Timeline, tick: int, move: Move) -> Beside:
     while a result stood, `off_road`, and `same_move` for the one that was made.
     """
     run = _moment(timeline, tick)
-    decision = decide(run)
+    decision = timeline.decided(run)
     if decision is None:
         raise QuestionError("no_decision", tick=tick)
     if decision.option(move).cell is None:

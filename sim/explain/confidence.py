@@ -36,7 +36,7 @@ from sim.planner_names import BUILT_IN, WEIGHING
 from sim.randomness import Stream
 from sim.road import Board, bits, board_of
 from sim.rules import beside
-from sim.run import Run, advance, decide
+from sim.run import Run, advance
 from sim.search.costs import weights
 from sim.search.reach import steps_left
 from sim.timeline import Timeline
@@ -174,7 +174,7 @@ def wilson(hits: int, tries: int) -> tuple[float, float]:
 def _clarity(timeline: Timeline) -> Clarity | None:
     if timeline.run.world.episode_tick == 0:
         return None
-    decision = decide(timeline.at(timeline.tick - 1))
+    decision = timeline.decision(timeline.tick - 1)
     if decision is None or decision.asked is not None or decision.fault is not None:
         return None
     cost = decision.chosen.cost

@@ -20,7 +20,7 @@ from sim.explain.rerun import Rerun
 from sim.explain.stakes import after_move
 from sim.kinds import Move, Outcome
 from sim.optimum import least_ticks
-from sim.run import Run, advance, decide
+from sim.run import Run
 from sim.timeline import SNAPSHOT_TICKS, Timeline
 from sim.world import Cause, World
 
@@ -102,9 +102,9 @@ def why_crashed(timeline: Timeline, tick: int | None = None) -> Crash:
     `no_such_tick`, and `no_crash_then`.
     """
     run = _fatal(timeline) if tick is None else _at(timeline, tick)
-    decision = decide(run)
+    decision = timeline.decided(run)
     assert decision is not None
-    after = advance(run).run.world
+    after = timeline.led_to(run).run.world
     assert after.cause is not None
     certain = run.config.certain
     rerun = Rerun(run, decision)
@@ -119,12 +119,14 @@ def led_to_crash(timeline: Timeline, tick: int | None) -> bool:
     if tick is None:
         world = timeline.run.world
         return world.outcome is Outcome.CRASH and (world.ended or 0) > 0
-    return 0 <= tick < timeline.tick and crashed_in(timeline.at(tick))
+    return 0 <= tick < timeline.tick and crashed_in(timeline, timeline.at(tick))
 
 
-def crashed_in(run: Run) -> bool:
-    """Whether the decision that is taken in this state ends in a crash."""
-    return run.world.outcome is Outcome.RUNNING and advance(run).run.world.outcome is Outcome.CRASH
+def crashed_in(timeline: Timeline, run: Run) -> bool:
+    """Whether the decision that is taken in this state of a timeline ends in a crash."""
+    if run.world.outcome is not Outcome.RUNNING:
+        return False
+    return timeline.led_to(run).run.world.outcome is Outcome.CRASH
 
 
 def _at(timeline: Timeline, tick: int) -> Run:
@@ -133,7 +135,7 @@ def _at(timeline: Timeline, tick: int) -> Run:
         if not 0 <= each < timeline.tick:
             continue
         run = timeline.at(each)
-        if crashed_in(run):
+        if crashed_in(timeline, run):
             return run
     if tick > timeline.tick:
         raise QuestionError("no_such_tick", tick=tick, now=timeline.tick)
@@ -200,16 +202,16 @@ def _saving(timeline: Timeline, fatal: Run) -> tuple[int, bool, Saving | None]:
             if (run.edits, run.config, run.world.episode) != (fatal.edits, fatal.config, fatal.world.episode):
                 return looked, False, None
             looked += 1
-            saving = _saved(run)
+            saving = _saved(timeline, run)
             if saving is not None:
                 return looked, False, saving
         stop, span = first, 4 * span
     return looked, oldest == start, None
 
 
-def _saved(run: Run) -> Saving | None:
+def _saved(timeline: Timeline, run: Run) -> Saving | None:
     """A move from which a way leads to the goal, with the quickest, if there is one."""
-    decision = decide(run)
+    decision = timeline.decided(run)
     if decision is None or least_ticks(run) is None:
         return None
     ways = [

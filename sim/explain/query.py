@@ -7,7 +7,7 @@ from sim.explain.contrast import explain_why_not
 from sim.explain.facts import Explanation, QuestionError
 from sim.kinds import Move
 from sim.plan import Decision
-from sim.run import Run, decide
+from sim.run import Run
 from sim.timeline import SNAPSHOT_TICKS, Timeline
 
 LOOK_BACK_TICKS = 1_000
@@ -53,7 +53,7 @@ def _decision_at(timeline: Timeline, tick: int | None) -> tuple[Run, Decision]:
         run = timeline.at(tick)
     except IndexError:
         raise QuestionError("no_such_tick", tick=tick, now=timeline.tick) from None
-    decision = decide(run)
+    decision = timeline.decided(run)
     if decision is None:
         raise QuestionError("result_stood", tick=tick, outcome=run.world.outcome)
     return run, decision
@@ -67,7 +67,7 @@ def _latest(timeline: Timeline, moves: tuple[Move, ...]) -> tuple[Run, Decision 
         first = max(oldest, stop - span)
         runs = [timeline.at(first)] if span == 1 else list(timeline.between(first, stop))
         for run in reversed(runs):
-            decision = decide(run)
+            decision = timeline.decided(run)
             if decision is not None and decision.move in moves:
                 return run, decision
         stop, span = first, min(4 * span, SNAPSHOT_TICKS)

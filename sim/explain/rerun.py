@@ -9,6 +9,7 @@ from sim.actions import Add, Where, WorldAction
 from sim.config import Config
 from sim.edit import apply
 from sim.explain.factors import factors, is_factor, without
+from sim.explain.facts import QuestionError
 from sim.kinds import Cell, Move
 from sim.plan import Decision
 from sim.run import Run, decide
@@ -66,4 +67,6 @@ class Rerun:
         decision = decide(replace(self.run, world=world, config=config))
         if decision is None:
             raise ValueError("no decision is taken while a result stands")
+        if decision.timed_out:  # nothing is proved by an answer that did not come
+            raise QuestionError("no_answer", planner=decision.planner, fault=decision.fault)
         return decision

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from sim.kinds import Move, Outcome
 from sim.optimum.least import foreseen, least_cost, least_ticks
 from sim.repetition import NOTHING_KEPT
-from sim.run import Run, decide
+from sim.run import Run
 from sim.search.costs import weights
 from sim.search.spacetime import SpaceTime
 from sim.timeline import Timeline
@@ -50,7 +50,7 @@ def regret(run: Run, move: Move) -> Regret:
 def regrets(timeline: Timeline, first: int, stop: int) -> Iterator[tuple[int, Regret]]:
     """(tick, regret) of the decisions taken in ticks `first` to before `stop`. Raises `IndexError`."""
     for run in timeline.between(first, stop):
-        decision = decide(run)
+        decision = timeline.decided(run)
         if decision is not None:
             yield run.world.tick, regret(run, decision.move)
 

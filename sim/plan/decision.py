@@ -26,7 +26,10 @@ class Option:
 
     @property
     def dead_end(self) -> bool:
-        """Whether the step meets nothing, but its planner knows of no way on from there."""
+        """Whether the step meets nothing, but its planner knows of no way on from there.
+
+        Not to be said of a planner of another package (`Measure.OWN`), whose costs may mean anything.
+        """
         return self.cost is None and not self.reason.blocks
 
     @property
@@ -46,6 +49,8 @@ class Measure(StrEnum):
     """the charges (`sim.search.costs`) of the move and the cheapest way on, to the goal"""
     TICKS = "ticks"
     """ticks of the quickest way to the goal that begins with the move"""
+    OWN = "own"
+    """a measure of the planner's own, of which nothing is claimed: it comes from another package"""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,20 +1,30 @@
 """Asking a planner for a decision, so that whatever it does the session stands.
 
 Planners of this program are called as they are. One that another package brings is asked in a process of
-its own (`sim.plan.worker`), and what it answers is looked at: an answer that is no decision for this
-moment, a move that leads off the road, something raised, or no answer in time make the vehicle stay, and the
-decision's `fault` says what happened.
+its own (`sim.plan.worker`). Of what it answers a move and costs are taken, nothing else (`sim.plan.answer`).
+An answer that is none, a move that leads off the road, something raised, or no answer in time make the
+vehicle stay, and the decision's `fault` says what happened.
 """
 
 from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING, Final
 
 from sim.config import Config
 from sim.forecast import foretell
 from sim.kinds import Move
 from sim.perceive import Percept
-from sim.plan.decision import Decision, Option
+from sim.plan.decision import Decision, Measure
 from sim.plan.priority import options_in_order
 from sim.plan.registry import planner_named
+
+if TYPE_CHECKING:
+    from sim.plan.answer import Answer
+
+NOT_KNOWN: Final = "did not answer as it should"
+"""The fault of a decision of which no more is known any more."""
 
 
 def is_foreign(name: str) -> bool:
@@ -27,19 +37,22 @@ def planned(percept: Percept, config: Config) -> Decision:
     planner = planner_named(config.planner)
     if planner is not None:
         return planner.decide(foretell(percept, planner.horizon(config)), config)
-    from sim.plan.worker import BUDGET_S, FailedError, SilentError, worker_of
+    from sim.plan.asking import answered
 
-    worker = worker_of(config.planner)
-    if worker is None:
-        return stayed(percept, config, "is not installed")
+    return taken(lambda: answered(percept, config), percept, config)
+
+
+def taken(answered: Callable[[], Answer], percept: Percept, config: Config) -> Decision:
+    """What an answer of another package's planner comes to, or that there is none."""
+    from sim.plan.answer import FaultError, decision_of
+    from sim.plan.worker import SilentError
+
     try:
-        answer = worker.decide(percept, config)
-    except SilentError:
-        return stayed(percept, config, f"did not answer within {BUDGET_S:g} s", timed_out=True)
-    except FailedError as failure:
-        return stayed(percept, config, str(failure))
-    wrong = illegal(answer, percept)
-    return answer if wrong is None else stayed(percept, config, f"answered {wrong}")
+        return decision_of(answered(), percept, config)
+    except SilentError as silence:
+        return stayed(percept, config, str(silence), timed_out=True)
+    except FaultError as fault:
+        return stayed(percept, config, str(fault))
 
 
 def stayed(
@@ -52,26 +65,28 @@ def stayed(
     )
 
 
-def illegal(answer: object, percept: Percept) -> str | None:
-    """What is wrong with an answer, to follow "answered"; None if it is a legal decision for this moment."""
-    if not isinstance(answer, Decision):
-        return f"{_short(answer)}, which is no decision"
-    move: object = answer.move  # another package's claim
-    if not isinstance(move, Move):
-        return f"{_short(move)}, which is no move"
-    if answer.tick != percept.tick or answer.av != percept.ego_id:
-        return "for another moment or vehicle"
-    if percept.road.moved(percept.ego, move) is None:
-        return f"{move}, which leads off the road"
-    options: object = answer.options
-    if (
-        not isinstance(options, tuple)
-        or not all(isinstance(option, Option) for option in options)
-        or sorted(option.move for option in options) != sorted(Move)
-    ):
-        return "without a verdict on each of the six moves"
-    return None
+def recorded(percept: Percept, config: Config, move: Move) -> Decision:
+    """What a planner of another package once decided: its move, and the costs if they are remembered."""
+    from sim.plan.answer import Answer, decision_of
+    from sim.plan.asking import remembered
+
+    found = remembered(percept, config)
+    if isinstance(found, Answer) and found.move is move:
+        return decision_of(found, percept, config)
+    options = (replace(option, cost=None) for option in options_in_order(foretell(percept, 1)))
+    first = sorted(options, key=lambda option: option.move is not move)
+    return Decision(percept.tick, percept.ego_id, config.planner, move, tuple(first), measure=Measure.OWN)
 
 
-def _short(value: object) -> str:
-    return repr(value)[:80]
+def failed(percept: Percept, config: Config) -> Decision:
+    """What was done when a planner of another package once failed: the vehicle stayed."""
+    from sim.plan.answer import Answer, FaultError, decision_of
+    from sim.plan.asking import remembered
+
+    found = remembered(percept, config)
+    if isinstance(found, Answer):
+        try:
+            decision_of(found, percept, config)
+        except FaultError as fault:
+            found = str(fault)
+    return stayed(percept, config, found if isinstance(found, str) else NOT_KNOWN)

@@ -14,6 +14,7 @@ from io import BytesIO
 from itertools import chain, pairwise
 from typing import TYPE_CHECKING, Final
 
+from sim.plan import Decision
 from sim.run import Run, decide
 from sim.view import pixels, render
 
@@ -30,6 +31,8 @@ _ROUNDING: Final = 1e-6
 
 Turn = Callable[[], AbstractContextManager[object]]
 """What is around the drawing of each frame; what it raises ends the film."""
+
+Decided = Callable[[Run], Decision | None]
 
 
 class VideoMissingError(Exception):
@@ -78,8 +81,9 @@ def film(
     fps: int,
     size: tuple[int, int],
     turn: Turn = nullcontext,
+    decided: Decided = decide,
 ) -> bytes:
-    """The bytes of a film file.
+    """The bytes of a film file; `decided` knows what was decided in each state.
 
     Raises `VideoMissingError` for MP4 without its extra, `ValueError` for a form there is none of and what
     `sim.view.render` raises it for.
@@ -88,18 +92,18 @@ def film(
         raise ValueError(f"films can be had as {' and '.join(FILMS)}, not as {form!r}")
     if form == "mp4" and not has_video():
         raise VideoMissingError
-    pictures = (_taken(view, shot, size, turn) for shot in shots(runs, fps))
+    pictures = (_taken(view, shot, size, turn, decided) for shot in shots(runs, fps))
     if form == "mp4":
         return _mp4(pictures, fps)
     step = max(1, len(runs) // _SAMPLES)
-    samples = [_taken(view, Shot(run, run, 1.0), size, turn) for run in runs[::step]]
+    samples = [_taken(view, Shot(run, run, 1.0), size, turn, decided) for run in runs[::step]]
     return _gif(pictures, samples, fps, frames_in(runs, fps))
 
 
-def _taken(view: str, shot: Shot, size: tuple[int, int], turn: Turn) -> Image:
+def _taken(view: str, shot: Shot, size: tuple[int, int], turn: Turn, decided: Decided) -> Image:
     from PIL.Image import fromarray
 
-    decision = decide(shot.before) if shot.phase < 1.0 else None
+    decision = decided(shot.before) if shot.phase < 1.0 else None
     with turn():
         drawn = render(
             view, shot.after, before=shot.before.world, decision=decision, phase=shot.phase, size=size

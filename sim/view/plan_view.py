@@ -235,6 +235,8 @@ def reason_of(option: Option, decision: Decision) -> str:
         return words
     if option.move is decision.move:
         return "taken" if decision.asked is None else "as asked"
+    if decision.measure is Measure.OWN:
+        return "free"
     if option.dead_end:
         return "leads nowhere"
     best = decision.chosen.cost

@@ -314,3 +314,42 @@ def test_one_may_change_between_a_pace_and_a_hurry() -> None:
         run(clock, time, 1.1)
         assert len(counter.ticks) >= ticks
     assert len(counter.ticks) == 2
+
+
+class Stalls(Counter):
+    """Holds everything up at each of its ticks."""
+
+    def __init__(self, time: Time, period_s: float, stall_s: float) -> None:
+        super().__init__(time, period_s)
+        self.stall_s = stall_s
+
+    def tick(self) -> None:
+        super().tick()
+        self.time.now_s += self.stall_s
+
+
+def test_stalls_in_a_row_are_not_counted_twice() -> None:
+    """A slot that is empty already is not late: deadlines are put off for what is left alone."""
+    time = Time()
+    clock = WheelClock(time)
+    first, second, other = Stalls(time, 1.0, 0.25), Stalls(time, 1.0, 0.25), Counter(time, 1.0)
+    for ticker, then_s in ((first, 0.2), (second, 0.26), (other, 0.0)):
+        clock.add(ticker)
+        time.now_s += then_s
+    time.now_s = 101.0 + SLOT_S
+    clock.serve()
+    clock.serve()
+    assert (len(first.ticks), len(second.ticks), len(other.ticks)) == (1, 1, 0)
+    assert clock._put_off_s == 0.0
+    clock.serve()
+    assert other.ticks[0] - 101.46 < 0.05
+
+
+def test_the_first_slot_is_never_an_emptied_one() -> None:
+    time = Time()
+    clock = WheelClock(time)
+    clock.add(Stalls(time, 10.0, 5.0))
+    time.now_s += 10.0 + SLOT_S
+    clock.serve()
+    assert all(clock._slots[slot] for slot in clock._order)
+    assert clock._behind_since is None  # nothing else was due

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 import time
+from collections.abc import Mapping
 from dataclasses import replace
 
 from sim.config import Config
@@ -130,13 +131,14 @@ FAULTY = (Raises, Dies, Hangs, Nonsense, Sideways, Leaves, Endless)
 """What a session must withstand."""
 
 
-def package(folder: str) -> None:
-    """Make a folder look like an installed package that brings all of these."""
-    info = os.path.join(folder, "faulty-1.0.dist-info")
+def package(folder: str, planners: Mapping[str, type[object]] | None = None, name: str = "faulty") -> None:
+    """Make a folder look like an installed package that brings these planners, or all of this file."""
+    info = os.path.join(folder, f"{name}-1.0.dist-info")
     os.makedirs(info)
-    planners = (Good, *FAULTY)
-    lines = [f"{each.name} = tests.sim.faulty_planners:{each.__name__}" for each in planners]
+    if planners is None:
+        planners = {each.name: each for each in (Good, *FAULTY)}
+    lines = [f"{key} = {each.__module__}:{each.__name__}" for key, each in planners.items()]
     with open(os.path.join(info, "entry_points.txt"), "w") as points:
         points.write("[roadtalk.planners]\n" + "\n".join(lines) + "\n")
     with open(os.path.join(info, "METADATA"), "w") as metadata:
-        metadata.write("Metadata-Version: 2.1\nName: faulty\nVersion: 1.0\n")
+        metadata.write(f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.0\n")

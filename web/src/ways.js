@@ -42,7 +42,7 @@ export function waysOf(decision, from, world) {
  * @param {Decision} decision
  */
 function behind(cost, { planner, move, options }) {
-  if (cost === null) return "but leads nowhere";
+  if (cost === null) return planner && !MEASURES[planner] ? "less preferred" : "but leads nowhere";
   const best = options?.find((each) => each.move === move)?.cost;
   if (cost === undefined || best === undefined || best === null || !planner || !MEASURES[planner]) return "less preferred";
   const more = Math.round((cost - best) * 10) / 10;

@@ -1,0 +1,64 @@
+"""A live session's next move, where a planner of another package decides it.
+
+It is asked for, and taken when it is there: the event loop never waits. Until then the session does not tick,
+and everything else goes on. An answer to a state that is no longer the present one is dropped.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+from concurrent.futures import Future
+from contextlib import suppress
+
+from sim.kinds import Mode, Outcome
+from sim.perceive import Percept, perceive
+from sim.plan import Decision
+from sim.plan.answer import Answer
+from sim.plan.asking import ask
+from sim.plan.guard import is_foreign, taken
+from sim.run import Run
+
+
+class Asking:
+    """At most one question under way."""
+
+    def __init__(self, take: Callable[[Run, Decision], None]) -> None:
+        """`take`: given each decision with the state that was asked about, on the event loop's thread."""
+        self._take = take
+        self._asked: Future[Answer] | None = None
+
+    @property
+    def busy(self) -> bool:
+        """Whether an answer is waited for."""
+        return self._asked is not None
+
+    def begin(self, run: Run) -> bool:
+        """Ask what a state leads to, if another package's planner is to say; needs a running loop."""
+        if not decides(run):
+            return False
+        percept, loop = perceive(run.world, run.config), asyncio.get_running_loop()
+        asked = ask(percept, run.config)
+        self._asked = asked
+
+        def wake(_: Future[Answer]) -> None:
+            with suppress(RuntimeError):  # the loop is gone, and nobody waits any more
+                loop.call_soon_threadsafe(self._answered, asked, run, percept)
+
+        asked.add_done_callback(wake)
+        return True
+
+    def forget(self) -> None:
+        """Whatever is answered yet is not taken."""
+        self._asked = None
+
+    def _answered(self, asked: Future[Answer], run: Run, percept: Percept) -> None:
+        if self._asked is asked:
+            self._asked = None
+            self._take(run, taken(asked.result, percept, run.config))
+
+
+def decides(run: Run) -> bool:
+    """Whether a planner of another package decides the next move."""
+    by_hand = bool(run.queue) or run.mode is Mode.MANUAL
+    return not by_hand and run.world.outcome is Outcome.RUNNING and is_foreign(run.config.planner)

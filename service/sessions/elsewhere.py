@@ -1,0 +1,62 @@
+"""Work for which planners of other packages may be asked: beside the event loop, and for a limited time.
+
+Where such a planner is asked many times, as for an explanation, the work has threads of its own, so that slow
+planners hold up each other and nobody else. All of a piece of work has one time for their answers.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
+from contextvars import copy_context
+from typing import Final, TypeVar
+
+from anyio import to_thread
+
+from service.actions import Action
+from sim.plan.asking import within
+from sim.plan.guard import is_foreign
+from sim.planner_names import installed
+from sim.timeline import Timeline
+
+QUESTION_S: Final = 10.0
+"""How long foreign planners are waited for, in all, for the answer to a question."""
+STEPS_S: Final = 60.0
+"""The same for steps, and for what is undone or made again."""
+REPLAY_S: Final = 120.0
+"""The same for a session that comes back."""
+THREADS: Final = 4
+
+Result = TypeVar("Result")
+
+_THREADS = ThreadPoolExecutor(max_workers=THREADS, thread_name_prefix="foreign")
+
+
+async def off_loop(foreign: bool, seconds: float, work: Callable[[], Result]) -> Result:
+    """What the work results in, done in a thread; `foreign`: a planner of another package will be asked."""
+    patient = patiently(seconds, work)
+    if not foreign:
+        return await to_thread.run_sync(patient)
+    return await asyncio.get_running_loop().run_in_executor(_THREADS, copy_context().run, patient)
+
+
+def patiently(seconds: float, work: Callable[[], Result]) -> Callable[[], Result]:
+    """The work, with foreign planners waited for so long in all."""
+
+    def done() -> Result:
+        with within(seconds):
+            return work()
+
+    return done
+
+
+def asks_others(timeline: Timeline) -> bool:
+    """Whether a question about a timeline is one for a planner of another package."""
+    return is_foreign(timeline.run.config.planner) or is_foreign(timeline.config.planner)
+
+
+def names_another(actions: Iterable[Action]) -> bool:
+    """Whether one of these chooses a planner of another package."""
+    chosen = (getattr(action, key, None) for action in actions for key in ("planner", "value"))
+    return any(isinstance(each, str) and each in installed() for each in chosen)
