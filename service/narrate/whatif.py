@@ -256,7 +256,7 @@ class Conditions:
     def _setting(self, parameter: str, run: Run) -> str:
         value = getattr(run.config, parameter, None)
         if parameter == "planner":
-            return self._say("planner", planner=self._sayings.planner(value, "with"))
+            return self._say("planner", planner=self._sayings.planner(str(value), "with"))
         name = self._sayings.say("whatif", "settings", parameter)
         return self._say("setting", name=name, value=AS_IT_IS.get(parameter, "") if value is None else value)
 

@@ -48,7 +48,7 @@ test("changes are told in words, lists and names of the wire's own too", () => {
   assert.equal(said("queue", [], ["right", "forward_left"]), "next moves | none | right, forward left");
   assert.equal(said("mode", "auto", "manual"), "driver | itself | you");
   assert.equal(said("playback_speed", 1, "max"), "playback speed | 1× | max");
-  assert.equal(said("config.planner", "priority", "astar"), "planner | priority | A*");
+  assert.equal(said("config.planner", "priority", "astar"), "planner | Priority rules of the source | A*");
   assert.equal(said("config.preferences", ["avoid_potholes", "smooth_ride"], []), "preferences | avoid potholes, smooth ride | none");
   assert.equal(said("config.traffic", null, "none"), "traffic | not set | none");
   assert.equal(said("config.spawn_probability", 0.68, 0.9), "spawn probability | 0.68 | 0.9");
