@@ -61,7 +61,7 @@ class Track:
     def note(self, decision: Decision | None) -> None:
         """What was decided at the next tick."""
         if decision is None or decision.fault is not None:
-            foreign = decision is not None and is_foreign(decision.planner)
+            foreign = decision is not None and decision.asked is None and is_foreign(decision.planner)
             self._tail += _FAILED if foreign else _OTHERWISE
         else:
             self._tail += (_BY_PLANNER if decision.asked is None else _BY_PERSON)[decision.move]

@@ -297,14 +297,14 @@ class Session:
 
     async def _perform(self, draft: Draft, utterance: Utterance) -> tuple[Fact, ...]:
         actions = utterance.actions
-        work = partial(draft.perform, self.sequence + 1, actions)
+        sequence = self.sequence + 1
         try:
             if draft.asks_others(actions):
                 foreign = asks_others(draft.timeline) or names_another(actions)
-                return await off_loop(foreign, STEPS_S, work)
+                return await off_loop(foreign, STEPS_S, partial(draft.perform, sequence, actions))
             if draft.work_ticks(actions) > THREAD_TICKS:
-                return await to_thread.run_sync(work)
-            return work()
+                return await to_thread.run_sync(draft.perform, sequence, actions)
+            return draft.perform(sequence, actions)
         except UnknownName as problem:
             raise await told_where(self._around.store, problem, utterance.actions) from None
 

@@ -137,7 +137,7 @@ def _answer(planner: Any, asked_for: bytes, *, in_full: bool) -> dict[str, Any]:
 
 def _cost(option: Option) -> float | None:
     cost: Any = option.cost
-    if isinstance(cost, numbers.Real) and type(cost) not in (bool, int, float):
+    if isinstance(cost, numbers.Real) and type(cost).__module__ != "builtins":
         cost = float(cost)  # of another library
     return checked_cost(cost, option.move)
 
