@@ -17,7 +17,8 @@ from sim.config import Config
 from sim.generate import generate
 
 SOURCE = Path(__file__).parent / "c" / "roads.c"
-LANES, PLANES, LANE_PLANES = 64, 4, 12
+LANES, PLANES, LANE_PLANES = 64, 4, 18
+IN_ROW, FORWARD = 5, 6
 FLAGS = ("-O3", "-march=native", "-mprefer-vector-width=512", "-shared", "-fPIC")
 
 
@@ -46,6 +47,7 @@ class CLoop:
             word, inside = divmod(row, self.layout.rows_per_word)
             start = (word, inside * self.layout.columns, 1 << column, world.av)
             self.lanes[block, :4, inner] = np.array(start, np.uint64)
+            self.lanes[block, IN_ROW, inner] = np.uint64(2**64 - 1)
         self.first_state, self.first_lanes = self.state.copy(), self.lanes.copy()
 
     def run(self, ticks: int) -> None:
@@ -63,7 +65,7 @@ class CLoop:
     def agrees_with(self, batch: Batch) -> bool:
         """Whether boards, vehicles and counts are the batch's."""
         totals = batch.totals()
-        counts = self.lanes[:, 5:12].transpose(1, 0, 2).reshape(7, -1)[:, : len(batch)]
+        counts = self.lanes[:, FORWARD : FORWARD + 7].transpose(1, 0, 2).reshape(7, -1)[:, : len(batch)]
         names = ("forward", "lateral", "diagonal", "stay", "successes", "crashes", "stuck")
         same = all((counts[index] == getattr(totals, name)).all() for index, name in enumerate(names))
         for lane in range(0, len(batch), 37):
