@@ -20,11 +20,12 @@ from pathlib import Path
 from statistics import fmean, stdev
 from typing import Final, get_args
 
+from sim.plan.costs import weights
+
 from sim.actions import Layout, Preference
 from sim.config import Config
 from sim.kinds import Move, Outcome
 from sim.optimum import least_cost, least_ticks
-from sim.plan.costs import weights
 from sim.run import Run, advance
 from sim.search.spacetime import around
 from sim.world import World

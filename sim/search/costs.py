@@ -52,8 +52,11 @@ class Weights:
 
 _MOVES: Final = tuple(Move)
 
-BALANCED: Final = Weights(tick=60, sideways=12, diagonal=9, stay=4, fixed=2, mover=24, buffer=0)
-"""Without preferences; `buffer` is added to the configuration's `safety_buffer`."""
+BALANCED: Final[dict[int, Weights]] = {
+    1: Weights(tick=60, sideways=4, diagonal=3, stay=2, fixed=1, mover=2, buffer=0),
+    2: Weights(tick=60, sideways=12, diagonal=9, stay=4, fixed=2, mover=24, buffer=0),
+}
+"""Without preferences, by version of the rules; `buffer` is added to the configuration's `safety_buffer`."""
 
 SHIFTS: Final[dict[Preference, Weights]] = {
     "avoid_potholes": Weights(tick=0, sideways=0, diagonal=0, stay=0, fixed=40, mover=0, buffer=0),
@@ -66,7 +69,7 @@ SHIFTS: Final[dict[Preference, Weights]] = {
 
 def weights(config: Config) -> Weights:
     """The charges that a configuration asks for."""
-    parts = (BALANCED, *(SHIFTS[preference] for preference in config.preferences))
+    parts = (BALANCED[config.rules], *(SHIFTS[preference] for preference in config.preferences))
     return Weights(
         tick=sum(part.tick for part in parts),
         sideways=sum(part.sideways for part in parts),

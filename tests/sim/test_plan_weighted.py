@@ -16,6 +16,7 @@ from sim.forecast import foretell
 from sim.kinds import Mode, Move, Outcome
 from sim.perceive import perceive
 from sim.plan import Decision, planner_named
+from sim.rules_version import RULES
 from sim.run import Run, advance, decide
 from sim.search.costs import BALANCED, weights
 from sim.search.reach import reach
@@ -193,9 +194,9 @@ def test_the_fastest_takes_the_least_ticks() -> None:
 
 
 def test_preferences_shift_every_charge_by_their_own() -> None:
-    assert weights(Config(safety_buffer=0)) == BALANCED
+    assert weights(Config(safety_buffer=0)) == BALANCED[RULES]
     assert weights(Config(preferences=("cautious",))).buffer == 2
-    assert weights(Config(preferences=("avoid_potholes", "smooth_ride"))).fixed > BALANCED.fixed
+    assert weights(Config(preferences=("avoid_potholes", "smooth_ride"))).fixed > BALANCED[RULES].fixed
 
 
 def test_most_roads_are_driven_in_about_the_least_ticks() -> None:

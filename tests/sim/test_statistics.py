@@ -16,13 +16,16 @@ from sim.kinds import Outcome
 from sim.metrics import Metrics
 from sim.run import Run, advance
 
+SOURCE = Config(planner="priority", collision="cell", attentive=0.0, repetition=False)
+"""The rules that the sketch goes by: those of the source study."""
+
 SKETCH_WORLDS = 2000
 ROUNDING = 0.01
 
 
 def driven(seed: int, potholes: int | None) -> Run:
     """The first episode of a seed, to its end."""
-    run = Run.start(Config(seed=seed, potholes=potholes))
+    run = Run.start(SOURCE.with_parts(seed=seed, potholes=potholes))
     while run.world.outcome is Outcome.RUNNING:
         run = advance(run).run
     return run
