@@ -119,7 +119,7 @@ async def _nothing_of_theirs(service: Service, planner: str, path: str) -> None:
     for method, where, body in asked:
         answer = await service.client.request(method, where, json=body)
         assert answer.status_code < 500, (planner, where, answer.text)
-        assert "666" not in answer.text, (planner, where)
+        assert "pedestrian-666" not in answer.text, (planner, where)
         told[where.rpartition("/")[2]] = answer
     session = await service.app.state.context.manager.get(path.rpartition("/")[2])
     for decision in told["decisions"].json()["items"]:
