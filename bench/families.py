@@ -15,24 +15,23 @@ from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from itertools import pairwise, product
-from math import sqrt
 from pathlib import Path
-from statistics import fmean, stdev
+from statistics import fmean
 from typing import Final, get_args
-
-from sim.plan.costs import weights
 
 from sim.actions import Layout, Preference
 from sim.config import Config
+from sim.intervals import mean, wilson
 from sim.kinds import Move, Outcome
 from sim.optimum import least_cost, least_ticks
 from sim.run import Run, advance
+from sim.search.costs import weights
 from sim.search.spacetime import around
 from sim.world import World
 
 FAMILIES: Final[tuple[Layout | None, ...]] = (None, *get_args(Layout))
 WEIGHED: Final = "astar"
-PLANNERS: Final = ("priority", "exact", WEIGHED)
+PLANNERS: Final = ("priority", "rules", "exact", WEIGHED)
 PREFERENCES: Final[tuple[Preference, ...]] = get_args(Preference)
 BALANCED: Final = "balanced"
 FARTHEST: Final = 8
@@ -103,21 +102,6 @@ def _distance(world: World, board: int) -> int:
     while not reached & board and distance < FARTHEST:
         reached, distance = around(reached, world.road), distance + 1
     return distance
-
-
-def wilson(hits: int, of: int) -> tuple[float, float]:
-    """The 95 % interval of a share (Wilson, 1927)."""
-    z = 1.96
-    share, scale = hits / of, 1 + z * z / of
-    middle = (share + z * z / (2 * of)) / scale
-    half = z / scale * sqrt(share * (1 - share) / of + z * z / (4 * of * of))
-    return max(0.0, middle - half), min(1.0, middle + half)
-
-
-def mean(values: Sequence[float]) -> tuple[float, float]:
-    """A mean and half its 95 % interval (normal); 0 for fewer than two values."""
-    half = 1.96 * stdev(values) / sqrt(len(values)) if len(values) > 1 else 0.0
-    return fmean(values), half
 
 
 def effect(

@@ -17,8 +17,8 @@ from multiprocessing import Pool
 from typing import Any
 
 from sim.config import Config
-from sim.explain.confidence import wilson
 from sim.forecast import foretell
+from sim.intervals import wilson
 from sim.kinds import Move, Outcome
 from sim.perceive import perceive
 from sim.run import Run, advance

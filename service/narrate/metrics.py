@@ -6,7 +6,7 @@ from service.narrate.answering import Json, plain
 from service.narrate.sayings import Sayings
 from service.sessions.facts import Asked
 from service.wire.future import figures_json
-from sim.explain.confidence import wilson
+from sim.intervals import wilson
 from sim.metrics import Metrics
 from sim.run import Run
 

@@ -4,9 +4,8 @@ On a road that is seen whole, one thing is not known yet: who will give way or b
 futures form a tree that branches only where a mover beside the vehicle has a reason to react. Where
 the branches meet again, which is soon, they are one: rows that lie behind take no part any more. Mostly the
 tree is then small enough to be walked whole, and the share of futures that arrive is exact. Where it is
-not, futures are drawn from it, with seeds of their own, and the share has Wilson's interval ("Probable
-inference, the law of succession, and statistical inference", Journal of the American Statistical
-Association, 1927).
+not, futures are drawn from it, with seeds of their own, and the share has Wilson's interval
+(`sim.intervals`).
 
 A future in which the vehicle is proved to be shut off from the goal, by hazards or by movers in the rows
 before it, is followed no further: it does not arrive, however it ends.
@@ -22,13 +21,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from itertools import chain, combinations, count, product
-from math import sqrt
 from typing import Final, TypeAlias
 
 from sim.config import Config
 from sim.courtesy import attentive, yielding
 from sim.explain.facts import QuestionError
 from sim.forecast import foretell
+from sim.intervals import wilson
 from sim.kinds import Mode, Move, Outcome
 from sim.perceive import perceive
 from sim.plan import Decision
@@ -52,8 +51,6 @@ PATIENCE: Final = {"priority": 40, "rules": 40}
 """Decisions after which futures are looked at for whether they are shut off; at once where not named, as a
 decision then costs as much as the look."""
 MAX_FUTURES: Final = 200
-Z: Final = 1.959964
-"""Standard errors on either side of a 95 % interval."""
 
 
 End: TypeAlias = tuple[Outcome | None, int]
@@ -161,14 +158,6 @@ def confidence(timeline: Timeline) -> Confidence:
         by_hand=run.mode is Mode.MANUAL,
         clarity=_clarity(timeline),
     )
-
-
-def wilson(hits: int, tries: int) -> tuple[float, float]:
-    """Wilson's 95 % interval of a share that held `hits` times in `tries`."""
-    share, square = hits / tries, Z * Z
-    middle = (share + square / (2 * tries)) / (1 + square / tries)
-    half = Z / (1 + square / tries) * sqrt(share * (1 - share) / tries + square / (4 * tries * tries))
-    return max(0.0, middle - half), min(1.0, middle + half)
 
 
 def _clarity(timeline: Timeline) -> Clarity | None:

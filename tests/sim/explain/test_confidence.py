@@ -11,7 +11,8 @@ import pytest
 from sim.config import Config
 from sim.explain import QuestionError
 from sim.explain import confidence as module
-from sim.explain.confidence import Confidence, Method, confidence, wilson
+from sim.explain.confidence import Confidence, Method, confidence
+from sim.intervals import wilson
 from sim.kinds import Mode, Move, Outcome
 from sim.run import Run, advance
 from sim.timeline import Timeline
