@@ -12,6 +12,7 @@ from sim.perceive import perceive
 from sim.run import Run
 from sim.search.astar import cheapest
 from sim.search.costs import weights
+from sim.search.leading import leading_on
 from sim.search.reach import flooded, reach, shortest_plan, steps_left
 from sim.search.reactive import ReactiveSearch
 from sim.search.spacetime import SpaceTime
@@ -55,8 +56,11 @@ def quickest_plan(run: Run) -> tuple[Move, ...] | None:
     return plan if quicker is None and run.config.courtesy == 0.0 else quicker
 
 
-def can_arrive(run: Run) -> bool:
-    """Whether the goal can be reached from here in time."""
+def can_arrive(run: Run, patience: int | None = None) -> bool:
+    """Whether the goal can be reached from here in time.
+
+    Where movers react, `patience` is how many states are searched; then it raises `ImpatientError`.
+    """
     if run.world.outcome is not Outcome.RUNNING:
         return run.world.outcome is Outcome.SUCCESS
     forecast, limit = foreseen(run)
@@ -64,7 +68,10 @@ def can_arrive(run: Run) -> bool:
         return True
     if not run.config.reacting or not _passable(forecast):
         return False
-    return _search(run, forecast).least_ticks(limit) is not None
+    if not leading_on(run.world, run.config)[0] >> run.world.av & 1:
+        return False  # a proof at a small part of what the search would cost
+    search = ReactiveSearch(run.world, run.config, forecast, patience)
+    return search.least_ticks(limit) is not None
 
 
 def least_cost(run: Run) -> int | None:
