@@ -108,6 +108,8 @@ class Narrator:
         """One line of the log."""
         if event.type in ENDS:
             return self._ends.text(run)
+        if event.type is EventType.NO_WAY:
+            return self._no_way(event)
         ticks = run.world.episode_tick
         reason = ""
         if event.type is EventType.HELD_BACK and event.move is not None:
@@ -127,6 +129,12 @@ class Narrator:
             planner=run.config.planner,
             fault=event.how or "",
         )
+
+    def _no_way(self, event: Event) -> str:
+        if not event.ids:
+            return self._sayings.say("log", "no_way", event.how or "plain")
+        form = "one" if len(event.ids) == 1 else "many"
+        return self._sayings.say("log", "no_way", "without", form, who=self._sayings.joined(event.ids))
 
     def silent(self, planner: str, fault: str) -> str:
         """What is said when a planner did not answer in time and a person is to drive."""

@@ -2,19 +2,16 @@
 
 from sim.optimum.certificate import Blocked, Certificate, Drivable, certify
 from sim.optimum.least import least_cost, least_ticks
-from sim.optimum.outlook import Outlook, outlook
 from sim.optimum.regret import Regret, regret, regrets
 
 __all__ = [
     "Blocked",
     "Certificate",
     "Drivable",
-    "Outlook",
     "Regret",
     "certify",
     "least_cost",
     "least_ticks",
-    "outlook",
     "regret",
     "regrets",
 ]

@@ -31,6 +31,9 @@ STATES_WITHOUT: Final = 300
 LOOKS: Final = 120
 """Looks at the road without some things, on small roads."""
 
+MOST_NAMED: Final = 8
+"""More things than this are not named: nobody would remove them one by one."""
+
 LOOKED_OVER: Final = 8_000_000
 """Cells times ticks that all looks may look over, so that there are fewer on large roads."""
 
@@ -103,7 +106,7 @@ class _Looks:
         if gone not in self.seen:
             self.seen[gone] = self._look(gone)
             if self.seen[gone] and not 0 < len(self.best) <= len(gone):
-                self.best = tuple(sorted(gone))
+                self.best = tuple(sorted(gone, key=_number))
         return self.seen[gone]
 
     def _look(self, gone: frozenset[str]) -> bool:
@@ -131,8 +134,14 @@ def _without(run: Run, most: int) -> Outlook:
         candidate |= more
         if looks.opens(candidate):
             thinned(candidate, looks.opens)
-            return Outlook(False, ids=looks.best, minimal=looks.sure)
+            few = len(looks.best) <= MOST_NAMED
+            return Outlook(False, ids=looks.best if few else (), minimal=few and looks.sure)
     return Outlook(False)
+
+
+def _number(name: str) -> tuple[str, int]:
+    kind, _, number = name.rpartition("-")
+    return kind, int(number)
 
 
 def _gone(run: Run, ids: Iterable[str]) -> Run:
