@@ -54,7 +54,7 @@ class Narrator:
         if asked is not None:
             return self._asked(decision, asked, naming)
         if not ranked:
-            return self._weighed(decision, naming)
+            return self._weighed(decision, run, naming)
         chosen = decision.chosen
         if decision.move is not Move.STAY:
             return self._other(decision.move, first, naming)
@@ -148,12 +148,16 @@ class Narrator:
         """The answer to a question, as JSON values."""
         return self._answers.answer(asked)
 
-    def _weighed(self, decision: Decision, naming: Naming) -> str:
+    def _weighed(self, decision: Decision, run: Run, naming: Naming) -> str:
         """The move of a planner that knows what each costs in all, against going straight on."""
         name = self._named(decision.move)
         straight, chosen = decision.option(Move.FORWARD), decision.chosen
         if chosen.cost is None:
-            return self._say("no_way_on", move=name)
+            if chosen.reason.blocks:
+                return self._say("no_safe_way", reason=self._sayings.met(chosen, "now", naming))
+            known = "unknown" if run.config.reacting else "proved"
+            told = "waits" if decision.move is Move.STAY else "moves"
+            return self._sayings.say("log", "decisions", "no_way_on", known, told, move=name)
         if decision.move is Move.FORWARD:
             return self._say("first_choice")
         if straight.cost is None:
