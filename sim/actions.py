@@ -41,6 +41,7 @@ Parameter = Literal[
     "spawn_probability",
     "pothole_probability",
     "courtesy",
+    "attentive",
     "sensor_noise",
     "detection_sensitivity",
     "false_positive_rate",

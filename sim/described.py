@@ -16,7 +16,14 @@ from sim.scenario import ROADS, TRAFFIC, configured
 from sim.settings import preferring, setting
 
 _GROUND = ("columns", "rows", "seed")
-_SET_AFTER = ("step_seconds", "spawn_probability", "pothole_probability", "courtesy", "safety_buffer")
+_SET_AFTER = (
+    "step_seconds",
+    "spawn_probability",
+    "pothole_probability",
+    "courtesy",
+    "attentive",
+    "safety_buffer",
+)
 
 
 class UndescribableError(ValueError):

@@ -21,6 +21,10 @@ class EventType(StrEnum):
     """a person's move was not taken because its cell would not be free"""
     PLANNER_FAILED = "planner_failed"
     """the planner did something else than answer, and the vehicle stays"""
+    NO_WAY = "no_way"
+    """it is proved that no way leads to the goal in time; `ids` are things without which there is one"""
+    WAY_OPEN = "way_open"
+    """a change has opened a road without a way"""
     DISABLED = "disabled"
     """a pothole was put under a mover, which stays in it"""
 
@@ -36,5 +40,6 @@ class Event:
     cell: Cell | None = None
     move: Move | None = None
     how: str | None = None
-    """for a crash `hit` or `swap`, for a move held back what it would have met (`Verdict`),
-    for a planner that failed what it did, for STUCK `limit` or `repetition`"""
+    """for a crash `hit`, `swap` or `cross`, for a move held back what it would have met (`Verdict`),
+    for a planner that failed what it did, for STUCK `limit` or `repetition`, for NO_WAY `late` where too few
+    ticks are left"""

@@ -22,6 +22,7 @@ STEPS: Final[dict[str, float]] = {
     "spawn_probability": 0.1,
     "pothole_probability": 0.05,
     "courtesy": 0.1,
+    "attentive": 0.1,
     "safety_buffer": 1,
     "step_seconds": 0.1,
     "columns": 1,

@@ -37,7 +37,7 @@ class Thing:
 
 @dataclass(frozen=True, slots=True)
 class Cause:
-    """Why an episode ended in a crash: what was hit, how (`hit` or `swap`), and where."""
+    """Why an episode ended in a crash: what was hit, how (`hit`, `swap` or `cross`), and where."""
 
     how: str
     kind: Kind

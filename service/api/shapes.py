@@ -56,7 +56,7 @@ class Hazard(Answered):
 
 
 class CrashCause(Answered):
-    """What a crash was with: met in one cell (`hit`), or passing through one another (`swap`)."""
+    """What a crash was with: met in one cell (`hit`), passing through one another (`swap`), or cut off on a diagonal (`cross`)."""
 
     kind: Kind
     how: Literal["hit", "swap", "cross"]

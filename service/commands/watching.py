@@ -64,7 +64,10 @@ def lines(message: Message, *, quiet: bool = False) -> Iterator[str]:
                 yield f"{message.tick:>6}  {message.decision.move:<14} {message.narration or ''}".rstrip()
             yield from (f"{message.tick:>6}  * {event.text}" for event in message.events)
         case Changed():
-            yield f"{message.state.tick:>6}  > {message.text or 'typed'}: {message.reply}"
+            if message.text is None and message.events and message.reply == message.events[-1].text:
+                yield from (f"{message.state.tick:>6}  * {event.text}" for event in message.events)
+            else:
+                yield f"{message.state.tick:>6}  > {message.text or 'typed'}: {message.reply}"
         case Standing():
             if message.missed is not None:
                 first, last = message.missed

@@ -40,6 +40,7 @@ TYPICAL: dict[str, float] = {
     "spawn_probability": 0.4,
     "pothole_probability": 0.2,
     "courtesy": 0.5,
+    "attentive": 0.5,
     "sensor_noise": 0.1,
     "detection_sensitivity": 0.8,
     "false_positive_rate": 0.05,

@@ -44,7 +44,7 @@ class Confidences:
         sampled = found.method is Method.SAMPLED
         return self._say(
             "sure",
-            self._key(found),
+            self._key(found, run),
             when="" if ticks is None else self._when(ticks, run),
             percent=_of_sample(found) if sampled else self._percent(found.stated),
             low=self._percent(found.low),
@@ -54,7 +54,7 @@ class Confidences:
             ends=self._ends(found),
         )
 
-    def _key(self, found: Confidence) -> str:
+    def _key(self, found: Confidence, run: Run) -> str:
         """Which sentence it is."""
         if found.method is Method.SAMPLED:
             key = {1.0: "sampled_all", 0.0: "sampled_none"}.get(found.arrives, "sampled")
@@ -65,7 +65,10 @@ class Confidences:
             return {1.0: "all_arrive", 0.0: "none_arrives"}.get(found.arrives, "exact")
         if found.arrives:
             return "one_run_no_matter" if found.chance else "one_run_arrives"
-        return "one_run_crashes" if found.crashes else "one_run_stuck"
+        if found.crashes:
+            return "one_run_crashes"
+        last = run.world.episode_tick + (found.end_ticks or (0, 0))[1]
+        return "one_run_repeats" if last <= run.config.max_ticks else "one_run_stuck"
 
     def _ends(self, found: Confidence) -> str:
         """How it ends when it does not arrive."""

@@ -29,7 +29,8 @@ class Ends:
             case Outcome.CRASH:
                 parts = [self._crash(found), self._avoidable(found)]
             case _:
-                parts = [self._say("stuck", ticks=self._many("ticks", found.ticks)), self._open(found)]
+                key = "stuck_again" if found.repeated else "stuck"
+                parts = [self._say(key, ticks=self._many("ticks", found.ticks)), self._open(found)]
         return f"{self._sayings.listed([part for part in parts if part])}."
 
     def _detours(self, found: Summary) -> str:
@@ -77,7 +78,7 @@ class Ends:
 
     def _open(self, found: Summary) -> str:
         """Until when a way was open to a vehicle that got stuck."""
-        if not found.certain:
+        if not found.certain or not found.open_known:
             return ""
         if found.open_until is None:
             return self._say("never_open")

@@ -57,7 +57,7 @@ class Narrator:
         if decision.measure is Measure.OWN:
             return self._own(decision, naming)
         if not ranked:
-            return self._weighed(decision, naming)
+            return self._weighed(decision, run, naming)
         chosen = decision.chosen
         if first.reason.blocks and decision.move is not Move.STAY:
             return self._other(decision.move, first, naming)
@@ -116,6 +116,8 @@ class Narrator:
         """One line of the log."""
         if event.type in ENDS:
             return self._ends.text(run)
+        if event.type is EventType.NO_WAY:
+            return self._no_way(event)
         ticks = run.world.episode_tick
         reason = ""
         if event.type is EventType.HELD_BACK and event.move is not None:
@@ -136,6 +138,12 @@ class Narrator:
             fault=event.how or "",
         )
 
+    def _no_way(self, event: Event) -> str:
+        if not event.ids:
+            return self._sayings.say("log", "no_way", event.how or "plain")
+        form = "one" if len(event.ids) == 1 else "many"
+        return self._sayings.say("log", "no_way", "without", form, who=self._sayings.joined(event.ids))
+
     def silent(self, planner: str, fault: str) -> str:
         """What is said when a planner did not answer in time and a person is to drive."""
         return self._sayings.say("log", "events", "planner_silent", planner=planner, fault=fault)
@@ -148,12 +156,16 @@ class Narrator:
         """The answer to a question, as JSON values."""
         return self._answers.answer(asked)
 
-    def _weighed(self, decision: Decision, naming: Naming) -> str:
+    def _weighed(self, decision: Decision, run: Run, naming: Naming) -> str:
         """The move of a planner that knows what each costs in all, against going straight on."""
         name = self._named(decision.move)
         straight, chosen = decision.option(Move.FORWARD), decision.chosen
         if chosen.cost is None:
-            return self._say("no_way_on", move=name)
+            if chosen.reason.blocks:
+                return self._say("no_safe_way", reason=self._sayings.met(chosen, "now", naming))
+            known = "unknown" if run.config.reacting else "proved"
+            told = "waits" if decision.move is Move.STAY else "moves"
+            return self._sayings.say("log", "decisions", "no_way_on", known, told, move=name)
         if decision.move is Move.FORWARD:
             return self._say("first_choice")
         if straight.cost is None:

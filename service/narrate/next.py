@@ -65,7 +65,10 @@ class Next:
         if way.outcome is Outcome.CRASH:
             a = "" if way.cause is None else self._sayings.say("words", "a", way.cause.kind)
             return self._say("crashes", way=said, a=a)
-        return self._say("stuck", way=said) if way.outcome is Outcome.STUCK else said
+        if way.outcome is Outcome.STUCK:
+            ticks = way.run.world.episode_tick + len(way.decisions)
+            return self._say("stuck_again" if ticks <= way.run.config.max_ticks else "stuck", way=said)
+        return said
 
     def _move(self, move: Move, count: int, detour: Detour | None, run: Run, naming: Naming) -> str:
         metres = f"{count * run.config.cell_m:g}"

@@ -119,9 +119,12 @@ class Sayings:
         """What is in the way of a move."""
         place, who = self.move(move, "place"), naming.things(ids)
         movers = [kind_of(name) for name in ids if kind_of(name).moves]
-        if reason == "mover_enters" and len(movers) > 1:
-            return self.say("words", "both_enter", tense, who=who, place=place)
-        if reason == "mover_crosses" and len(movers) > 1:
+        if reason == "mover_enters" and len(ids) > 1:
+            other = "crosses" if move in (Move.FORWARD_LEFT, Move.FORWARD_RIGHT) else "swaps"
+            first, rest = naming.things(ids[:1]), naming.things(ids[1:])
+            form = other if len(ids) == 2 else "both_cross"
+            return self.say("words", "enters_and", form, tense, who=first, other=rest, place=place)
+        if reason == "mover_crosses" and len(ids) > 1:
             return self.say("words", "both_cross", tense, who=who, place=place)
         kinds = movers or [kind_of(name) for name in ids]
         a = self.say("words", "a", kinds[0]) if kinds else ""

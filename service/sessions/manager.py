@@ -140,6 +140,8 @@ class SessionManager:
         self._kept += 1
         self.keeper.join(session)
         session.set_paused(paused)
+        session.outlooks.begun(session.run)
+        await session.outlooks.settled()
         return session
 
     async def fork(
@@ -214,6 +216,8 @@ class SessionManager:
         self._kept += 1
         self.keeper.fork(session)
         session.set_paused(session.paused)
+        session.outlooks.begun(session.run)
+        await session.outlooks.settled()
         return session
 
     async def get(self, session_id: str) -> Session:
@@ -347,6 +351,7 @@ class SessionManager:
         self.idleness.used(session_id)
         self._live[session_id] = session
         self.keeper.join(session)
+        session.outlooks.begun(session.run)
         return session
 
     async def _replay(self, session: Session, recorded: Recorded) -> None:

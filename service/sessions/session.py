@@ -31,13 +31,14 @@ from service.sessions.history import History
 from service.sessions.later import Later
 from service.sessions.log import Log, LogEvent
 from service.sessions.messages import changed_message, tick_message
+from service.sessions.outlooks import Outlooks
 from service.sessions.pace import NORMAL, Pace, hurried, period_s, turn
 from service.sessions.possible import possible
 from service.sessions.saved import told_where
 from service.sessions.stages import Stages
 from service.sessions.telling import entry_of, long_to_answer, outcome_of
 from service.sessions.terms import ANY_TERMS, Terms
-from service.sessions.utterance import Outcome, Utterance
+from service.sessions.utterance import Notice, Outcome, Utterance
 from service.sessions.watchers import Watchers
 from service.sessions.words import Words
 from service.settings import Settings
@@ -95,6 +96,7 @@ class Session:
         self.stages = Stages(self.watchers)
         self._later = Later(self._write_late)
         self._asking = Asking(self._planned)
+        self.outlooks = Outlooks(lambda: self.run, self._tell_outlook)
         self._around = around
         self._turn = asyncio.Lock()
         self._changing = False
@@ -185,6 +187,8 @@ class Session:
             self._publish_tick(before, tick, ())
         else:
             self._publish_tick(before, tick, self._note(tick.run, tick))
+        if tick.events and tick.run.world.episode_tick == 0:
+            self.outlooks.begun(tick.run)
 
     def _hand_over(self, silence: PlannerSilentError) -> None:
         """Let a person drive, as a change like any other: a replay does not ask that planner again."""
@@ -278,17 +282,21 @@ class Session:
                 draft = self._draft()
                 with timed("apply"):
                     facts = await self._perform(draft, utterance)
+                seen = await self.outlooks.after(draft.timeline.run, facts)
+                event = None if seen is None else self.outlooks.notice(seen, draft.timeline.run)
                 if dry_run:
-                    return await self._told(utterance, facts, self.sequence)
+                    return await self._told(utterance, facts, self.sequence, event, draft)
                 if all(isinstance(action, CHANGES_NOTHING) for action in utterance.actions):
                     outcome = await self._told(utterance, facts, self.sequence)
                     self.conversation.note(outcome, passing=True)
                     if views := views_of(facts):
                         self._publish_changed(utterance.text, outcome.reply, (), (), views)
                     return outcome
-                outcome = await self._told(utterance, facts, self.sequence + 1)
+                outcome = await self._told(utterance, facts, self.sequence + 1, event, draft)
                 with timed("store"):
                     await self._save(outcome, draft, terms)
+                if seen is not None:
+                    self.outlooks.know(seen)
                 self._become(draft, outcome)
                 return outcome
             finally:
@@ -308,9 +316,19 @@ class Session:
         except UnknownName as problem:
             raise await told_where(self._around.store, problem, utterance.actions) from None
 
-    async def _told(self, utterance: Utterance, facts: tuple[Fact, ...], sequence: int) -> Outcome:
-        """The outcome in words; beside the event loop where that takes long."""
-        told = partial(outcome_of, self._around.words, self.run, utterance, facts, sequence)
+    async def _told(
+        self,
+        utterance: Utterance,
+        facts: tuple[Fact, ...],
+        sequence: int,
+        event: Event | None = None,
+        draft: Draft | None = None,
+    ) -> Outcome:
+        """The outcome in words; beside the event loop where that takes long. `event`: of the draft's road."""
+        notice = None
+        if event is not None and draft is not None:
+            notice = Notice(event, self._around.words.event(event, draft.timeline.run))
+        told = partial(outcome_of, self._around.words, self.run, utterance, facts, sequence, notice)
         if not long_to_answer(self.run.config.planner, facts):
             return told()
         return await off_loop(any(asks_others(timeline) for timeline in asked_about(facts)), QUESTION_S, told)
@@ -338,7 +356,7 @@ class Session:
         self.adopt(draft, outcome.sequence, outcome.utterance.actions)
         self.set_paused(draft.paused)
         self.conversation.note(outcome)
-        lines = [self._line(began, "changed", outcome.reply, passing=False)]
+        lines = [self._line(began, "changed", outcome.done, passing=False)]
         playing = outcome.only_steps and len(outcome.ticks) <= PLAYED_TICKS
         for run, part in happened_in(outcome.facts):
             noted = self._note(run, part)
@@ -347,6 +365,8 @@ class Session:
             else:
                 lines += noted
             before = run
+        if outcome.notice is not None:
+            lines.append(self._outlook_line(outcome.notice))
         text, views = outcome.utterance.text, views_of(outcome.facts)
         self._publish_changed(text, outcome.reply, outcome.changes, lines, views)
         if self.after_change is not None:
@@ -388,6 +408,17 @@ class Session:
         """Lines that were worded beside the clock, told as soon as they are there."""
         lines = self._write(worded)
         self._publish_changed(None, lines[-1].text, (), lines)
+
+    def _tell_outlook(self, event: Event) -> None:
+        """That a road which began by itself has no way through; once that is found out."""
+        if not self._ended:
+            line = self._outlook_line(Notice(event, self._around.words.event(event, self.run)))
+            self._publish_changed(None, line.text, (), [line])
+
+    def _outlook_line(self, notice: Notice) -> LogEvent:
+        self._later.settle()
+        event = notice.event
+        return self.log.add(event.tick, event.type, notice.text, event.ids, passing=True)
 
     def _line(self, tick: int, kind: str, text: str, *, passing: bool = True) -> LogEvent:
         self._later.settle()

@@ -9,7 +9,7 @@ from typing import Any
 from service import actions as contract
 from service.sessions.draft import Draft
 from service.sessions.facts import Answerable, Asked, Fact, asked_about, changes_of
-from service.sessions.utterance import Outcome, Utterance
+from service.sessions.utterance import Notice, Outcome, Utterance
 from service.sessions.words import Words
 from service.store import EntryRecord
 from sim.run import Run
@@ -22,18 +22,26 @@ LONG_QUESTIONS = frozenset(("what_if", "why_not", "confidence"))
 
 
 def outcome_of(
-    words: Words, before: Run, utterance: Utterance, facts: tuple[Fact, ...], sequence: int
+    words: Words,
+    before: Run,
+    utterance: Utterance,
+    facts: tuple[Fact, ...],
+    sequence: int,
+    notice: Notice | None = None,
 ) -> Outcome:
-    """The outcome of an utterance that was said in a state."""
+    """The outcome of an utterance that was said in a state; `notice` is told after what was done."""
     if utterance.supposes is not None:
         facts = tuple(
             replace(fact, supposes=utterance.supposes) if isinstance(fact, Asked) else fact for fact in facts
         )
     answers = [words.answer(fact) for fact in facts if isinstance(fact, Answerable)]
+    done = reply(words, facts, answers)
     return Outcome(
         utterance=utterance,
         facts=facts,
-        reply=reply(words, facts, answers),
+        reply=done if notice is None else f"{done} {notice.text}".strip(),
+        done=done,
+        notice=notice,
         answer=answers[-1] if answers else None,
         sequence=sequence,
         changes=changes_of(facts),

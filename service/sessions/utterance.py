@@ -8,6 +8,7 @@ from typing import Any
 from service.actions import Action
 from service.sessions.facts import Fact, Stepped
 from sim.edit import Change
+from sim.events import Event
 from sim.run import Run, Tick
 
 
@@ -19,6 +20,14 @@ class Utterance:
     text: str | None = None
     supposes: str | None = None
     """what its questions were said to be about, beyond their keys (`Asked.supposes`)"""
+
+
+@dataclass(frozen=True, slots=True)
+class Notice:
+    """Something found out about the road that an utterance led to, in words."""
+
+    event: Event
+    text: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,6 +42,9 @@ class Outcome:
     changes: tuple[Change, ...]
     before: Run | None = None
     """the state in which it was said"""
+    done: str = ""
+    """the reply without the notice: what a replay says again"""
+    notice: Notice | None = None
 
     @property
     def ticks(self) -> list[Tick]:

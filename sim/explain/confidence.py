@@ -34,10 +34,9 @@ from sim.plan import Decision
 from sim.planner_names import BUILT_IN, WEIGHING
 from sim.randomness import Stream
 from sim.road import Board, bits, board_of
-from sim.rules import beside
 from sim.run import Run, advance
 from sim.search.costs import weights
-from sim.search.reach import steps_left
+from sim.search.leading import leading_on
 from sim.timeline import Timeline
 from sim.world import World
 
@@ -262,7 +261,7 @@ class _Futures:
         if self.work < PATIENCE.get(self.start.config.planner, 0):
             return None  # most are done by now, and the proof would cost more than they did
         if self._leading_on is None:
-            self._leading_on = _leading_on(self.start)
+            self._leading_on = leading_on(self.start.world, self.start.config)
         return None if self._leading_on[ticks] >> world.av & 1 else (None, ticks)
 
     def _after(self, node: _Node) -> list[tuple[float, _Node]]:
@@ -342,26 +341,6 @@ def _drawn(near: Board, share: float) -> list[tuple[Board, float]]:
 def _share(drawn: Board, near: Board) -> float:
     """A chance under which these of the movers near can be drawn."""
     return 0.0 if not drawn else 1.0 if drawn == near else 0.5
-
-
-def _leading_on(run: Run) -> list[Board]:
-    """The cells from which the goal may still be reached, by ticks from now.
-
-    Cells left out are proved hopeless, whoever reacts: that changes only the row the vehicle is in. So the
-    rows before it go on as foretold until it enters them, and its own row is taken to be free of movers.
-    """
-    percept = perceive(run.world, run.config)
-    road, limit = percept.road, steps_left(run.config, percept.episode_tick)
-    forecast = foretell(percept, limit)
-    free, goal = road.all & ~forecast.fixed, road.row(0)
-    boards = [goal & free]
-    for ahead in reversed(range(limit)):
-        there = boards[-1]
-        entered = there & ~forecast.slices[ahead].occupied
-        within = beside(there, road.left_edge, road.right_edge)
-        before = beside(entered, road.left_edge, road.right_edge) << road.columns
-        boards.append((goal | within | before) & free)
-    return boards[::-1]
 
 
 def _pick(ways: list[tuple[float, _Node]], draw: float) -> _Node:

@@ -2,21 +2,30 @@
 
 Read off the course that the run carries (`sim.course`), so nothing is driven again. What cannot be known for
 certain is left out: the best, and until when a way was open, are for roads that nobody changed on the
-way and on which nothing hung on who gives way.
+way and on which nothing hung on who gives way or brakes. Where movers react, ways are searched with their
+reactions (`sim.optimum.least`), and what takes too long to find out is left out as well.
 """
 
 from __future__ import annotations
 
+from bisect import bisect_left
+from contextlib import suppress
 from dataclasses import dataclass, replace
+from typing import Final
 
 from sim.course import Course, Sake
 from sim.forecast import foretell
 from sim.kinds import Move, Outcome
-from sim.optimum.least import least_ticks
+from sim.optimum.least import can_arrive, least_ticks
 from sim.perceive import perceive
 from sim.run import Run
-from sim.search.reach import steps_left
+from sim.search.reach import reach, steps_left
+from sim.search.reactive import ImpatientError
+from sim.transition import transition
 from sim.world import Cause
+
+STATES: Final = 3_000
+"""States that each search of reactions may look at; two tenths of a second."""
 
 QUICK_CELLS = 512
 """On roads up to this size an arrival or a crash is summed up in a fraction of a millisecond."""
@@ -31,7 +40,7 @@ class Summary:
     sakes: tuple[tuple[Sake, int], ...]
     """detours by whose sake, in the order they first came"""
     best: int | None
-    """least ticks from the beginning; None where there is no way, or where it is not certain"""
+    """least ticks from the beginning; None where there is no way, or where it is not certain, or not found"""
     cause: Cause | None
     """of a crash"""
     free: bool | None
@@ -40,8 +49,12 @@ class Summary:
     """of a crash: whether a way to the goal was open a tick before; None where it is not certain"""
     open_until: int | None
     """of STUCK: the last tick of the episode at which a way was open; None as for `best`"""
+    open_known: bool
+    """of STUCK: whether `open_until` was found out, so that None means never"""
+    repeated: bool
+    """of STUCK: whether a situation repeated; else the ticks ran out"""
     certain: bool
-    """whether nobody changed the road on the way, and nothing hung on who gives way"""
+    """whether nobody changed the road on the way, and nothing hung on who gives way or brakes"""
 
     @property
     def detours(self) -> int:
@@ -64,23 +77,31 @@ def summary(run: Run) -> Summary:
     whole = course.start is not None and course.start.tick == world.episode_start
     certain = course.certain and whole and not course.changed
     free = open_before = best = open_until = None
+    open_known = False
     if course.start is not None and certain:
-        best = least_ticks(_at_first(run, course))
+        with suppress(ImpatientError):
+            best = least_ticks(_at_first(run, course), STATES)
     if world.outcome is Outcome.CRASH and course.last is not None:
         before = replace(run, world=course.last, queue=())
         free = any(foretell(perceive(before.world, run.config), 1).own_steps())
-        open_before = least_ticks(before) is not None if course.certain else None
+        with suppress(ImpatientError):
+            open_before = can_arrive(before, STATES) if course.certain else None
     if world.outcome is Outcome.STUCK and certain:
-        open_until = _open_until(run, course)
+        with suppress(ImpatientError):
+            open_until = _open_until_reacting(run, course) if run.config.reacting else _open_until(run, course)
+            open_known = True
+    ticks = (world.tick if world.ended is None else world.ended) - world.episode_start
     return Summary(
         outcome=world.outcome,
-        ticks=(world.tick if world.ended is None else world.ended) - world.episode_start,
+        ticks=ticks,
         sakes=course.sakes,
         best=best,
         cause=world.cause,
         free=free,
         open_before=open_before,
         open_until=open_until,
+        open_known=open_known,
+        repeated=world.outcome is Outcome.STUCK and ticks <= run.config.max_ticks,
         certain=certain,
     )
 
@@ -90,7 +111,22 @@ def long_to_tell(run: Run) -> bool:
     world = run.world
     if world.outcome is Outcome.RUNNING:
         return False
-    return world.outcome is Outcome.STUCK or world.road.columns * world.road.rows > QUICK_CELLS
+    if world.outcome is Outcome.STUCK or world.road.columns * world.road.rows > QUICK_CELLS:
+        return True
+    return run.config.reacting and not _settled(run)
+
+
+def _settled(run: Run) -> bool:
+    """Whether an end on a road with movers that react is summed up without a search of their reactions."""
+    course = run.course
+    if run.world.outcome is not Outcome.SUCCESS or run.config.courtesy:
+        return False
+    if course.start is None or course.changed or not course.certain:
+        return True
+    first = _at_first(run, course)
+    rows = first.world.av // first.world.road.columns
+    forecast = foretell(perceive(first.world, first.config), max(1, rows))
+    return reach(forecast, 1 << forecast.ego, rows).ticks is not None
 
 
 def _at_first(run: Run, course: Course) -> Run:
@@ -117,6 +153,21 @@ def _open_until(run: Run, course: Course) -> int | None:
         if tick < len(cells) and reaching >> cells[tick] & 1:
             return tick
     return None
+
+
+def _open_until_reacting(run: Run, course: Course) -> int | None:
+    """The same where movers react: a way that is open at a tick of a drive was open at those before.
+
+    Raises `ImpatientError`.
+    """
+    worlds = [_at_first(run, course).world]
+    for move in course.made():
+        worlds.append(transition(worlds[-1], move, run.config))
+    worlds.pop()  # nothing was decided in it
+    first_closed = bisect_left(
+        worlds, True, key=lambda world: not can_arrive(replace(run, world=world, queue=()), STATES)
+    )
+    return first_closed - 1 if first_closed else None
 
 
 def _cells(start: int, moves: tuple[Move, ...], columns: int) -> list[int]:

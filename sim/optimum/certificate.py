@@ -16,7 +16,7 @@ Movers that react to the vehicle, by giving way or by braking, are searched with
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import Final
@@ -90,15 +90,20 @@ def _blocked(run: Run, forecast: Forecast, limit: int) -> Blocked:
     names = sorted({*run.world.movers.values(), *run.world.hazards.values()})
     if not opens(run, names):
         return Blocked((), True)  # not even an empty road is long enough in time
-    candidate: Iterable[str] = _met(forecast, limit)
+    candidate: Iterable[str] = met_least(forecast, limit)
     if not opens(run, candidate):
         candidate = spared(names, lambda gone: opens(run, gone))
-    kept = spared(sorted(candidate), lambda gone: opens(run, gone))
+    return Blocked(*thinned(candidate, lambda gone: opens(run, gone)))
+
+
+def thinned(candidate: Iterable[str], opens: Callable[[Sequence[str]], bool]) -> tuple[tuple[str, ...], bool]:
+    """A minimal part of what opens a road that still does; and whether every proper part of it was tried."""
+    kept = spared(sorted(candidate), opens)
     if len(kept) > MAX_TRIED:
-        return Blocked(tuple(kept), False)
+        return tuple(kept), False
     parts = (part for size in range(1, len(kept)) for part in combinations(kept, size))
-    smaller = next((part for part in parts if opens(run, part)), None)
-    return Blocked(tuple(kept) if smaller is None else smaller, True)
+    smaller = next((part for part in parts if opens(part)), None)
+    return tuple(kept) if smaller is None else smaller, True
 
 
 def _any_step(board: Board, forecast: Forecast) -> Board:
@@ -107,7 +112,7 @@ def _any_step(board: Board, forecast: Forecast) -> Board:
     return beside(board | board >> road.columns, road.left_edge, road.right_edge)
 
 
-def _met(forecast: Forecast, limit: int) -> set[str]:
+def met_least(forecast: Forecast, limit: int) -> set[str]:
     """The things that a way with the fewest collisions meets."""
     goal = forecast.road.row(0)
     start = 1 << forecast.ego

@@ -12,6 +12,7 @@ from sim.perceive import perceive
 from sim.run import Run
 from sim.search.astar import cheapest
 from sim.search.costs import weights
+from sim.search.leading import leading_on
 from sim.search.reach import flooded, reach, shortest_plan, steps_left
 from sim.search.reactive import ReactiveSearch
 from sim.search.spacetime import SpaceTime
@@ -25,8 +26,11 @@ def foreseen(run: Run) -> tuple[Forecast, int]:
     return foretell(perceive(run.world, run.config), max(1, limit)), limit
 
 
-def least_ticks(run: Run) -> int | None:
-    """Ticks of the quickest way from here to row 0 that meets nothing; None: there is no way in time."""
+def least_ticks(run: Run, patience: int | None = None) -> int | None:
+    """Ticks of the quickest way from here to row 0 that meets nothing; None: there is no way in time.
+
+    Where movers react, `patience` is how many states are searched; then it raises `ImpatientError`.
+    """
     if run.world.outcome is Outcome.SUCCESS:
         return 0
     if run.world.outcome is not Outcome.RUNNING:
@@ -36,7 +40,9 @@ def least_ticks(run: Run) -> int | None:
     if _settled(run, ticks):
         return ticks
     bound = _bound(run, ticks, limit)
-    quicker = _search(run, forecast).least_ticks(bound) if _passable(forecast) else None
+    quicker = None
+    if ticks is not None or _may_lead_on(run, forecast):
+        quicker = ReactiveSearch(run.world, run.config, forecast, patience).least_ticks(bound)
     return ticks if quicker is None and run.config.courtesy == 0.0 else quicker
 
 
@@ -51,20 +57,23 @@ def quickest_plan(run: Run) -> tuple[Move, ...] | None:
     if _settled(run, ticks):
         return plan
     bound = _bound(run, ticks, limit)
-    quicker = _search(run, forecast).plan(bound) if _passable(forecast) else None
+    quicker = None
+    if ticks is not None or _may_lead_on(run, forecast):
+        quicker = ReactiveSearch(run.world, run.config, forecast).plan(bound)
     return plan if quicker is None and run.config.courtesy == 0.0 else quicker
 
 
-def can_arrive(run: Run) -> bool:
-    """Whether the goal can be reached from here in time."""
+def can_arrive(run: Run, patience: int | None = None) -> bool:
+    """Whether the goal can be reached from here in time. `patience`: as for `least_ticks`."""
     if run.world.outcome is not Outcome.RUNNING:
         return run.world.outcome is Outcome.SUCCESS
     forecast, limit = foreseen(run)
     if run.config.courtesy == 0.0 and reach(forecast, 1 << forecast.ego, limit).ticks is not None:
         return True
-    if not run.config.reacting or not _passable(forecast):
+    if not run.config.reacting or not _may_lead_on(run, forecast):
         return False
-    return _search(run, forecast).least_ticks(limit) is not None
+    search = ReactiveSearch(run.world, run.config, forecast, patience)
+    return search.least_ticks(limit) is not None
 
 
 def least_cost(run: Run) -> int | None:
@@ -94,10 +103,8 @@ def _bound(run: Run, ticks: int | None, limit: int) -> int:
     return limit if ticks is None or run.config.courtesy else ticks - 1
 
 
-def _passable(forecast: Forecast) -> bool:
-    """Whether a way leads past the fixed hazards, were there no movers."""
-    return bool(flooded(forecast, 1 << forecast.ego) & forecast.road.row(0))
-
-
-def _search(run: Run, forecast: Forecast) -> ReactiveSearch:
-    return ReactiveSearch(run.world, run.config, forecast)
+def _may_lead_on(run: Run, forecast: Forecast) -> bool:
+    """Whether there may be a way for all that is proved at a small part of what the search would cost."""
+    if not flooded(forecast, 1 << forecast.ego) & forecast.road.row(0):
+        return False  # the fixed hazards alone close the road
+    return bool(leading_on(run.world, run.config)[0] >> run.world.av & 1)

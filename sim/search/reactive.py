@@ -25,6 +25,10 @@ from sim.world import World
 _MOVES = tuple(Move)
 
 
+class ImpatientError(Exception):
+    """The search was given up: more states were met than were to be looked at."""
+
+
 class Row(NamedTuple):
     """What one row holds: its number, and the movers of that row as a board of its columns."""
 
@@ -45,9 +49,14 @@ class ReactiveSearch:
     world: World
     config: Config
     forecast: Forecast
+    patience: int | None = None
+    """states that are looked at before it is given up; None: all there are"""
 
     def least_ticks(self, limit: int) -> int | None:
-        """Ticks of a quickest way to row 0 within `limit` ticks; None if there is none."""
+        """Ticks of a quickest way to row 0 within `limit` ticks; None if there is none.
+
+        Raises `ImpatientError`, as `plan` does.
+        """
         found = self._layers(limit)
         return None if found is None else len(found) - 1
 
@@ -79,8 +88,12 @@ class ReactiveSearch:
         layers: list[Layer] = [{first: 1 << column}]
         if number == 0:
             return layers
+        looked_at = 0
         while len(layers) <= limit:
             after: Layer = {}
+            looked_at += sum(columns.bit_count() for columns in layers[-1].values())
+            if self.patience is not None and looked_at > self.patience:
+                raise ImpatientError
             for row, columns in layers[-1].items():
                 for start in bits(columns):
                     for _, there, end in self._steps(row, start, len(layers) - 1):

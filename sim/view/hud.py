@@ -70,7 +70,9 @@ def draw_verdict(picture: pygame.Surface, run: Run, unit_px: int) -> None:
 def _told(run: Run) -> str:
     world = run.world
     if world.cause is not None:
-        verb = "through" if world.cause.how == "swap" else "into"
+        verb = {"swap": "through", "cross": "cut off by"}.get(world.cause.how, "into")
         return f"{verb} {' and '.join(world.cause.ids)}"
     ticks = (world.ended or world.tick) - world.episode_start
+    if world.outcome is Outcome.STUCK and ticks <= run.config.max_ticks:
+        return f"the same again after {ticks} ticks"
     return f"{ticks} ticks, {ticks * run.config.step_seconds:g} s"

@@ -103,6 +103,8 @@ LINES: Final[dict[str, Colour]] = {
     "planner_failed": OUTCOMES["crash"],
     "arrived": OUTCOMES["success"],
     "stuck": OUTCOMES["stuck"],
+    "no_way": OUTCOMES["stuck"],
+    "way_open": OUTCOMES["success"],
     "held_back": OUTCOMES["stuck"],
     "changed": (120, 170, 255),
     "taught": (120, 170, 255),

@@ -64,6 +64,23 @@ test("what happened on the way of a long step is told before where it has led", 
   assert.deepEqual(logChange([], message).map(({ text }) => text), ["Reached the goal.", "Advanced 10 ticks.", "vehicle-1 is disabled."]);
 });
 
+test("what is found out about a road is one line, in the reply of a change or by itself", () => {
+  const closed = logEvent(5, { type: "no_way", text: "There is no way through." });
+  const message = {
+    sequence: 3,
+    text: "add a wall",
+    reply: "Added 3 barriers. There is no way through.",
+    changes: [{ path: "barriers", before: 0, after: 3 }],
+    events: [closed],
+    state: wireState(),
+  };
+  const log = logChange([], message);
+  assert.deepEqual(log.map(({ text }) => text), [message.reply]);
+  assert.equal(logEvents(log, [closed]), log);
+  const later = logChange(log, { ...message, text: null, reply: closed.text, changes: [], events: [logEvent(6, { ...closed, number: 6 })] });
+  assert.deepEqual(later.map(({ type, text }) => [type, text]), [["change", message.reply], ["no_way", closed.text]]);
+});
+
 test("pausing is a quiet note, stepping is told by its ticks alone", () => {
   const base = { text: null, events: [logEvent(9, { type: "changed" })], state: wireState() };
   const paused = [{ path: "paused", before: false, after: true }];

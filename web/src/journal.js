@@ -68,8 +68,11 @@ export function logChange(log, message) {
   const events = message.events ?? [];
   const paths = (message.changes ?? []).map(({ path }) => path);
   const number = events.reduce((latest, event) => Math.max(latest, event.number), 0);
-  const others = events.filter(({ type }) => !TOLD_BY_CHANGE.has(type) && !TOLD_BY_TICK.has(type)).map(lineOf);
+  const kept = events.filter(({ type }) => !TOLD_BY_CHANGE.has(type) && !TOLD_BY_TICK.has(type));
+  const others = kept.map(lineOf);
   const last = log.at(-1);
+  // What was found out beside the clock: the reply is the last event's own text.
+  if (message.text === null && paths.length === 0 && message.reply === kept.at(-1)?.text) return logEvents(log, events);
   if (last && paths.length > 0 && paths.every((path) => path === "tick")) {
     // A step is told by its ticks. Its number is kept, so that it is not written after a reconnect either.
     return trimmed([...log.slice(0, -1), { ...last, number: Math.max(last.number, number) }, ...others]);
@@ -87,7 +90,8 @@ export function logChange(log, message) {
   };
   // What happened on the way of a long step comes before the line that tells where it has led.
   const onTheWay = others.filter(({ from }) => from < tick);
-  return trimmed([...log, ...onTheWay, line, ...others.filter(({ from }) => from >= tick)]);
+  const after = others.filter(({ from, text }) => from >= tick && !message.reply.includes(text));
+  return trimmed([...log, ...onTheWay, line, ...after]);
 }
 
 /** @param {LogEvent} event @returns {Line} */

@@ -98,7 +98,7 @@ export const INITIAL = {
 };
 
 /** Event types that are worth saying aloud, not only writing down. */
-const SPOKEN = new Set(["crashed", "arrived", "stuck"]);
+const SPOKEN = new Set(["crashed", "arrived", "stuck", "no_way"]);
 
 /** @param {State} state @param {Event} event @returns {State} */
 export function reduce(state, event) {
@@ -143,6 +143,7 @@ function after(state, event) {
         prior: null,
         log: logChange(state.log, event),
         highlight: null,
+        ...(event.text === null && SPOKEN.has(String(event.events?.at(-1)?.type)) ? { announcement: event.reply } : {}),
       };
     case "state":
       return { ...state, world: worldOf(event.state), prior: null, steps: stepsAfter(state.steps, event.state.undo, null) };

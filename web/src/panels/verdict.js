@@ -13,6 +13,9 @@ const ENDS = /** @type {Record<string, {title: string, tone: string}>} */ ({
   stuck: { title: "Stuck", tone: "bad" },
 });
 
+/** Events that tell of a road and not of an end. */
+const OF_ROADS = new Set(["episode_started", "road_kept", "no_way", "way_open"]);
+
 /** @param {HTMLElement} host @param {Page} page @returns {Panel} */
 export function createVerdict(host, page) {
   const over = make("div", { class: "verdict", hidden: true });
@@ -63,6 +66,6 @@ function contentOf(state) {
   }
   const { world } = state;
   if (world === null) return { title: "Waiting", tone: "plain", text: "The service cannot be reached yet." };
-  const last = state.log.findLast(({ tone, type }) => tone === "event" && type !== "episode_started" && type !== "road_kept");
+  const last = state.log.findLast(({ tone, type }) => tone === "event" && !OF_ROADS.has(type));
   return { ...ENDS[world.status], text: last?.text };
 }
