@@ -96,9 +96,7 @@ def _hold_back(boards, v, i, walking):
     at = np.int64(v[WORD * LANES + i]) * PLANES * LANES + i
     standing = v[HELD_BACK * LANES + i] << v[SHIFT * LANES + i]
     right, left = boards[at + RIGHT * LANES], boards[at + LEFT * LANES]
-    motion = brake(
-        Motion(right, left, v[CAME_RIGHT * LANES + i], v[CAME_LEFT * LANES + i]), standing, _ALL
-    )
+    motion = brake(Motion(right, left, v[CAME_RIGHT * LANES + i], v[CAME_LEFT * LANES + i]), standing, _ALL)
     boards[at + RIGHT * LANES] = motion.right
     boards[at + LEFT * LANES] = motion.left
     if walking and boards[at + WALKERS * LANES] & standing:
