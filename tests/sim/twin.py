@@ -192,6 +192,15 @@ def outlook(
     return av, moved, now.holds(av) and not crashes(now, av, moved, swept=swept)
 
 
+def will_be_free(
+    now: Position, moved: tuple[Body, ...], cell: Cell, attentive: Collection[Cell] | None = None
+) -> bool:
+    """Whether the vehicle may be in a cell next, to itself or one that a move leads to; as `outlook`."""
+    offset = (cell[0] - now.av[0], cell[1] - now.av[1])
+    move = next(move for move, step in STEPS.items() if step == offset)
+    return outlook(now, move, moved, attentive)[2]
+
+
 def priority_move(
     now: Position,
     moved: tuple[Body, ...],
