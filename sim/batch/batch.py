@@ -85,7 +85,7 @@ After = Literal["next", "restart", "stop"]
 or nothing."""
 
 BatchPlanner = Literal["priority", "exact", "weighted", "astar", "dijkstra"]
-"""The rule; the least ticks; the least cost, which is what `astar` and `dijkstra` decide, under three names."""
+"""The rule; the least ticks; the least cost by three names, since `astar` and `dijkstra` decide the same."""
 
 _KERNELS: Final[dict[str, Any]] = {
     "exact": exact_moves,
@@ -212,7 +212,7 @@ class Batch:
     def run(self, ticks: int, planner: BatchPlanner = "priority", *, threads: int = 1) -> None:
         """So many ticks of every lane, decided by a planner, on so many threads.
 
-        Raises `ValueError` for a planner that there is not, for less than 0 ticks, and for less than 1 thread.
+        Raises `ValueError` for a planner that there is not, less than 0 ticks, and less than 1 thread.
         """
         _known(planner)
         if ticks < 0:
@@ -257,8 +257,8 @@ class Batch:
     def moves(self, planner: BatchPlanner, *, threads: int = 1) -> NDArray[np.uint8]:
         """What a planner would do now in every lane (shape: lanes); waits where a result stands.
 
-        Raises `ValueError` for `priority`, which decides within the tick, for a planner that there is not, and
-        for less than 1 thread.
+        Raises `ValueError` for `priority`, which decides within the tick, for a planner that there is not,
+        and for less than 1 thread.
         """
         return self._plan(planner, threads)[0]
 

@@ -20,7 +20,7 @@ from typing import Any, Final
 
 import numba
 import numpy as np
-from numba.cpython.unsafe.numbers import trailing_zeros
+from numba.cpython.unsafe import numbers
 
 from sim import randomness, rules
 
@@ -101,7 +101,10 @@ spread_back = _with_names(rules.spread_back)
 beside = _with_names(rules.beside)
 
 
+_trailing_zeros: Any = numbers.trailing_zeros
+
+
 @compiled
 def first_bit(word):
     """The number of the lowest bit of a word that has one."""
-    return np.int64(trailing_zeros(word))
+    return np.int64(_trailing_zeros(word))

@@ -58,8 +58,8 @@ STAY: Final = 5
 
 NOW_RIGHT, NOW_LEFT, NOW_WALKERS, ALL_FIXED, RESTING_IN_HOLES, YIELDS, BRAKES, VEHICLE = range(8)
 BOARDS: Final = 8
-"""Rows of the scratch board of a roll-out (shape: 8, words): the movers, what they meet, who gives way and who
-brakes in the first tick, and the vehicle."""
+"""Rows of the scratch board of a roll-out (shape: 8, words): the movers, what they meet, who gives way and
+who brakes in the first tick, and the vehicle."""
 BLOCKED, CAME_RIGHT, CAME_LEFT, CUT_LEFT, CUT_RIGHT, MOVERS, REACHED, NEEDED = range(8)
 FIELDS: Final = 8
 """Planes of a roll-out (shape: ticks, 8, words); of tick k: after k + 1 ticks, the last two after k."""
@@ -73,7 +73,7 @@ def steps_left(lane_block, lane, rows):
 
 @compiled
 def _drawn(key, tick, cell, bit, last_bit, share):
-    """The cells beside the vehicle, as bits of its row, whose movers a draw makes react to it in this tick."""
+    """The cells beside the vehicle, as bits of its row, whose movers react to it in this tick by a draw."""
     draws, beside = word_at(key, tick), _ZERO
     if fraction(word_at(draws, cell - 1)) < share:
         beside |= (bit & ~_ONE) >> _ONE
@@ -218,7 +218,7 @@ def expand(layers, ahead, first, last, columns, left_edge, right_edge):
 
 @compiled
 def search(now, layers, row, last, episode_tick, limit, columns, left_edge, right_edge, swept, stands):
-    """Roll and expand until the goal is met. With `stands` the vehicle stays in the first tick, which is free.
+    """Roll and expand until the goal is met. With `stands` the vehicle stays in the first tick, and may.
 
     Returns (ticks, −1 if it is not met; layers rolled; ticks for which one can keep clear of collisions).
     """
@@ -400,7 +400,7 @@ def exact_moves(state, lanes, shares, columns, rows, left_edge, right_edge, coun
 
 @compiled
 def drivable(block, lane_block, lane, columns, rows, shares):
-    """Whether a lane's vehicle can reach row 0 in time, if nobody brakes or, after the first tick, gives way."""
+    """Whether a lane's vehicle can reach row 0 in time if nobody gives way after the first tick or brakes."""
     rows_per_word = 64 // columns
     words = -(-rows // rows_per_word)
     first_column = np.uint64(0)

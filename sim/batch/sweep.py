@@ -215,7 +215,8 @@ def weighted_moves(state, lanes, shares, charges, columns, rows, left_edge, righ
         swept = lane_block[SWEPT * LANES + inner]
         cell = np.int64(lane_block[CELL * LANES + inner])
         row = cell // columns
-        least, move, lasted = FAR, STAY, 0
+        least, lasted = FAR, 0
+        move = np.intp(STAY)
         # Once for every move; where a mover brakes for a vehicle that stays, once more for staying.
         for stands in (False, True):
             if stands:
@@ -248,10 +249,11 @@ def weighted_moves(state, lanes, shares, charges, columns, rows, left_edge, righ
                 if stands:
                     totals[:STAY] = FAR
                 if totals.min() < least:
-                    least, move = totals.min(), np.argmin(totals)
+                    move = np.argmin(totals)
+                    least = totals[move]
             elif least == FAR and not stands:
                 move, lasted = longest_survival(now, layers, rolled, last, columns, left_edge, right_edge)
             elif least == FAR and kept_clear > lasted:
-                move = STAY
+                move = np.intp(STAY)
         moves[lane] = move
         costs[lane] = least if least < FAR else -1

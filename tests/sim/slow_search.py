@@ -9,14 +9,18 @@ from dataclasses import replace
 
 from sim.kinds import Cell, Move
 from sim.search.costs import Weights
-from tests.sim.twin import STEPS, Body, Position, moved_bodies, will_be_free
+from tests.sim.twin import STEPS, Body, Position, braked_bodies, moved_bodies, will_be_free
 
 
 class Future:
-    """The bodies of a moment, rolled on by the twin, and where the vehicle may step."""
+    """The bodies of a moment, rolled on by the twin, and where the vehicle may step.
 
-    def __init__(self, now: Position) -> None:
+    Nobody brakes; or, with `standing`, all do in the first tick, in which the vehicle stays.
+    """
+
+    def __init__(self, now: Position, *, standing: bool = False) -> None:
         self.now = now
+        self.standing = standing
         self.limit = max(0, 10 * now.rows + 1 - now.episode_tick)
         self._moments = [now]
 
@@ -24,6 +28,8 @@ class Future:
         while len(self._moments) <= ahead:
             last = self._moments[-1]
             bodies = moved_bodies(last)
+            if self.standing and len(self._moments) == 1:
+                bodies = braked_bodies(last, bodies, {body.cell for body in last.bodies})
             self._moments.append(replace(last, bodies=bodies, episode_tick=last.episode_tick + 1))
         return self._moments[ahead]
 
@@ -37,7 +43,7 @@ class Future:
         found = []
         for move, (columns, rows) in STEPS.items():
             there = (cell[0] + columns, cell[1] + rows)
-            if will_be_free(moment, later, there):
+            if will_be_free(moment, later, there, attentive=()):
                 found.append((move, there))
         return found
 
@@ -76,8 +82,19 @@ def step_cost(future: Future, weights: Weights, ahead: int, move: Move, there: C
 
 
 def totals(now: Position, weights: Weights, horizon: int) -> dict[Move, int | None]:
-    """What every move costs with the cheapest way on that ends within `horizon` ticks: the whole table."""
-    future = Future(now)
+    """What every move costs with the cheapest way on that ends within `horizon` ticks: the whole table.
+
+    Where a mover brakes for a vehicle that stays, staying is looked at by itself.
+    """
+    found = _table(Future(now), weights, horizon)
+    standing = Future(now, standing=True)
+    if standing.bodies(1) != moved_bodies(now):
+        found[Move.STAY] = _table(standing, weights, horizon)[Move.STAY]
+    return found
+
+
+def _table(future: Future, weights: Weights, horizon: int) -> dict[Move, int | None]:
+    now = future.now
     horizon = min(horizon, future.limit)
     columns, rows = range(now.columns), range(now.av[1] + 1)
     rest: dict[Cell, int] = {(column, 0): 0 for column in columns}

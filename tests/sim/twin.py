@@ -159,7 +159,7 @@ def together(one: tuple[Cell, Cell], one_size: Size, other: tuple[Cell, Cell], o
 
 
 def crashes(now: Position, av: Cell, later: Collection[Body], *, swept: bool) -> bool:
-    """Whether the vehicle, going to the cell `av` in this tick, collides. Without `swept` only cells count."""
+    """Whether the vehicle, going to the cell `av` in this tick, collides. Not `swept`: cells alone count."""
     if av in now.fixed:
         return True
     for before, body in zip(now.bodies, later, strict=True):
@@ -190,6 +190,15 @@ def outlook(
         braking = {body.cell for body in now.bodies} if attentive is None else attentive
         moved = braked_bodies(now, moved, braking)
     return av, moved, now.holds(av) and not crashes(now, av, moved, swept=swept)
+
+
+def will_be_free(
+    now: Position, moved: tuple[Body, ...], cell: Cell, attentive: Collection[Cell] | None = None
+) -> bool:
+    """Whether the vehicle may be in a cell next, to itself or one that a move leads to; as `outlook`."""
+    offset = (cell[0] - now.av[0], cell[1] - now.av[1])
+    move = next(move for move, step in STEPS.items() if step == offset)
+    return outlook(now, move, moved, attentive)[2]
 
 
 def priority_move(

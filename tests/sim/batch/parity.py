@@ -39,7 +39,8 @@ def mixed_configs(seed: int, count: int) -> Iterator[list[Config]]:
     draw = random.Random(seed)
     while count > 0:
         usual = draw.random() < 1 / 3
-        columns, rows = (8, 30) if usual else (draw.randint(3, 64), draw.randint(4, 60))
+        furthest = 512 if draw.random() < 1 / 20 else 60
+        columns, rows = (8, 30) if usual else (draw.randint(3, 64), draw.randint(4, furthest))
         default_rules = draw.random() < 1 / 4
         group: list[Config] = []
         while len(group) < min(LANES_OF_A_SIZE, count):

@@ -18,7 +18,7 @@ pytestmark = pytest.mark.xdist_group("compiled")
 def parting(config: Config) -> int:
     """The tick at which the rule and the exact planner first differ, one world at a time; −1: never."""
     one, other = Run.start(config), Run.start(replace(config, planner="exact"))
-    while one.world.outcome is Outcome.RUNNING:
+    while one.world.outcome is other.world.outcome is Outcome.RUNNING:
         tick = one.world.tick
         one, other = advance(one).run, advance(other).run
         if one.world.av != other.world.av:
@@ -31,3 +31,12 @@ def test_the_first_difference_is_found() -> None:
     found = first_divergence(configs, "priority", "exact")
     assert found.tolist() == [parting(config) for config in configs]
     assert (first_divergence(configs, "weighted", "weighted") == -1).all()
+
+
+def test_who_has_ended_decides_no_more() -> None:
+    """Of two that stand in the same cage, one is stuck soon, and the other stands there to the limit."""
+    dense = Config(columns=5, rows=8, barriers=14, vehicles=0, potholes=0)
+    configs = [replace(dense, seed=seed) for seed in range(40)]
+    found = first_divergence(configs, "priority", "exact")
+    assert found.tolist() == [parting(config) for config in configs]
+    assert found.tolist() == first_divergence(configs, "exact", "priority").tolist()

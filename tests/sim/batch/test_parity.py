@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from sim.batch import Batch
+from sim.batch import Batch, BatchPlanner
 from sim.config import Config
-from sim.judge import collisions, outcome
-from sim.kinds import Kind, Move, Outcome
-from sim.run import Run, Tick, advance, commit
+from sim.kinds import Kind, Mode, Move, Outcome
+from sim.run import Run, Tick, advance, decide
+from sim.transition import transition
 from sim.world import World
 from tests.sim.batch.parity import difference, mixed_configs
-from tests.sim.roads import run_on, worlds
+from tests.sim.roads import road, run_on, worlds
 
 # What they use is compiled at first use, once in every worker that has one of them.
 pytestmark = pytest.mark.xdist_group("compiled")
@@ -34,11 +35,25 @@ def test_the_largest_road() -> None:
     assert difference([config], 60) is None
 
 
+RULES = st.sampled_from(
+    [
+        {},
+        {"collision": "cell", "attentive": 0.0, "repetition": False},
+        {"collision": "cell"},
+        {"attentive": 0.0},
+        {"attentive": 0.5},
+        {"courtesy": 0.5, "attentive": 0.5, "collision": "cell"},
+        {"courtesy": 0.5},
+    ]
+)
+MOVES = list(Move)
+
+
 @settings(max_examples=120)
-@given(worlds(), st.sampled_from([0.0, 0.5]))
-def test_any_moment_goes_on_the_same_way(world: World, courtesy: float) -> None:
+@given(worlds(), RULES)
+def test_any_moment_goes_on_the_same_way(world: World, rules: dict[str, Any]) -> None:
     """Also with movers held by potholes, which no fresh road has."""
-    run = run_on(world, courtesy=courtesy, reset_delay_s=1.0)
+    run = run_on(world, **rules, reset_delay_s=1.0)
     batch = Batch.of([run])
     for _ in range(12):
         assert batch.digest(0) == run.world.digest()
@@ -46,23 +61,155 @@ def test_any_moment_goes_on_the_same_way(world: World, courtesy: float) -> None:
         run = advance(run).run
 
 
-def moved(run: Run, move: Move) -> World:
-    """The world after a move that nothing held back, judged."""
-    after = commit(run.world, move, run.config)
-    crashes = collisions(run.world, after)
-    result = outcome(after, crashes, run.config.max_ticks)
-    ended = None if result is Outcome.RUNNING else after.tick
-    return replace(after, outcome=result, ended=ended)
-
-
 @settings(max_examples=150)
-@given(worlds(), st.sampled_from(list(Move)))
-def test_any_move_ends_as_the_judge_says(world: World, move: Move) -> None:
-    run = run_on(world)
+@given(worlds(), st.sampled_from(MOVES), RULES)
+def test_any_move_ends_as_the_judge_says(world: World, move: Move, rules: dict[str, Any]) -> None:
+    run = run_on(world, **rules)
     batch = Batch.of([run])
-    batch.step(np.array([list(Move).index(move)], np.uint8))
+    batch.step(np.array([MOVES.index(move)], np.uint8))
     possible = world.road.moved(world.av, move) is not None
-    assert batch.digest(0) == moved(run, move if possible else Move.STAY).digest()
+    assert batch.digest(0) == transition(world, move if possible else Move.STAY, run.config).digest()
+
+
+@settings(max_examples=60)
+@given(worlds(max_columns=12, max_rows=14), RULES, st.integers(0, 3), st.integers(0, 63))
+def test_planners_decide_the_same_along_any_way(
+    world: World, rules: dict[str, Any], buffer: int, waits: int
+) -> None:
+    """Least ticks and least cost with their moves, also after waits that no planner would choose."""
+    for live, name in (("exact", "exact"), ("dijkstra", "weighted")):
+        run = run_on(world, **rules, safety_buffer=buffer, planner=live)
+        batch = Batch.of([run])
+        for tick in range(6):
+            decision = decide(run)
+            if decision is None:
+                break
+            assert MOVES[int(batch.moves(name)[0])] is decision.move
+            cost = decision.options[0].cost
+            assert batch.least(name)[0] == (-1 if cost is None else cost)
+            move = Move.STAY if waits >> tick & 1 else decision.move
+            run = replace(run, world=transition(run.world, move, run.config))
+            batch.step(np.array([MOVES.index(move)], np.uint8))
+            assert batch.digest(0) == run.world.digest()
+
+
+def test_what_lies_near_is_charged_on_its_own_side() -> None:
+    """A road's words may have bits that are no cells: nothing spreads through them to the other edge."""
+    rows = [*["." * 9] * 6, ">#.......", "........A", *["." * 9] * 6]
+    run = run_on(road(*rows), preferences=("cautious",), planner="dijkstra")
+    decision = decide(run)
+    assert decision is not None
+    assert Batch.of([run]).least("weighted")[0] == decision.options[0].cost
+
+
+def test_a_mover_brakes_for_a_vehicle_that_stays() -> None:
+    """And the rule, the planners and moves handed in know it."""
+    walled = road(".....", "#####", ".>A#.", ".###.", ".....")
+    for planner, name in (("priority", "priority"), ("exact", "exact"), ("dijkstra", "weighted")):
+        run = run_on(walled, planner=planner, repetition=False)
+        batch = Batch.of([run])
+        batch.run(1, name)
+        run = advance(run).run
+        assert run.world.outcome is Outcome.RUNNING
+        assert batch.digest(0) == run.world.digest()
+    asleep = Batch.of([run_on(walled, attentive=0.0)])
+    asleep.step(np.array([MOVES.index(Move.STAY)], np.uint8))
+    assert asleep.outcomes[0] == list(Outcome).index(Outcome.CRASH)
+
+
+CAGE = road(".....", "#####", ".#A#.", ".###.", ".....")
+
+
+def test_a_situation_that_repeats_is_stuck_at_the_same_tick() -> None:
+    run = run_on(CAGE)
+    batch = Batch.of([run], after="stop")
+    while run.world.outcome is Outcome.RUNNING:
+        run = advance(run).run
+        batch.run(1)
+        assert batch.digest(0) == run.world.digest()
+    assert run.world.outcome is Outcome.STUCK
+    assert run.world.episode_tick < 10
+    assert batch.totals().stuck[0] == 1
+
+
+def test_a_batch_takes_over_what_a_run_has_watched() -> None:
+    """From any moment on, a batch notices a repeated situation when the run does."""
+    for config in (Config(seed=seed, columns=6, rows=12, potholes=16, barriers=6) for seed in range(40)):
+        run = Run.start(config)
+        for _ in range(300):
+            if run.world.outcome is not Outcome.RUNNING:
+                break
+            batch, after = Batch.of([run], after="stop"), run
+            for _ in range(3):
+                after = advance(after).run
+                batch.run(1)
+                if after.world.outcome is Outcome.RUNNING:
+                    assert batch.outcomes[0] == 0
+                else:
+                    assert batch.outcomes[0] == list(Outcome).index(after.world.outcome)
+                    break
+            run = advance(run).run
+
+
+def test_moves_handed_in_are_never_repetitions_and_are_forgotten() -> None:
+    run = Run(run_on(CAGE).config, CAGE, mode=Mode.MANUAL)
+    batch = Batch.of([run], after="stop")
+    stay = np.array([MOVES.index(Move.STAY)], np.uint8)
+    for _ in range(12):
+        run = advance(run).run
+        batch.step(stay)
+        assert batch.digest(0) == run.world.digest()
+    run = replace(run, mode=Mode.AUTO)
+    for _ in range(3):
+        run = advance(run).run
+        batch.run(1)
+        assert batch.digest(0) == run.world.digest()
+    assert batch.outcomes[0] == 0
+
+
+def test_an_episode_begun_again_has_watched_nothing() -> None:
+    batch = Batch.of([run_on(CAGE)], after="restart")
+    run, ticks = run_on(CAGE), 0
+    while run.world.outcome is Outcome.RUNNING:
+        run, ticks = advance(run).run, ticks + 1
+    for episodes in range(1, 5):
+        batch.run(ticks)
+        assert batch.totals().stuck[0] == episodes
+
+
+def test_lanes_of_different_rules_lie_side_by_side() -> None:
+    """Each lane goes the way it goes by itself."""
+    choices = [
+        {"collision": collision, "attentive": attentive, "repetition": repetition}
+        for collision in ("swept", "cell")
+        for attentive in (0.0, 1.0)
+        for repetition in (True, False)
+    ]
+    configs = [
+        Config(seed=seed, columns=6, rows=14, potholes=14, vehicles=14, **rules)
+        for seed in range(12)
+        for rules in choices
+    ]
+    together = Batch(configs)
+    together.run(200)
+    by_rules = [Batch(configs[number :: len(choices)]) for number in range(len(choices))]
+    for number, batch in enumerate(by_rules):
+        batch.run(200)
+        alone = [batch.digest(lane) for lane in range(len(batch))]
+        assert [together.digest(lane) for lane in range(number, len(configs), len(choices))] == alone
+    assert len({tuple(batch.digest(lane) for lane in range(12)) for batch in by_rules}) > len(choices) // 2
+
+
+def test_what_is_measured_by_happens() -> None:
+    """Or the comparisons above would say little."""
+    configs = [Config(seed=seed, columns=6, rows=14, potholes=14, vehicles=14) for seed in range(300)]
+    batch = Batch(configs, after="stop")
+    batch.run_to_end()
+    assert batch.totals().stuck.sum() > 5
+    assert batch.episode_ticks.max() <= 140  # not one of them at the limit of ticks
+    others = Batch([replace(config, collision="cell", repetition=False) for config in configs], after="stop")
+    others.run_to_end()
+    assert (batch.vehicles != others.vehicles).any()
 
 
 def test_many_ticks_in_one_call_are_as_many_calls() -> None:
@@ -141,3 +288,63 @@ def test_a_lane_can_be_looked_at_as_a_world() -> None:
     assert len({thing.id for thing in world.things()}) == sum(world.counts().values())
     tick = advance(Run(Config(seed=3, pedestrians=2, barriers=2), world))
     assert isinstance(tick, Tick)
+
+
+@pytest.mark.parametrize("planner", ["banana", "manual", "Priority", ""])
+def test_a_planner_that_there_is_not_is_refused(planner: Any) -> None:
+    batch = Batch([Config(rows=5)], after="stop")
+    for use in (lambda: batch.run(1, planner), lambda: batch.run_to_end(planner)):
+        with pytest.raises(ValueError, match="priority, exact, weighted, astar or dijkstra"):
+            use()
+    for ask in (batch.moves, batch.least):
+        with pytest.raises(ValueError, match="priority, exact, weighted, astar or dijkstra"):
+            ask(planner)
+    with pytest.raises(ValueError, match="priority, exact"):
+        batch.run(0, planner)
+    assert (batch.episode_ticks == 0).all()
+
+
+def test_the_rule_is_not_asked_ahead_of_the_tick() -> None:
+    batch = Batch([Config()])
+    for ask in (batch.moves, batch.least):
+        with pytest.raises(ValueError, match="within the tick"):
+            ask("priority")
+
+
+@pytest.mark.parametrize("name", ["astar", "dijkstra"])
+def test_planners_that_weigh_costs_go_by_their_own_names(name: BatchPlanner) -> None:
+    configs = [Config(seed=seed, potholes=30, preferences=("cautious",)) for seed in range(30)]
+    batch = Batch(configs, after="stop")
+    assert (batch.moves(name) == batch.moves("weighted")).all()
+    assert (batch.least(name) == batch.least("weighted")).all()
+    assert (batch.least(name) != batch.least("exact")).any()
+    batch.run_to_end(name)
+    run = Run.start(replace(configs[3], planner=name))
+    while run.world.outcome is Outcome.RUNNING:
+        run = advance(run).run
+    assert batch.digest(3) == replace(run.world, tick=int(batch.world(3).tick)).digest()
+
+
+def test_threads_ticks_and_what_follows_an_end_are_checked() -> None:
+    batch = Batch([Config()], after="stop")
+    stay = np.full(1, 5, np.uint8)
+    for threads in (0, -2):
+        with pytest.raises(ValueError, match="1 thread or more"):
+            batch.run(1, threads=threads)
+        with pytest.raises(ValueError, match="1 thread or more"):
+            batch.run_to_end(threads=threads)
+        with pytest.raises(ValueError, match="1 thread or more"):
+            batch.step(stay, threads=threads)
+        with pytest.raises(ValueError, match="1 thread or more"):
+            batch.moves("exact", threads=threads)
+        with pytest.raises(ValueError, match="1 thread or more"):
+            batch.least("exact", threads=threads)
+    with pytest.raises(ValueError, match="0 ticks or more"):
+        batch.run(-1)
+    batch.run(0)
+    assert (batch.episode_ticks == 0).all()
+    wrong: Any = "banana"
+    with pytest.raises(ValueError, match="next, restart or stop"):
+        Batch([Config()], after=wrong)
+    with pytest.raises(ValueError, match="next, restart or stop"):
+        Batch.of([Run.start(Config())], after=wrong)
