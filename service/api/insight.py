@@ -50,7 +50,9 @@ class Expected(Answered):
 
     tick: Tick
     decision: Decision | None = Field(description="The decision taken at it; null where a result stands.")
-    exact: bool = Field(description="Whether it is sure: false where how others react is left to chance.")
+    exact: bool = Field(
+        description="Whether it is sure: false beyond the first tick where others react to the vehicle."
+    )
     ahead: list[ExpectedTick]
 
 

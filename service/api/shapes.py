@@ -56,7 +56,10 @@ class Hazard(Answered):
 
 
 class CrashCause(Answered):
-    """What a crash was with: met in one cell (`hit`), passing through one another (`swap`), or cut off on a diagonal (`cross`)."""
+    """What a crash was with.
+
+    Met in one cell (`hit`), passing through one another (`swap`), or cut off on a diagonal (`cross`).
+    """
 
     kind: Kind
     how: Literal["hit", "swap", "cross"]

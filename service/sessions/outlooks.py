@@ -1,9 +1,9 @@
 """Whether a session's vehicle can still arrive: found out once for each road and each change of it.
 
-What takes longer than a fraction of a millisecond is done in a thread. A road that begins with a tick is told
-of when it is found out, if it is still the road then; a change waits for it, since its reply tells. Nothing of
-this is kept: it follows from the state, and would make every replay look at every road again. So lines about
-it are passing ones (`service.sessions.log`).
+What takes longer than a fraction of a millisecond is done in a thread. A road that begins with a tick is
+told of when it is found out, if it is still the road then; a change waits for it, since its reply tells.
+Nothing of this is kept: it follows from the state, and would make every replay look at every road again. So
+lines about it are passing ones (`service.sessions.log`).
 """
 
 from __future__ import annotations

@@ -88,7 +88,9 @@ def summary(run: Run) -> Summary:
             open_before = can_arrive(before, STATES) if course.certain else None
     if world.outcome is Outcome.STUCK and certain:
         with suppress(ImpatientError):
-            open_until = _open_until_reacting(run, course) if run.config.reacting else _open_until(run, course)
+            open_until = (
+                _open_until_reacting(run, course) if run.config.reacting else _open_until(run, course)
+            )
             open_known = True
     ticks = (world.tick if world.ended is None else world.ended) - world.episode_start
     return Summary(

@@ -2,9 +2,10 @@
 
 Structure: the forecast without reactions, which shows nearly every way there is; then the search with
 reactions (`can_arrive`), given up after so many states. Where there is no way, things whose removal opens the
-road are looked for as a certificate does (`sim.optimum.certificate`), with so many looks. Guarantees: what is
-answered holds; that there is a way without `ids` was run. Simplifications: where a bound is met, no answer, or
-no such things. The bounds count work and never time, so that the same moment has the same answer everywhere.
+road are looked for as a certificate does (`sim.optimum.certificate`), with so many looks. Guarantees: what
+is answered holds; that there is a way without `ids` was searched. Simplifications: where a bound is met, no
+answer, or no such things. The bounds count work and never time, so that the same moment has the same answer
+everywhere.
 """
 
 from __future__ import annotations

@@ -56,12 +56,18 @@ def found(**parts: Any) -> Confidence:
         ),
         (
             run_on(OPEN.world, courtesy=0.5),
-            "I am sure: who gives way is left to chance, but makes no difference to me. "
+            "I am sure: how others react is left to chance, but makes no difference to me. "
             "Run on, I arrive in 1.5 s.",
         ),
         (
+            run_on(road("........", "########", "........", "...A...."), repetition=False),
+            "I will not arrive, and I am sure of that: no way leads to the goal any more, "
+            "however others react.",
+        ),
+        (
             run_on(road("........", "########", "........", "...A....")),
-            "I will not arrive, and I am sure of that: no way leads to the goal any more, whoever gives way.",
+            "I will not arrive, and I am sure of that: run on, the same situation comes again in 3 s, "
+            "and would for ever.",
         ),
     ],
 )

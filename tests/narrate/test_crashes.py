@@ -17,7 +17,8 @@ NARRATOR = Narrator.load()
 
 
 def crashed(seed: int = 11, **config: object) -> Timeline:
-    timeline = Timeline(Config(seed=seed, potholes=30, vehicles=25).with_parts(**config))
+    parts = {"planner": "priority", "attentive": 0.0, "collision": "cell", **config}
+    timeline = Timeline(Config(seed=seed, potholes=30, vehicles=25).with_parts(**parts))
     while timeline.run.world.outcome is Outcome.RUNNING:
         timeline.advance()
     assert timeline.run.world.outcome is Outcome.CRASH
@@ -57,9 +58,9 @@ def test_a_crash_is_told_with_what_it_hung_on_and_what_would_have_saved_it() -> 
 def test_whatever_the_crash_the_words_are_sentences_about_what_is_in_the_facts() -> None:
     found = 0
     for seed in range(60):
-        timeline = Timeline(
-            Config(seed=seed, columns=6, rows=20, potholes=18, vehicles=14, barriers=3, pedestrians=4)
-        )
+        things = {"potholes": 18, "vehicles": 14, "barriers": 3, "pedestrians": 4}
+        config = Config(seed=seed, columns=6, rows=20, planner="priority", attentive=0.0).with_parts(**things)
+        timeline = Timeline(config)
         for _ in range(80):
             timeline.advance()
             if timeline.run.world.outcome is Outcome.CRASH:
@@ -106,7 +107,7 @@ def test_that_there_was_no_crash_is_an_answer(ticks: int, tick: int | None, text
 
 
 def test_who_drove_is_told() -> None:
-    timeline = Timeline(Config(seed=3, potholes=0, vehicles=0))
+    timeline = Timeline(Config(seed=3, potholes=0, vehicles=0, attentive=0.0))
     timeline.apply(1, [SetMode(mode=Mode.MANUAL)])
     column, row = timeline.run.world.road.cell(timeline.run.world.av)
     timeline.apply(2, [Add(kind="vehicle", count=1, where=Where(cell=(column - 2, row)))])

@@ -96,21 +96,26 @@ ENDS = (
     "Crash with a ",
     "Crash after ",
     "Stuck: not arrived after ",
+    "Stuck: after ",
 )
 
 
 def test_every_end_is_summed_up() -> None:
     said = set()
     for seed in range(40):
-        run = Run.start(Config(seed=seed, rows=10, potholes=(None, 14, 25)[seed % 3]))
+        config = Config(seed=seed, rows=10, potholes=(None, 14, 25)[seed % 3], planner="priority")
+        run = Run.start(config.with_parts(attentive=float(seed % 2), repetition=seed % 4 < 2))
         while run.world.outcome is Outcome.RUNNING:
             moved = advance(run)
             run = moved.run
         text = NARRATOR.event(moved.events[-1], run)
         assert looks_like_sentences(text), text
         assert text.startswith(ENDS)
-        said.add(run.world.outcome)
-    assert len(said) == 3
+        how = moved.events[-1].how
+        assert text.startswith("Stuck: after ") is (how == "repetition")
+        said.add((run.world.outcome, how))
+    assert {Outcome.SUCCESS, Outcome.CRASH} <= {outcome for outcome, _ in said}
+    assert {(Outcome.STUCK, "limit"), (Outcome.STUCK, "repetition")} <= said
 
 
 @pytest.mark.parametrize(

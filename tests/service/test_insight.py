@@ -24,7 +24,8 @@ async def stepped(service: Service, ticks: int) -> str:
 
 
 async def test_what_is_foretold_happens(service: Service) -> None:
-    path = await stepped(service, 3)
+    path = await service.session(paused=True, config={"attentive": 0.0})
+    await service.client.post(f"{path}/step", json={"ticks": 3})
     told = await asked(service, f"{path}/forecast", ticks=4)
     assert (told["tick"], told["exact"], len(told["ahead"])) == (3, True, 4)
     for expected in told["ahead"]:
@@ -48,7 +49,12 @@ async def test_what_is_about_to_be_decided_is_decided(service: Service) -> None:
 
 
 async def test_what_is_left_to_chance_is_not_called_exact(service: Service) -> None:
-    path = await stepped(service, 1)
+    path = await service.session(paused=True, config={"attentive": 0.0})
+    await service.client.post(f"{path}/step", json={"ticks": 1})
+    assert (await asked(service, f"{path}/forecast", ticks=2))["exact"] is True
+    await service.act(path, {"do": "set", "parameter": "attentive", "value": 1})
+    assert (await asked(service, f"{path}/forecast", ticks=2))["exact"] is False
+    await service.act(path, {"do": "set", "parameter": "attentive", "value": 0})
     await service.act(path, {"do": "set", "parameter": "courtesy", "value": 0.5})
     assert (await asked(service, f"{path}/forecast", ticks=1))["exact"] is True
     assert (await asked(service, f"{path}/forecast", ticks=2))["exact"] is False

@@ -94,7 +94,11 @@ async def test_a_closed_road_is_told_of_when_it_is_made_and_when_it_begins_again
         clock.tick()
     await session.outlooks.settled()
     begins = session.run.world.episode_start
-    assert [(at, kind) for at, kind, _ in notices(session)] == [(0, "no_way"), (1, "no_way"), (begins, "no_way")]
+    assert [(at, kind) for at, kind, _ in notices(session)] == [
+        (0, "no_way"),
+        (1, "no_way"),
+        (begins, "no_way"),
+    ]
     heard: list[Any] = []
     while not heard or heard[-1]["type"] != "changed":
         told = await asyncio.wait_for(watcher.next(), 60)

@@ -13,7 +13,8 @@ async def asked(talk: Talk, session: str, question: str) -> dict[str, object]:
 
 
 async def made(talk: Talk, **config: object) -> str:
-    body = {"seed": 11, "paused": True, "config": {"potholes": 30, "vehicles": 25} | config}
+    rules = {"planner": "priority", "attentive": 0.0, "collision": "cell"}
+    body = {"seed": 11, "paused": True, "config": {"potholes": 30, "vehicles": 25} | rules | config}
     answer = await talk.client.post("/api/v1/sessions", json=body)
     assert answer.status_code == 201, answer.text
     return str(answer.json()["id"])
