@@ -159,7 +159,7 @@ def together(one: tuple[Cell, Cell], one_size: Size, other: tuple[Cell, Cell], o
 
 
 def crashes(now: Position, av: Cell, later: Collection[Body], *, swept: bool) -> bool:
-    """Whether the vehicle, going to the cell `av` in this tick, collides. Without `swept` only cells count."""
+    """Whether the vehicle, going to the cell `av` in this tick, collides; without `swept` by cells alone."""
     if av in now.fixed:
         return True
     for before, body in zip(now.bodies, later, strict=True):

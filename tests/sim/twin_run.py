@@ -17,7 +17,7 @@ from sim.actions import Add, Where
 from sim.config import Config
 from sim.courtesy import attentive, yielding
 from sim.edit import apply
-from sim.kinds import Cell, Move, Outcome
+from sim.kinds import Cell, Outcome
 from sim.road import Board, bits
 from sim.run import Run, advance
 from tests.sim import twin
