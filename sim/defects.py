@@ -36,7 +36,7 @@ def plan_defects(world: World, plan: Iterable[Move], config: Config) -> tuple[De
     """Every way in which playing these moves is no way to row 0.
 
     A step off the road is left out and the plan goes on; after a collision it goes on as well, so that
-    all that is wrong is listed. Codes: `off_road`, `hit_…` and `swap_…` with what was met,
+    all that is wrong is listed. Codes: `off_road`; `hit_…`, `swap_…` and `cross_…` with what was met;
     `after_the_end`, `too_long`, `not_at_goal`.
     """
     return tuple(_of_plan(world, plan, config))

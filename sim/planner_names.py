@@ -23,8 +23,8 @@ WEIGHING: Final = ("astar", "dijkstra")
 """Those of them that charge for what is near, and so heed preferences (`sim.search.costs`)."""
 PROMISED: Final = ("dwa", "rl", "cooperative")
 """Names that people may say and this version has not."""
-RESERVED: Final = (*BUILT_IN, *PROMISED, "rules", "manual")
-"""Names that no other package may take: `rules` is said for `priority`, `manual` is a person."""
+RESERVED: Final = (*BUILT_IN, *PROMISED, "manual")
+"""Names that no other package may take; `manual` is a person."""
 
 _FIT: Final = re.compile(r"[a-z][a-z0-9_-]{0,39}")
 """What a name may be made of, so that none looks like another one."""

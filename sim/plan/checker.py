@@ -83,7 +83,7 @@ class Report:
 
 
 def moments(roads: int = 20, ticks: int = 12) -> Iterator[Run]:
-    """Moments on roads of several sizes and densities, driven by the rule."""
+    """Moments on roads of several sizes and densities, driven by the default planner."""
     for seed in range(roads):
         columns, rows = ((8, 30), (3, 12), (12, 20), (5, 8))[seed % 4]
         config = Config(

@@ -29,13 +29,15 @@ def problems(**parts: Any) -> dict[str, str]:
     return told
 
 
-def test_the_defaults_are_the_source_s_table() -> None:
+def test_the_defaults_are_the_source_s_table_and_the_rules_of_version_2() -> None:
     config = Config()
     assert (config.columns, config.visible_rows, config.rows) == (8, 8, 30)
     assert (config.cell_m, config.step_seconds) == (5.0, 0.5)
     assert (config.spawn_probability, config.pothole_probability) == (0.68, 0.15)
     assert (config.potholes, config.vehicles) == (None, None)
-    assert (config.planner, config.sensor, config.courtesy) == ("priority", "perfect", 0.0)
+    assert (config.sensor, config.courtesy) == ("perfect", 0.0)
+    assert (config.planner, config.collision) == ("rules", "swept")
+    assert (config.attentive, config.repetition, config.rules) == (1.0, True, 2)
     assert config.max_ticks == 300
     assert config.reset_delay_ticks == 4
 

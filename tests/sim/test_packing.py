@@ -130,7 +130,7 @@ def test_what_is_shared_is_written_once_and_shared_again() -> None:
     assert len({id(each.config) for each in again}) == 1
     assert len({id(each.world.hazards) for each in again}) == 1
     assert again[3].course.start is again[0].world
-    assert packer.planners() == {"priority"}
+    assert packer.planners() == {"rules"}
 
 
 @pytest.mark.parametrize(
