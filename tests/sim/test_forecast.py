@@ -50,7 +50,7 @@ def test_will_be_free_is_what_the_twin_says(world: World) -> None:
     for move in Move:
         cell = (now.av[0] + move.offset[0], now.av[1] + move.offset[1])
         free = forecast.will_be_free(world.av, world.road.moved(world.av, move))
-        assert free is twin.will_be_free(now, later, cell)
+        assert free is twin.will_be_free(now, later, cell, attentive=())
 
 
 @pytest.mark.parametrize(

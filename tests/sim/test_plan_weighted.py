@@ -45,7 +45,7 @@ def costs(taken: Decision) -> dict[Move, float | None]:
 @settings(max_examples=60)
 @given(worlds(max_columns=6, max_rows=7), PREFERENCES, st.integers(0, 3))
 def test_every_total_is_what_the_whole_table_says(world: World, preferences: list[str], buffer: int) -> None:
-    run = run_on(world, preferences=preferences, safety_buffer=buffer)
+    run = run_on(world, preferences=preferences, safety_buffer=buffer, attentive=1.0)
     found = costs(decision(run, "astar"))
     # No way of more ticks than the dearest total pays for can be cheaper.
     bound = max((cost for cost in found.values() if cost is not None), default=0)

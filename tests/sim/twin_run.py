@@ -81,6 +81,7 @@ def random_run(random: Random) -> Run:
     config = Config(
         columns=columns,
         rows=rows,
+        planner="priority",
         seed=random.randrange(2**40),
         vehicles=random.choice((None, some(0.5))) if room - 2 * rows > room * density else some(0.5),
         potholes=some(0.3),

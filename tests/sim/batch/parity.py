@@ -49,6 +49,7 @@ def mixed_configs(seed: int, count: int) -> Iterator[list[Config]]:
                 config = Config(
                     columns=columns,
                     rows=rows,
+                    planner="priority",
                     seed=draw.randrange(2**53),
                     spawn_probability=draw.random(),
                     pothole_probability=draw.random() / 2,

@@ -27,7 +27,7 @@ def parting(config: Config) -> int:
 
 
 def test_the_first_difference_is_found() -> None:
-    configs = [Config(seed=seed, potholes=4) for seed in range(40)]
+    configs = [Config(seed=seed, potholes=4, planner="priority") for seed in range(40)]
     found = first_divergence(configs, "priority", "exact")
     assert found.tolist() == [parting(config) for config in configs]
     assert (first_divergence(configs, "weighted", "weighted") == -1).all()
@@ -35,7 +35,7 @@ def test_the_first_difference_is_found() -> None:
 
 def test_who_has_ended_decides_no_more() -> None:
     """Of two that stand in the same cage, one is stuck soon, and the other stands there to the limit."""
-    dense = Config(columns=5, rows=8, barriers=14, vehicles=0, potholes=0)
+    dense = Config(columns=5, rows=8, barriers=14, vehicles=0, potholes=0, planner="priority")
     configs = [replace(dense, seed=seed) for seed in range(40)]
     found = first_divergence(configs, "priority", "exact")
     assert found.tolist() == [parting(config) for config in configs]
