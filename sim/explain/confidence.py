@@ -37,6 +37,7 @@ from sim.road import Board, bits, board_of
 from sim.run import Run, advance
 from sim.search.costs import weights
 from sim.search.leading import leading_on
+from sim.search.reach import steps_left
 from sim.timeline import Timeline
 from sim.world import World
 
@@ -261,7 +262,7 @@ class _Futures:
         if self.work < PATIENCE.get(self.start.config.planner, 0):
             return None  # most are done by now, and the proof would cost more than they did
         if self._leading_on is None:
-            self._leading_on = leading_on(self.start.world, self.start.config)
+            self._leading_on = _hopeful(self.start)
         return None if self._leading_on[ticks] >> world.av & 1 else (None, ticks)
 
     def _after(self, node: _Node) -> list[tuple[float, _Node]]:
@@ -341,6 +342,12 @@ def _drawn(near: Board, share: float) -> list[tuple[Board, float]]:
 def _share(drawn: Board, near: Board) -> float:
     """A chance under which these of the movers near can be drawn."""
     return 0.0 if not drawn else 1.0 if drawn == near else 0.5
+
+
+def _hopeful(run: Run) -> list[Board]:
+    """The cells from which the goal may still be reached in time, by ticks from now."""
+    limit = steps_left(run.config, run.world.episode_tick)
+    return leading_on(foretell(perceive(run.world, run.config), max(1, limit)), limit)
 
 
 def _pick(ways: list[tuple[float, _Node]], draw: float) -> _Node:

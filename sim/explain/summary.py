@@ -19,13 +19,16 @@ from sim.kinds import Move, Outcome
 from sim.optimum.least import can_arrive, least_ticks
 from sim.perceive import perceive
 from sim.run import Run
-from sim.search.reach import reach, steps_left
+from sim.search.reach import steps_left
 from sim.search.reactive import ImpatientError
 from sim.transition import transition
 from sim.world import Cause
 
 STATES: Final = 3_000
 """States that each search of reactions may look at; two tenths of a second."""
+
+QUICK_STATES: Final = 150
+"""The same where it is summed up within a tick; a few milliseconds, and mostly none are needed."""
 
 QUICK_CELLS = 512
 """On roads up to this size an arrival or a crash is summed up in a fraction of a millisecond."""
@@ -78,14 +81,15 @@ def summary(run: Run) -> Summary:
     certain = course.certain and whole and not course.changed
     free = open_before = best = open_until = None
     open_known = False
+    states = STATES if long_to_tell(run) else QUICK_STATES
     if course.start is not None and certain:
         with suppress(ImpatientError):
-            best = least_ticks(_at_first(run, course), STATES)
+            best = least_ticks(_at_first(run, course), states)
     if world.outcome is Outcome.CRASH and course.last is not None:
         before = replace(run, world=course.last, queue=())
         free = any(foretell(perceive(before.world, run.config), 1).own_steps())
         with suppress(ImpatientError):
-            open_before = can_arrive(before, STATES) if course.certain else None
+            open_before = can_arrive(before, states) if course.certain else None
     if world.outcome is Outcome.STUCK and certain:
         with suppress(ImpatientError):
             open_until = (
@@ -113,22 +117,7 @@ def long_to_tell(run: Run) -> bool:
     world = run.world
     if world.outcome is Outcome.RUNNING:
         return False
-    if world.outcome is Outcome.STUCK or world.road.columns * world.road.rows > QUICK_CELLS:
-        return True
-    return run.config.reacting and not _settled(run)
-
-
-def _settled(run: Run) -> bool:
-    """Whether an end on a road with movers that react is summed up without a search of their reactions."""
-    course = run.course
-    if run.world.outcome is not Outcome.SUCCESS or run.config.courtesy:
-        return False
-    if course.start is None or course.changed or not course.certain:
-        return True
-    first = _at_first(run, course)
-    rows = first.world.av // first.world.road.columns
-    forecast = foretell(perceive(first.world, first.config), max(1, rows))
-    return reach(forecast, 1 << forecast.ego, rows).ticks is not None
+    return world.outcome is Outcome.STUCK or world.road.columns * world.road.rows > QUICK_CELLS
 
 
 def _at_first(run: Run, course: Course) -> Run:

@@ -12,7 +12,6 @@ from sim.perceive import perceive
 from sim.run import Run
 from sim.search.astar import cheapest
 from sim.search.costs import weights
-from sim.search.leading import leading_on
 from sim.search.reach import flooded, reach, shortest_plan, steps_left
 from sim.search.reactive import ReactiveSearch
 from sim.search.spacetime import SpaceTime
@@ -41,7 +40,7 @@ def least_ticks(run: Run, patience: int | None = None) -> int | None:
         return ticks
     bound = _bound(run, ticks, limit)
     quicker = None
-    if ticks is not None or _may_lead_on(run, forecast):
+    if ticks is not None or _passable(forecast):
         quicker = ReactiveSearch(run.world, run.config, forecast, patience).least_ticks(bound)
     return ticks if quicker is None and run.config.courtesy == 0.0 else quicker
 
@@ -58,7 +57,7 @@ def quickest_plan(run: Run) -> tuple[Move, ...] | None:
         return plan
     bound = _bound(run, ticks, limit)
     quicker = None
-    if ticks is not None or _may_lead_on(run, forecast):
+    if ticks is not None or _passable(forecast):
         quicker = ReactiveSearch(run.world, run.config, forecast).plan(bound)
     return plan if quicker is None and run.config.courtesy == 0.0 else quicker
 
@@ -70,7 +69,7 @@ def can_arrive(run: Run, patience: int | None = None) -> bool:
     forecast, limit = foreseen(run)
     if run.config.courtesy == 0.0 and reach(forecast, 1 << forecast.ego, limit).ticks is not None:
         return True
-    if not run.config.reacting or not _may_lead_on(run, forecast):
+    if not run.config.reacting or not _passable(forecast):
         return False
     search = ReactiveSearch(run.world, run.config, forecast, patience)
     return search.least_ticks(limit) is not None
@@ -103,8 +102,6 @@ def _bound(run: Run, ticks: int | None, limit: int) -> int:
     return limit if ticks is None or run.config.courtesy else ticks - 1
 
 
-def _may_lead_on(run: Run, forecast: Forecast) -> bool:
-    """Whether there may be a way for all that is proved at a small part of what the search would cost."""
-    if not flooded(forecast, 1 << forecast.ego) & forecast.road.row(0):
-        return False  # the fixed hazards alone close the road
-    return bool(leading_on(run.world, run.config)[0] >> run.world.av & 1)
+def _passable(forecast: Forecast) -> bool:
+    """Whether a way leads past the fixed hazards, were there no movers."""
+    return bool(flooded(forecast, 1 << forecast.ego) & forecast.road.row(0))

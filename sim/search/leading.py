@@ -7,20 +7,14 @@ cell that is left out no way leads to the goal; from the others there may be non
 
 from __future__ import annotations
 
-from sim.config import Config
-from sim.forecast import foretell
-from sim.perceive import perceive
+from sim.forecast import Forecast
 from sim.road import Board
 from sim.rules import beside
-from sim.search.reach import steps_left
-from sim.world import World
 
 
-def leading_on(world: World, config: Config) -> list[Board]:
-    """The cells from which the goal may still be reached, by ticks from now, up to the limit of ticks."""
-    percept = perceive(world, config)
-    road, limit = percept.road, steps_left(config, percept.episode_tick)
-    forecast = foretell(percept, max(1, limit))
+def leading_on(forecast: Forecast, limit: int) -> list[Board]:
+    """The cells from which the goal may be reached by `limit` ticks from now, by ticks from now."""
+    road = forecast.road
     free, goal = road.all & ~forecast.fixed, road.row(0)
     boards = [goal & free]
     for ahead in reversed(range(limit)):

@@ -20,6 +20,7 @@ from sim.forecast import Forecast
 from sim.kinds import Move
 from sim.road import Board, bits
 from sim.rules import Motion, brake, followed_board, free_steps, move_movers, pedestrians_walk
+from sim.search.leading import leading_on
 from sim.world import World
 
 _MOVES = tuple(Move)
@@ -88,6 +89,10 @@ class ReactiveSearch:
         layers: list[Layer] = [{first: 1 << column}]
         if number == 0:
             return layers
+        # Nearly all states are too late, or shut off whoever reacts.
+        hopeful = leading_on(self.forecast, limit)
+        if not hopeful[0] >> world.av & 1:
+            return None
         looked_at = 0
         while len(layers) <= limit:
             after: Layer = {}
@@ -98,12 +103,19 @@ class ReactiveSearch:
                 for start in bits(columns):
                     for _, there, end in self._steps(row, start, len(layers) - 1):
                         after[there] = after.get(there, 0) | 1 << end
+            after = self._kept(after, hopeful[len(layers)])
             layers.append(after)
             if any(row.number == 0 for row in after):
                 return layers
             if not after:
                 return None
         return None
+
+    def _kept(self, layer: Layer, hopeful: Board) -> Layer:
+        """The states of a layer from which the goal may still be reached."""
+        columns = self.world.road.columns
+        kept = {row: there & hopeful >> row.number * columns for row, there in layer.items()}
+        return {row: there for row, there in kept.items() if there}
 
     def _steps(self, row: Row, column: int, ahead: int) -> Iterator[tuple[int, Row, int]]:
         """The moves that meet nothing: place in `Move`, the row after it, and the column."""

@@ -86,20 +86,20 @@ def test_what_cannot_be_escaped_is_not_said_to_keep_clear() -> None:
             Move.FORWARD_LEFT,
             ("vehicle-2", "vehicle-1"),
             "the car 5 m ahead on my left was about to enter the cell ahead to the left "
-            "and the car on my left was cutting across my way there",
+            "and the car on my left was about to cut across my way there",
         ),
         (
             "mover_crosses",
             Move.FORWARD_LEFT,
             ("vehicle-1", "vehicle-2"),
-            "the car on my left and the car 5 m ahead on my left were both cutting across my way to "
+            "the car on my left and the car 5 m ahead on my left were both about to cut across my way to "
             "the cell ahead to the left",
         ),
         (
             "mover_crosses",
             Move.FORWARD_LEFT,
             ("vehicle-1",),
-            "a car was cutting across my way to the cell ahead to the left",
+            "the car on my left was about to cut across my way to the cell ahead to the left",
         ),
     ],
 )
@@ -118,11 +118,10 @@ def test_a_mover_that_cuts_across_is_told_in_the_decision_and_in_the_crash() -> 
     timeline = _timeline(replace(run, queue=(Move.FORWARD_LEFT,), mode=Mode.MANUAL))
     held = timeline.advance()
     assert NARRATOR.decision(held.decision, run) == (  # type: ignore[arg-type]
-        "Not diagonally left: a car is cutting across my way to the cell ahead to the left."
+        "Not diagonally left: the car 5 m ahead on my left is about to cut across my way "
+        "to the cell ahead to the left."
     )
-    assert NARRATOR.event(held.events[0], run).startswith(
-        "You asked for diagonally left, but a car was cutting across my way to the cell ahead to the left"
-    )
+    assert NARRATOR.event(held.events[0], run).startswith("You asked for diagonally left, but the car")
     crossed = transition(run.world, Move.FORWARD_LEFT, run.config)
     course = Course().after(
         run.world,
