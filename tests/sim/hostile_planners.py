@@ -293,10 +293,10 @@ class Reaches(Hostile):
 
 
 class Leaves(Hostile):
-    """The road."""
+    """The road, where it is at an edge."""
 
     def harm(self, good: Decision) -> Any:
-        return replace(good, move=Move.LEFT)
+        return replace(good, move=Move.RIGHT if good.option(Move.RIGHT).cell is None else Move.LEFT)
 
 
 def costing(good: Decision, cost: Any) -> Decision:

@@ -30,6 +30,8 @@ ROAD = road(
     "..(...",
     "......",
 )
+OPEN = ROAD.without({"pothole-1", "barrier-1"})
+"""The same with movers alone."""
 
 
 @pytest.mark.parametrize(
@@ -58,20 +60,20 @@ def test_passing_through_a_mover() -> None:
 
 
 def test_following_a_mover_or_leaving_straight_before_it_is_no_collision() -> None:
-    follows = av_at(mover_at(ROAD, "vehicle-1", (4, 2)), (3, 2))
-    assert collisions(ROAD, follows, "swept") == ()
-    leaves = av_at(mover_at(ROAD, "vehicle-1", (2, 2)), (2, 1))
-    assert collisions(ROAD, leaves, "swept") == ()
+    follows = av_at(mover_at(OPEN, "vehicle-1", (4, 2)), (3, 2))
+    assert collisions(OPEN, follows, "swept") == ()
+    leaves = av_at(mover_at(OPEN, "vehicle-1", (2, 2)), (2, 1))
+    assert collisions(OPEN, leaves, "swept") == ()
 
 
 @pytest.mark.parametrize(("end", "met"), [((3, 1), True), ((1, 1), False)])
 def test_a_diagonal_is_met_by_a_mover_that_comes_from_that_side_into_the_cell_it_leaves(
     end: tuple[int, int], met: bool
 ) -> None:
-    after = av_at(mover_at(ROAD, "vehicle-1", (2, 2)), end)
+    after = av_at(mover_at(OPEN, "vehicle-1", (2, 2)), end)
     cause = Cause("cross", Kind.VEHICLE, ("vehicle-1",), (2, 2))
-    assert collisions(ROAD, after, "swept") == ((cause,) if met else ())
-    assert collisions(ROAD, after, "cell") == ()
+    assert collisions(OPEN, after, "swept") == ((cause,) if met else ())
+    assert collisions(OPEN, after, "cell") == ()
 
 
 def test_two_autonomous_vehicles_in_one_cell_or_swapped() -> None:
