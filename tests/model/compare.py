@@ -23,6 +23,7 @@ LETTERS = {
     Move.FORWARD_RIGHT: "r",
     Move.STAY: "s",
 }
+NOTES = {1: "Made under rules 1: it replays as it did then.", 2: None}
 TOLD = re.compile(r"(potholes|barriers|vehicles|pedestrians) (\d+) → (\d+)")
 
 
@@ -130,9 +131,12 @@ def compare_session(told: Json, plain: Plain) -> None:
         "status": str(run.world.outcome),
         "sequence": plain.sequence,
         "seed": run.config.seed,
+        "rules": run.config.rules,
+        "rules_note": NOTES[run.config.rules],
     }
     for name, value in thought.items():
         same(f"session {name}", told[name], value)
+    same("settings of a session", set(told["config"]), set(run.config.__dataclass_fields__))
     for name, value in told["config"].items():
         wanted = getattr(run.config, name)
         same(f"config {name}", value, list(wanted) if isinstance(wanted, tuple) else wanted)

@@ -83,6 +83,7 @@ class Inside:
         """Whatever is done beside the loop is done."""
         for session in list(self._manager._live.values()):
             await until(lambda session=session: not session.busy)  # type: ignore[misc]
+            await session.outlooks.settled()
             session._later.settle()
 
     async def tick(self) -> None:
@@ -144,6 +145,12 @@ class Inside:
             for each in followers:
                 await until(lambda each=each: each.read() == live.watchers.event)  # type: ignore[misc]
         return followers
+
+    async def settled(self, path: str, _lines: int) -> None:
+        """What is found out about its road has been told."""
+        live = self._live(path)
+        if live is not None:
+            await live.outlooks.settled()
 
     async def let_go(self, path: str) -> None:
         """Nobody follows it any more."""

@@ -12,6 +12,9 @@ import httpx
 from tests.faults.kill import Service
 from tests.model.following import Follower
 
+ASKED = 2_000
+"""How often is asked for a line that is told of a little later."""
+
 
 class Outside:
     """One process after the other, on one file."""
@@ -53,6 +56,14 @@ class Outside:
 
     async def watch(self, path: str) -> None:
         """Only inside is it known when all there is has been heard."""
+
+    async def settled(self, path: str, lines: int) -> None:
+        """Wait for as many lines; that there are no more or other ones is compared later."""
+        for _ in range(ASKED):
+            newest = (await self.http.get(f"{path}/events", params={"limit": 1})).json()["items"]
+            if lines <= (newest[-1]["number"] if newest else 0):
+                return
+        raise TimeoutError(f"{lines} lines of the log")
 
     async def heard(self, _path: str) -> list[Follower]:
         return []

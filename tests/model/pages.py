@@ -151,7 +151,7 @@ async def forecast(walker: Any, path: str, tick: int) -> None:
     run = plain.runs[tick]
     running = run.world.outcome is Outcome.RUNNING
     same(f"whether there is a decision at {tick}", told["decision"] is not None, running)
-    same("whether a forecast is sure", told["exact"], run.config.courtesy == 0.0)
+    same("whether a forecast is sure", told["exact"], run.config.courtesy == run.config.attentive == 0.0)
     if running:
         compare_decision(told["decision"], plain.decision(tick))
     for ahead in told["ahead"][: 3 if told["exact"] else 1]:

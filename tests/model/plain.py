@@ -2,6 +2,7 @@
 
 No snapshots, no shared logs, no steps that remember tails: every state is played from the very first tick
 by the rules of `sim`, and what can be undone is two whole logs side by side. It is slow, and read in one go.
+Whether a road has a way is asked of `sim.optimum.outlook`; when that is told is thought out here.
 Left out: words, and what of a question can be answered.
 """
 
@@ -19,6 +20,8 @@ from sim.actions import Adjust, Scenario, Set
 from sim.config import Config
 from sim.edit import apply
 from sim.edit_error import EditError
+from sim.kinds import Outcome
+from sim.optimum.outlook import Outlook, outlook, quickly_open
 from sim.plan import Decision
 from sim.run import Run, advance, decide
 from sim.scenario import unavailable
@@ -31,6 +34,8 @@ ROAD = frozenset(
 """What may be done to a road."""
 NOTHING = frozenset(("ask", "advise", "show", "hide"))
 """What changes no session."""
+MOVING = frozenset(("undo", "redo", "rewind", "load"))
+"""What goes to another state, though it may be of the same road."""
 NEVER = frozenset(("evaluate", "find_worst", "record", "teach", "forget"))
 """What this version has not, or not in a session."""
 
@@ -111,6 +116,17 @@ def played(config: Config, stand: Stand) -> list[Run]:
     return runs[: stand.tick + 1]
 
 
+def road_of(run: Run) -> tuple[object, ...]:
+    """Equal for states of one road between two changes that matter to the way."""
+    world, config = run.world, run.config
+    drawn = (*episode_of(run), run.edits, world.fixed)
+    return *drawn, config.courtesy, config.attentive, config.collision
+
+
+def episode_of(run: Run) -> tuple[int, int]:
+    return run.world.episode, run.world.episode_start
+
+
 def is_pace(action: Action) -> bool:
     return isinstance(action, Set | Adjust) and action.parameter == "playback_speed"
 
@@ -132,6 +148,8 @@ class Plain:
     texts: dict[int, str | None] = field(default_factory=dict)
     kept: tuple[int, int] = (0, 0)
     """where time stood, and how many lines there were, when that was last written down"""
+    way: tuple[tuple[int, int], Outlook | None] | None = None
+    """what is known of a way to the goal, and of which episode"""
 
     # What there is to see
 
@@ -157,11 +175,19 @@ class Plain:
     # Time
 
     def pass_ticks(self, ticks: int) -> None:
-        """The clock, or a step, runs on."""
+        """Time runs on."""
         for _ in range(ticks):
             tick = advance(self.run)
             self.stand = replace(self.stand, tick=self.tick + 1)
             self._write(tick.events)
+
+    def turn(self, ticks: int) -> None:
+        """The clock runs on; what it leads to is looked at afterwards."""
+        before = self.tick
+        self.pass_ticks(ticks)
+        for run in self.runs[before + 1 :]:
+            if run.world.episode_tick == 0:
+                self.look(run)
 
     def write_down(self) -> None:
         """A graceful stop, or sleep."""
@@ -174,11 +200,42 @@ class Plain:
         self.lines = tuple(line for line in self.lines[:lines] if not line.passing)
         self.kept = tick, len(self.lines)
         self.paused = True
+        self.look(self.run)
+
+    # The way to the goal
+
+    def look(self, begun: Run) -> Plain:
+        """A road has begun by itself: that no way leads through it is told, if it is still the road."""
+        if quickly_open(begun):
+            self.way = episode_of(begun), outlook(begun)
+        elif road_of(begun) == road_of(self.run) and self.run.world.outcome is Outcome.RUNNING:
+            self._tell_way(episode_of(begun), outlook(begun))
+        return self
+
+    def look_after(self, before: Plain, actions: tuple[Action, ...]) -> None:
+        """Something was said: told where it closes the road, or opens it again."""
+        moved = any(action.do in MOVING for action in actions)
+        if self.run.world.outcome is Outcome.RUNNING and (moved or road_of(self.run) != road_of(before.run)):
+            self._tell_way(episode_of(self.run), outlook(self.run))
+
+    def _tell_way(self, episode: tuple[int, int], found: Outlook | None) -> None:
+        was = self.way[1] if self.way is not None and self.way[0] == episode else None
+        self.way = episode, found
+        if found is None:
+            return
+        if found.open:
+            if was is not None and not was.open:
+                self.lines = (*self.lines, Line(self.tick, "way_open", passing=True))
+        elif was is None or was.open or was != found:
+            self.lines = (*self.lines, Line(self.tick, "no_way", found.ids, passing=True))
 
     # Change
 
-    def said(self, actions: tuple[Action, ...], text: str | None) -> Plain:
-        """The session once this was said. Raises `RefusedError`."""
+    def said(self, actions: tuple[Action, ...], text: str | None, *, again: bool = False) -> Plain:
+        """The session once this was said; `again`: in a replay, where nobody looks at roads on the way.
+
+        Raises `RefusedError`.
+        """
         if sum(action.ticks for action in actions if action.do == "step") > MOST_STEPS:
             raise RefusedError("too many ticks")
         new = copy(self)
@@ -190,6 +247,8 @@ class Plain:
         line = Line(self.tick, "changed")
         new.lines = (*self.lines, line)
         _Doing(new, self).all(actions)
+        if not again:
+            new.look_after(self, actions)
         new.texts = {**self.texts, new.sequence: text}
         new.write_down()
         return new
@@ -209,33 +268,33 @@ class Plain:
         pace = () if self.pace == 1.0 else (Set(parameter="playback_speed", value=self.pace),)
         for each in (pace, actions):
             if each:
-                new = new.said(each, None)
+                new = new.said(each, None, again=True)
         new.write_down()
         if paused is not None:
             new.paused = paused
-        return new
+        return new.look(new.run)
 
     def carried(self, tick: int) -> Plain:
         """What a link to a tick opens: the changes that stand, numbered anew and said one after the other."""
         new = Plain(self.config, self.limits, paused=False)
         for (_, at), group in groupby((said for said in self.stand.log if said.tick <= tick), _together):
             new.pass_ticks(at - new.tick)
-            new = new.said(tuple(said.action for said in group), None)
+            new = new.said(tuple(said.action for said in group), None, again=True)
         new.pass_ticks(tick - new.tick)
         new.paused = True
         new.write_down()
-        return new
+        return new.look(new.run)
 
     def again(self, recording: dict[str, Any]) -> Plain:
         """What a recording of this one comes to, replayed."""
         new = Plain(self.config, self.limits, paused=False)
         for entry in recording["entries"]:
             new.pass_ticks(entry["tick"] - new.tick)
-            new = new.said(contract.load(entry["actions"]), entry["text"])
+            new = new.said(contract.load(entry["actions"]), entry["text"], again=True)
         new.pass_ticks(recording["tick"] - new.tick)
         new.paused = True
         new.write_down()
-        return new
+        return new.look(new.run)
 
     def _write(self, events: Any) -> None:
         self.lines += tuple(Line(event.tick, event.type, event.ids, event.cell) for event in events)

@@ -19,12 +19,13 @@ Json: TypeAlias = dict[str, Any]
 DEV = Path(__file__).parents[1] / "language" / "data" / "dev.jsonl"
 KINDS = ("pothole", "vehicle", "barrier", "pedestrian")
 MOVES = ("forward", "left", "right", "forward_left", "forward_right", "stay")
-PLANNERS = ("priority", "priority", "astar", "dijkstra", "exact")
+PLANNERS = ("rules", "rules", "priority", "astar", "dijkstra", "exact")
 NAMES = ("a", "rush hour", "the third")
 PHRASES = ("zanzibar", "make it quibble", "brillig morning")
 SETTINGS: dict[str, tuple[Any, ...]] = {
-    "planner": ("priority", "astar", "dijkstra", "exact"),
+    "planner": ("rules", "priority", "astar", "dijkstra", "exact"),
     "courtesy": (0.0, 0.4, 1.0),
+    "attentive": (0.0, 0.5, 1.0),
     "safety_buffer": (0, 1, 2),
     "step_seconds": (0.2, 0.5, 1.0),
     "spawn_probability": (0.0, 0.5, 1.0),
@@ -35,6 +36,7 @@ SETTINGS: dict[str, tuple[Any, ...]] = {
     "seed": (3, 12345),
     "playback_speed": (0.25, 1, 2, 4, 32),
 }
+LAYOUTS = ("walls", "narrows", "dead_ends", "crossing", "maze")
 WISHES = ("avoid_potholes", "smooth_ride", "fastest", "cautious", "balanced")
 STAYING = frozenset(("resume",))
 """What lets time pass by itself, and is left out where the clock is a real one."""
@@ -100,7 +102,6 @@ class Planned:
             "columns": dice.randint(3, 8),
             "rows": dice.choice((5, 8, 11, 14)),
             "seed": dice.randrange(1000),
-            "planner": dice.choice(PLANNERS),
             "courtesy": dice.choice((0.0, 0.0, 0.5)),
             "reset_delay_s": dice.choice((0.0, 1.0, 2.0)),
             "pothole_probability": dice.choice((0.1, 0.4)),
@@ -115,6 +116,24 @@ class Planned:
             parts["solvable"] = True
         if self.rarely():
             parts["safety_buffer"] = dice.randint(0, 3)
+        if not self.rarely():
+            parts["planner"] = dice.choice(PLANNERS)
+        return parts | self.rules()
+
+    def rules(self) -> Json:
+        """By which rules it goes: mostly those of today, rarely those of before, or some of them."""
+        dice = self.dice
+        if dice.random() < 0.15:
+            return {"rules": 1}
+        parts: Json = {}
+        if self.rarely():
+            parts["attentive"] = dice.choice((0.0, 0.5))
+        if dice.random() < 0.15:
+            parts["collision"] = "cell"
+        if dice.random() < 0.15:
+            parts["repetition"] = False
+        if dice.random() < 0.15:
+            parts["layout"] = dice.choice(LAYOUTS)
         return parts
 
     def act(self) -> Op:
@@ -216,7 +235,7 @@ class Planned:
             "potholes": dice.randrange(5),
             "vehicles": dice.randrange(5),
             "traffic": dice.choice(("light", "heavy")),
-            "planner": dice.choice(("priority", "astar")),
+            "planner": dice.choice(("rules", "priority", "astar")),
             "pedestrians": dice.randrange(3),
         }
         return {name: value for name, value in parts.items() if self.rarely()}

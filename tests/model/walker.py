@@ -10,7 +10,7 @@ import httpx
 
 from service import actions as contract
 from service.language import Language
-from sim.config import Config
+from sim.config import Config, ConfigError
 from tests.model import asking, pages
 from tests.model.compare import (
     DifferenceError,
@@ -24,6 +24,11 @@ from tests.model.plain import Limits, Plain, RefusedError
 from tests.model.plan import Json, Op
 
 API = "/api/v1"
+DEFAULTS: dict[int, Json] = {
+    1: {"attentive": 0.0, "collision": "cell", "planner": "priority", "repetition": False},
+    2: {"attentive": 1.0, "collision": "swept", "planner": "rules", "repetition": True},
+}
+"""By version of the rules, what a road has that says no other."""
 MOST_SESSIONS = 5
 MOST_TICKS = 260
 """A session that has come so far makes room for another: the model plays all of it again and again."""
@@ -86,6 +91,7 @@ class Walker:
         """Cheaply, and always: the session, its present state, and what those who follow it have."""
         plain = self.sessions[path]
         compare_session(await self.get(path), plain)
+        await self.service.settled(path, len(plain.lines))
         state = await self.get(f"{path}/state")
         compare_state(state, plain)
         self.judge.look(plain)
@@ -118,10 +124,19 @@ class Walker:
 
     async def _make(self, config: Json, running: bool) -> None:
         status, told = await self.post(f"{API}/sessions", {"config": config, "paused": not running})
-        same("a new session", status, 201)
-        self.sessions[told["links"]["self"]] = Plain(
-            Config().with_parts(**config), self.limits, paused=not running
-        )
+        try:
+            plain = Plain(
+                Config().with_parts(**DEFAULTS[config.get("rules", 2)] | config),
+                self.limits,
+                paused=not running,
+            )
+            run = plain.run
+        except ConfigError as error:
+            holds(f"a road that cannot be, {error}", status == 422, told)
+            self.refused += 1
+            return
+        same(f"a new session, {told}", status, 201)
+        self.sessions[told["links"]["self"]] = plain.look(run)
 
     async def _fork(self, which: int, share: float, actions: list[Json]) -> None:
         path = self.pick(which)
@@ -194,7 +209,7 @@ class Walker:
                 # In a hurry several follow each other in one turn.
                 most = 8 if plain.pace == "max" or float(plain.pace) > 1 else 1
                 holds(f"ticks in a turn at {plain.pace}", 1 <= passed <= most, passed)
-                plain.pass_ticks(passed)
+                plain.turn(passed)
 
     async def _kill(self) -> None:
         await self.service.kill()
