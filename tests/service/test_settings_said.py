@@ -29,8 +29,8 @@ async def talking(settings: Settings) -> AsyncIterator[Service]:
 @pytest.mark.parametrize(
     ("text", "reply"),
     [
-        ("use A*", "The planner: Priority rules of the source → A*."),
-        ("switch to dijkstra", "The planner: Priority rules of the source → Dijkstra."),
+        ("use A*", "The planner: Rules → A*."),
+        ("switch to dijkstra", "The planner: Rules → Dijkstra."),
         ("heavy traffic", "Traffic: not set → heavy."),
         ("set the spawn probability to 0.4", "It shows from the next road on."),
         ("raise the safety buffer by one", "The safety buffer: 1 → 2."),
