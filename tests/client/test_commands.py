@@ -16,7 +16,7 @@ import pytest
 from typer.testing import CliRunner
 
 from service.cli import cli
-from service.client import Client, Gone, LogEvent, Message, Session, SessionSummary, Standing
+from service.client import Changed, Client, Gone, LogEvent, Message, Session, SessionSummary, Standing
 from service.client.messages import Hello
 from service.commands import doctor, talking
 from service.commands.listing import table
@@ -122,6 +122,11 @@ def test_the_lines_of_a_watcher() -> None:
     assert list(lines(Standing(type="state", missed=(3, 8), state=state))) == [
         "     9  ! ticks 3 to 8 were missed"
     ]
+    found = LogEvent(5, 9, "no_way", "There is no way through.", (), None)
+    told = {"type": "changed", "sequence": 1, "changes": (), "state": state, "events": (found,)}
+    assert list(lines(Changed(**told, text=None, reply=found.text))) == ["     9  * There is no way through."]
+    said = Changed(**told, text="add a wall", reply="Added. There is no way through.")
+    assert list(lines(said)) == ["     9  > add a wall: Added. There is no way through."]
     assert LogEvent(1, 2, "crash", "text", (), None).tick == 2
 
 
