@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 from sim.commit import commit
 from sim.config import Config
 from sim.forecast import foretell
@@ -12,12 +14,14 @@ from sim.rules import Motion, followed_table, move_movers
 from sim.run import Run, advance
 
 
-def test_what_is_expected_is_what_comes_and_no_second_table_is_made() -> None:
-    run = Run.start(Config(seed=3, pedestrians=4))
+@pytest.mark.parametrize(("attentive", "move"), [(0.0, Move.STAY), (1.0, Move.FORWARD)])
+def test_what_is_expected_is_what_comes_and_no_second_table_is_made(attentive: float, move: Move) -> None:
+    """Unless a mover brakes for a vehicle that stays."""
+    run = Run.start(Config(seed=3, pedestrians=4, attentive=attentive))
     for _ in range(12):
         world = run.world
         forecast = foretell(perceive(world, run.config), 1)
-        after = commit(world, Move.STAY, run.config)
+        after = commit(world, move, run.config)
         assert after.movers == forecast.slices.movers(0)
         assert after.movers is forecast.slices.movers(0)
         run = advance(run).run
