@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import pytest
-
 from sim.commit import commit
 from sim.config import Config
 from sim.forecast import foretell
@@ -14,14 +12,13 @@ from sim.rules import Motion, followed_table, move_movers
 from sim.run import Run, advance
 
 
-@pytest.mark.parametrize(("attentive", "move"), [(0.0, Move.STAY), (1.0, Move.FORWARD)])
-def test_what_is_expected_is_what_comes_and_no_second_table_is_made(attentive: float, move: Move) -> None:
-    """Unless a mover brakes for a vehicle that stays."""
-    run = Run.start(Config(seed=3, pedestrians=4, attentive=attentive))
+def test_what_is_expected_is_what_comes_and_no_second_table_is_made() -> None:
+    """Unless the vehicle stays and a mover brakes for it."""
+    run = Run.start(Config(seed=3, pedestrians=4))
     for _ in range(12):
         world = run.world
         forecast = foretell(perceive(world, run.config), 1)
-        after = commit(world, move, run.config)
+        after = commit(world, Move.FORWARD, run.config)
         assert after.movers == forecast.slices.movers(0)
         assert after.movers is forecast.slices.movers(0)
         run = advance(run).run
