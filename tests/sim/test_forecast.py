@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from sim.forecast import Verdict, foretell
 from sim.kinds import Move
@@ -42,15 +43,16 @@ def test_courtesy_is_known_for_the_coming_tick(world: World) -> None:
 
 
 @settings(max_examples=150, deadline=None)
-@given(worlds())
-def test_will_be_free_is_what_the_twin_says(world: World) -> None:
-    forecast = foretell(perceive(world, run_on(world).config), 1)
+@given(worlds(), st.booleans())
+def test_will_be_free_is_what_the_twin_says(world: World, attentive: bool) -> None:
+    """Also of staying, before movers who brake for it."""
+    forecast = foretell(perceive(world, run_on(world, attentive=float(attentive)).config), 1)
     now = twin.position(world)
     later = twin.moved_bodies(now)
     for move in Move:
         cell = (now.av[0] + move.offset[0], now.av[1] + move.offset[1])
         free = forecast.will_be_free(world.av, world.road.moved(world.av, move))
-        assert free is twin.will_be_free(now, later, cell, attentive=())
+        assert free is twin.will_be_free(now, later, cell, None if attentive else ())
 
 
 @pytest.mark.parametrize(

@@ -16,6 +16,7 @@ from sim.generate import GenerationError, generate
 from sim.kinds import Outcome
 from sim.layouts import has_barriers, laid, least_room, vehicles_on_average
 from sim.optimum import Drivable, certify, least_ticks
+from sim.optimum.least import can_arrive
 from sim.randomness import Stream
 from sim.road import Road
 from sim.run import Run, advance, next_episode
@@ -50,7 +51,7 @@ def test_any_size_of_road_is_sound_and_drivable(layout: Layout, size: tuple[int,
     assert state_defects(world) == ()
     everything = world.fixed | world.right | world.left
     assert not everything & (world.road.row(0) | world.road.row(rows - 1))
-    assert least_ticks(run) is not None
+    assert can_arrive(run)
 
 
 @pytest.mark.parametrize("layout", LAYOUTS)
@@ -146,10 +147,13 @@ def test_traffic_fills_a_layout_as_it_fills_a_road(layout: Layout) -> None:
 def test_two_hundred_roads_of_a_family_are_drivable_and_ask_for_more_than_going_straight(
     layout: Layout,
 ) -> None:
-    """Every certificate is a plan that was played; the families lengthen the way."""
+    """Every certificate is a plan that was played; the families lengthen the way.
+
+    What needs nobody to brake is a way where all do, too.
+    """
     lengths, first_draws = [], 0
     for seed in range(200):
-        config = Config(layout=layout, seed=seed)
+        config = Config(layout=layout, seed=seed, attentive=0.0)
         run = Run.start(config)
         certificate = certify(run)
         assert isinstance(certificate, Drivable)
@@ -160,7 +164,8 @@ def test_two_hundred_roads_of_a_family_are_drivable_and_ask_for_more_than_going_
 
 
 def test_scattered_roads_are_hardly_longer_than_going_straight() -> None:
-    lengths = [least_ticks(Run.start(Config(seed=seed, solvable=True))) or 0 for seed in range(200)]
+    configs = [Config(seed=seed, solvable=True, attentive=0.0) for seed in range(200)]
+    lengths = [least_ticks(Run.start(config)) or 0 for config in configs]
     assert fmean(lengths) - 29 < 0.1
 
 
@@ -168,7 +173,7 @@ def test_scattered_roads_are_hardly_longer_than_going_straight() -> None:
 def test_a_planner_that_looks_ahead_and_one_that_does_not_come_apart(layout: Layout) -> None:
     arrived, late = 0, []
     for seed in range(40):
-        run = Run.start(Config(layout=layout, seed=seed))
+        run = Run.start(Config(layout=layout, seed=seed, planner="priority", attentive=0.0))
         least = least_ticks(run)
         assert least is not None
         while run.world.outcome is Outcome.RUNNING:
@@ -234,6 +239,6 @@ def ticks(seed: int, layout: Layout | None, *preferences: Preference) -> int:
 @pytest.mark.parametrize("layout", ["walls", "maze"])
 def test_who_asks_for_the_fastest_way_gets_there_sooner(layout: Layout) -> None:
     """The figures with intervals are in bench/FAMILIES.md."""
-    saved = [ticks(seed, layout) - ticks(seed, layout, "fastest") for seed in range(16)]
+    saved = [ticks(seed, layout) - ticks(seed, layout, "fastest") for seed in range(6)]
     assert min(saved) >= 0
     assert sum(saved) > 0

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from sim.actions import Preference
 from sim.batch import Batch
-from sim.config import Config
+from sim.config import Collision, Config
 from sim.forecast import foretell
 from sim.kinds import Mode, Move, Outcome
 from sim.perceive import perceive
@@ -29,6 +29,14 @@ from tests.sim.twin import position
 pytestmark = pytest.mark.xdist_group("compiled")
 
 PREFERENCES = st.lists(st.sampled_from(get_args(Preference)), unique=True, max_size=3)
+REACTIONS = st.fixed_dictionaries(
+    {
+        "courtesy": st.sampled_from([0.0, 0.7]),
+        "attentive": st.sampled_from([0.0, 0.5, 1.0]),
+        "collision": st.sampled_from(get_args(Collision)),
+    }
+)
+"""Whether movers give way and brake, and what a collision is."""
 MOVES = list(Move)
 
 
@@ -54,10 +62,11 @@ def test_every_total_is_what_the_whole_table_says(world: World, preferences: lis
 
 
 @settings(max_examples=150)
-@given(worlds(), PREFERENCES, st.integers(0, 3), st.sampled_from([0.0, 0.7]))
-def test_three_engines_agree(world: World, preferences: list[str], buffer: int, courtesy: float) -> None:
-    run = run_on(world, preferences=preferences, safety_buffer=buffer, courtesy=courtesy)
-    _agree(run)
+@given(worlds(), PREFERENCES, st.integers(0, 3), REACTIONS)
+def test_three_engines_agree(
+    world: World, preferences: list[str], buffer: int, reactions: dict[str, object]
+) -> None:
+    _agree(run_on(world, preferences=preferences, safety_buffer=buffer, **reactions))
 
 
 @pytest.mark.parametrize("seed", range(8))
