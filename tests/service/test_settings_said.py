@@ -29,12 +29,12 @@ async def talking(settings: Settings) -> AsyncIterator[Service]:
 @pytest.mark.parametrize(
     ("text", "reply"),
     [
-        ("use A*", "The planner: Priority rules of the source → A*."),
-        ("switch to dijkstra", "The planner: Priority rules of the source → Dijkstra."),
+        ("use A*", "The planner: Rules → A*."),
+        ("switch to dijkstra", "The planner: Rules → Dijkstra."),
         ("heavy traffic", "Traffic: not set → heavy."),
         ("set the spawn probability to 0.4", "It shows from the next road on."),
         ("raise the safety buffer by one", "The safety buffer: 1 → 2."),
-        ("steer clear of potholes", "From now on I keep away from potholes. But the planner priority weighs"),
+        ("steer clear of potholes", "From now on I keep away from potholes. But the planner rules weighs"),
         ("set rows to 40", "The number of rows: 30 → 40. A new road"),
     ],
 )
