@@ -123,7 +123,7 @@ async def test_what_is_told_of_a_run(inside: AsyncClient) -> None:
 
 
 async def test_what_would_have_been(inside: AsyncClient) -> None:
-    session = await inside.create(seed=11, config={"potholes": 4}, paused=True)
+    session = await inside.create(seed=13, config={"potholes": 4}, paused=True)
     moves = [each.move for each in (await session.step(3)).decisions]
     beside = await session.counterfactual(move="stay", at_tick=1, ticks=5)
     assert isinstance(beside, runs.Counterfactual)

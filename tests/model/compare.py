@@ -144,9 +144,10 @@ def compare_session(told: Json, plain: Plain) -> None:
 
 def compare_lines(told: Sequence[Json], lines: Sequence[Line], first: int) -> None:
     """Numbered lines; words that were seen once stay as they were."""
+    kinds = [(line["tick"], line["type"]) for line in told]
+    same(f"lines from {first}", kinds, [(line.tick, str(line.type)) for line in lines])
     for number, (line, thought) in enumerate(zip(told, lines, strict=True), start=first):
         same("number of a line", line["number"], number)
-        same(f"line {number}", (line["tick"], line["type"]), (thought.tick, str(thought.type)))
         same(f"line {number}, ids", line["ids"], list(thought.ids))
         same(f"line {number}, cell", line["cell"], thought.cell and list(thought.cell))
         if thought.text is None:

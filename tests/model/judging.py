@@ -57,7 +57,7 @@ class Judge:
 
 
 def repeated(runs: list[Run]) -> bool:
-    """Whether the last state is like an earlier one of its road, and only the rule led from one to the other."""
+    """Whether the last state is like an earlier one of its road from which the rule alone led to it."""
     last = runs[-1]
     sought = situation(last)
     for run in reversed(runs[:-1]):

@@ -200,6 +200,7 @@ class Plain:
         self.lines = tuple(line for line in self.lines[:lines] if not line.passing)
         self.kept = tick, len(self.lines)
         self.paused = True
+        self.way = None
         self.look(self.run)
 
     # The way to the goal

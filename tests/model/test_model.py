@@ -11,7 +11,7 @@ import pytest
 
 from service.actions import Undo
 from service.language import Language
-from sim.actions import Add
+from sim.actions import Add, Where
 from sim.config import Config
 from tests.model.compare import DifferenceError
 from tests.model.plain import Plain, RefusedError
@@ -40,6 +40,25 @@ def test_a_walk_is_plain_values_and_the_same_every_time() -> None:
     assert ops == walk(7, 100)
     assert ops != walk(8, 100)
     assert json.loads(json.dumps(ops)) == [list(op) for op in json.loads(json.dumps(ops))]
+
+
+def test_walks_come_by_all_rules() -> None:
+    """Those of before and of today, and each of them changed alone."""
+    made = [op[1] for seed in range(40) for op in walk(seed, 20) if op[0] == "make"]
+    told = {
+        (name, config.get(name))
+        for config in made
+        for name in ("rules", "collision", "repetition", "attentive")
+    }
+    assert {
+        ("rules", 1),
+        ("rules", None),
+        ("collision", "cell"),
+        ("repetition", False),
+        ("attentive", 0.5),
+    } <= told
+    assert {config.get("planner") for config in made} >= {None, "rules", "priority", "astar"}
+    assert len({config.get("layout") for config in made}) > 4
 
 
 async def test_a_difference_is_found_and_made_short(
@@ -94,3 +113,16 @@ def test_the_model_undoes_and_does_again() -> None:
     assert said.run.world.counts()["pothole"] == 5
     with pytest.raises(RefusedError):
         undone.said((Undo(),), None)
+
+
+def test_the_model_tells_of_a_road_without_a_way_and_of_its_opening() -> None:
+    plain = Plain(Config(seed=4, rows=6, columns=3, vehicles=0, potholes=0))
+    plain.look(plain.run)
+    assert plain.lines == ()
+    wall = tuple(Add(kind="barrier", count=1, where=Where(cell=(column, 2))) for column in range(3))
+    closed = plain.said(wall, None)
+    assert [line.type for line in closed.lines] == ["changed", "no_way"]
+    assert len(closed.lines[-1].ids) == 1
+    assert [line.type for line in closed.said((Undo(),), None).lines][2:] == ["changed", "way_open"]
+    closed.wake()
+    assert [line.type for line in closed.lines] == ["changed", "no_way"]

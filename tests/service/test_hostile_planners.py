@@ -167,7 +167,7 @@ async def test_what_was_decided_is_told_without_asking_again(service: Service) -
     assert [each["narration"] for each in after["items"]] == [each["narration"] for each in before["items"]]
 
 
-@pytest.mark.parametrize("planner", ["AStar", "rules", "manual", " dijkstra"])
+@pytest.mark.parametrize("planner", ["AStar", "Rules", "manual", " dijkstra"])
 async def test_names_that_are_not_theirs_cannot_be_chosen(service: Service, planner: str) -> None:
     answer = await service.client.post(MADE, json={"planner": planner})
     assert answer.status_code == 422, answer.text
