@@ -150,9 +150,9 @@ def test_the_plan_tells_the_next_move_and_why_not_the_others(visit: Visit) -> No
     expect(way(visitor, "Left")).to_contain_text("a pothole")
     expect(visitor.page.locator(".panel-note").first).to_have_text(f"next, at tick {visitor.tick()}")
     chosen = visitor.page.locator(".way[data-standing=taken] .way-name")
-    expect(chosen).to_have_text("Right")
+    expect(chosen).to_have_text("Forward left")
     expect(visitor.page.locator(".plan-canvas")).to_have_attribute(
-        "aria-label", re.compile("Intended: right. 2 of six")
+        "aria-label", re.compile("Intended: forward left. 2 of six")
     )
     plain, tick = visitor.settled(), visitor.tick()
     way(visitor, "Forward").focus()
@@ -160,7 +160,7 @@ def test_the_plan_tells_the_next_move_and_why_not_the_others(visit: Visit) -> No
     visitor.page.locator("#words").focus()
     visitor.page.get_by_role("button", name="Step").click()
     expect(visitor.page.locator(".caption")).to_contain_text("barrier")
-    assert visitor.script.state()["vehicles"][0]["cell"] == [column + 1, row]
+    assert visitor.script.state()["vehicles"][0]["cell"] == [column - 1, row - 1]
     expect(visitor.page.locator(".panel-note").first).to_have_text(f"next, at tick {tick + 1}")
     expect(chosen).to_have_text("Forward")
 

@@ -6,12 +6,17 @@ Where Node is not installed they are skipped and left to the browser tests; in C
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import subprocess
 from pathlib import Path
+from typing import get_args
 
 import pytest
 
+from service.narrate.sayings import Sayings
+from sim import planner_names
+from sim.actions import Layout
 from tests.leaving_out import leave_out
 
 HERE = Path(__file__).parent
@@ -79,3 +84,20 @@ def _type_checker() -> list[str] | None:
         check=False,
     )
     return [npx, "--no-install", "tsc"] if found.stdout.startswith("Version ") else None
+
+
+def test_planners_and_families_of_roads_are_named_as_the_service_names_them() -> None:
+    """All there are, in the words of its answers; a planner's order is that of the choice."""
+    source = (ROOT / "web" / "src" / "words.js").read_text(encoding="utf-8")
+    sayings = Sayings.load()
+
+    def table(name: str) -> dict[str, str]:
+        found = re.search(rf"const {name} = .*?\{{\n(.*?)\n\}}", source, re.DOTALL)
+        assert found
+        return dict(re.findall(r'^  (\w+): "(.*)",$', found[1], re.MULTILINE))
+
+    planners, layouts = table("PLANNERS"), table("LAYOUTS")
+    assert list(planners) == list(planner_names.BUILT_IN)
+    assert planners == {name: sayings.say("words", "planners", name, "name") for name in planners}
+    assert list(layouts) == list(get_args(Layout))
+    assert layouts == {name: sayings.say("replies", "layouts", name) for name in layouts}

@@ -25,7 +25,7 @@ def play(*arguments: str) -> subprocess.CompletedProcess[str]:
     [
         (("--potholes", "3"), "There is no display to open a window on"),
         (("--potholes", "900"), "there is room for 196"),
-        (("--planner", "nobody"), "There is no planner called nobody. There are: priority"),
+        (("--planner", "nobody"), "There is no planner called nobody. There are: rules, priority"),
         (("--size", "10x10"), "'10x10' is no size of a window"),
         (("--scenario", "the colour of money"), "I did not understand"),
         (("--scenario", "add two cars"), "does not describe a road"),

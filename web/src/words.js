@@ -42,13 +42,22 @@ export function plain(name) {
 }
 
 /** Planners by the names people know them by; others go by the name they were registered under. */
-const PLANNERS = /** @type {Record<string, string>} */ ({
+export const PLANNERS = /** @type {Record<string, string>} */ ({
   rules: "Rules",
   priority: "Priority rules of the source",
   astar: "A*",
   dijkstra: "Dijkstra",
   exact: "Quickest",
 });
+
+/** Families of roads as they are asked for, in the order in which they are offered. @type {Record<string, string>} */
+export const LAYOUTS = {
+  walls: "walls with gaps",
+  narrows: "narrow streets",
+  dead_ends: "dead ends",
+  crossing: "crossing traffic",
+  maze: "a maze",
+};
 
 /** @param {string} name */
 export function plannerName(name) {
@@ -64,6 +73,7 @@ const FIGURES = {
   queue: { name: "next moves", value: (moves) => listed(moves, (/** @type {Move} */ move) => MOVES[move]?.name ?? plain(move)) },
   playback_speed: { value: (pace) => (pace === "max" ? "max" : `${pace}×`) },
   planner: { value: plannerName },
+  layout: { value: (layout) => LAYOUTS[layout] ?? plain(layout) },
   preferences: { value: (wishes) => listed(wishes, plain) },
   columns: { name: "lanes" },
   rows: { name: "length", value: (rows) => `${rows} rows` },

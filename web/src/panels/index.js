@@ -9,6 +9,7 @@ import { createCommand } from "./command.js";
 import { createComparison } from "./comparison.js";
 import { createConnectionBadge } from "./connection.js";
 import { createControls } from "./controls.js";
+import { createDriver } from "./driver.js";
 import { createExport } from "./export.js";
 import { createForesight } from "./foresight.js";
 import { createHelp } from "./help.js";
@@ -23,6 +24,7 @@ import { createLooking, createPast } from "./past.js";
 import { createPixels } from "./pixels.js";
 import { createPlan } from "./plan.js";
 import { createRoad } from "./road.js";
+import { createRoads } from "./roads.js";
 import { createSchematic } from "./schematic.js";
 import { createShare } from "./share.js";
 import { createReader } from "./speech.js";
@@ -60,6 +62,7 @@ export function createPanels(page) {
     createNotice(byId("notice"), page),
     createSchematic(byId("schematic"), road.places),
     createStatus(byId("status")),
+    createDriver(byId("status"), page),
     createCaption(byId("caption")),
     createControls(byId("controls"), page),
     createLog(byId("log")),
@@ -78,6 +81,7 @@ export function createPanels(page) {
     createOccupancy(byId("occupancy")),
     createMetrics(byId("metrics"), page),
     createReader(),
+    createRoads(),
     createPalette(/** @type {HTMLDialogElement} */ (byId("palette")), page),
     createHelp(byId("help"), page),
   ];

@@ -2,7 +2,7 @@
 /** The instruments: figures of the drive and of the session so far. */
 
 import { make, setText } from "../dom.js";
-import { clock, counted, percent, plannerName } from "../words.js";
+import { clock, counted, percent } from "../words.js";
 import { speedKmh, toGo } from "../world.js";
 
 /** @import { State } from "../state.js" */
@@ -30,7 +30,6 @@ const FIGURES = [
     value: ({ metrics }) => percent(metrics.success_rate),
     note: ({ metrics }) => (metrics.episodes === 0 ? "" : `${metrics.successes} of ${metrics.episodes}`),
   },
-  { key: "driver", label: "Driver", value: (world) => (world.mode === "manual" ? "you" : plannerName(world.planner)) },
 ];
 
 /** @param {HTMLElement} host  a definition list @returns {Panel} */

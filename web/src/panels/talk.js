@@ -1,9 +1,10 @@
 // @ts-check
-/** The conversation: what was said and what came back; at first, three things to try. */
+/** The conversation: what was said and what came back; at first, things to try. */
 
 import { make } from "../dom.js";
 import { standingOf } from "../steps.js";
 import { shown } from "../talk.js";
+import { LAYOUTS } from "../words.js";
 import { exchangeElement } from "./exchange.js";
 
 /** @import { Page } from "../main.js" */
@@ -73,6 +74,12 @@ function welcome(page) {
           make("span", { class: "example-what" }, what),
         ),
       ),
+    ),
+    make(
+      "p",
+      { class: "families" },
+      "or a road with",
+      ...Object.values(LAYOUTS).map((words) => make("button", { class: "family", type: "button", onclick: () => page.say(words) }, words)),
     ),
   );
 }
