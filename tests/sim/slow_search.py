@@ -81,14 +81,15 @@ def step_cost(future: Future, weights: Weights, ahead: int, move: Move, there: C
     return charge
 
 
-def totals(now: Position, weights: Weights, horizon: int) -> dict[Move, int | None]:
+def totals(now: Position, weights: Weights, horizon: int, *, braking: bool = True) -> dict[Move, int | None]:
     """What every move costs with the cheapest way on that ends within `horizon` ticks: the whole table.
 
     Where a mover brakes for a vehicle that stays, staying is looked at by itself.
+    Without `braking` none does.
     """
     found = _table(Future(now), weights, horizon)
     standing = Future(now, standing=True)
-    if standing.bodies(1) != moved_bodies(now):
+    if braking and standing.bodies(1) != moved_bodies(now):
         found[Move.STAY] = _table(standing, weights, horizon)[Move.STAY]
     return found
 

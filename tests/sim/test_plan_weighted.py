@@ -6,7 +6,7 @@ from typing import get_args
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from sim.actions import Preference
@@ -38,6 +38,8 @@ REACTIONS = st.fixed_dictionaries(
 )
 """Whether movers give way and brake, and what a collision is."""
 MOVES = list(Move)
+MET = road(".....", ".....", ".....", ">A...")
+"""A mover that enters the vehicle's cell, unless it brakes."""
 
 
 def decision(run: Run, planner: str) -> Decision:
@@ -51,14 +53,18 @@ def costs(taken: Decision) -> dict[Move, float | None]:
 
 
 @settings(max_examples=60)
-@given(worlds(max_columns=6, max_rows=7), PREFERENCES, st.integers(0, 3))
-def test_every_total_is_what_the_whole_table_says(world: World, preferences: list[str], buffer: int) -> None:
-    run = run_on(world, preferences=preferences, safety_buffer=buffer, attentive=1.0)
+@given(worlds(max_columns=6, max_rows=7), PREFERENCES, st.integers(0, 3), st.booleans())
+@example(MET, [], 1, False)
+@example(MET, [], 1, True)
+def test_every_total_is_what_the_whole_table_says(
+    world: World, preferences: list[str], buffer: int, braking: bool
+) -> None:
+    run = run_on(world, preferences=preferences, safety_buffer=buffer, attentive=float(braking))
     found = costs(decision(run, "astar"))
     # No way of more ticks than the dearest total pays for can be cheaper.
     bound = max((cost for cost in found.values() if cost is not None), default=0)
     horizon = max(world.road.rows + 6, int(bound) // weights(run.config).tick)
-    assert totals(position(world), weights(run.config), horizon) == found
+    assert totals(position(world), weights(run.config), horizon, braking=braking) == found
 
 
 @settings(max_examples=150)
