@@ -26,10 +26,14 @@ def driven(config: Config) -> Timeline:
     return timeline
 
 
+CARELESS = Config(potholes=30, vehicles=25, planner="priority", attentive=0.0)
+"""Roads on which it comes to crashes: nobody brakes, and the source's rule drives."""
+
+
 def crashes(count: int, **config: object) -> Iterator[tuple[Timeline, Crash]]:
     seed = 0
     while count:
-        timeline = driven(Config(seed=seed, potholes=30, vehicles=25).with_parts(**config))
+        timeline = driven(CARELESS.with_parts(seed=seed, **config))
         seed += 1
         if timeline.run.world.outcome is Outcome.CRASH:
             count -= 1
@@ -124,7 +128,7 @@ def test_nothing_is_claimed_of_the_ticks_before_where_somebody_may_give_way() ->
 
 
 def test_a_person_who_stands_still_is_told_which_moves_were_free() -> None:
-    timeline = Timeline(Config(seed=3, potholes=0, vehicles=0))
+    timeline = Timeline(Config(seed=3, potholes=0, vehicles=0, attentive=0.0))
     timeline.apply(1, [SetMode(mode=Mode.MANUAL)])
     column, row = timeline.run.world.road.cell(timeline.run.world.av)
     timeline.apply(2, [Add(kind="vehicle", count=1, where=Where(cell=(column - 2, row)))])
@@ -139,7 +143,7 @@ def test_a_person_who_stands_still_is_told_which_moves_were_free() -> None:
 
 
 def test_an_edit_on_the_way_ends_what_is_known_of_the_ticks_before() -> None:
-    timeline = Timeline(Config(seed=3, potholes=0, vehicles=0))
+    timeline = Timeline(Config(seed=3, potholes=0, vehicles=0, attentive=0.0))
     timeline.advance()
     timeline.apply(1, [Drive(move=Move.LEFT)])
     timeline.advance()
