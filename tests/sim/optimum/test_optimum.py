@@ -28,7 +28,7 @@ def test_least_ticks_are_those_of_an_exhaustive_search(world: World) -> None:
     assert least_ticks(run_on(world)) == slow_search.least_ticks(position(world))
 
 
-@settings(max_examples=50)
+@settings(max_examples=30)
 @given(worlds(max_columns=5, max_rows=6))
 def test_certificates_hold(world: World) -> None:
     run = run_on(world)
