@@ -19,8 +19,9 @@ from sim.explain.facts import Counterfactual, Explanation, QuestionError, Verifi
 from sim.explain.rerun import Rerun
 from sim.explain.stakes import after_move
 from sim.kinds import Move, Outcome
-from sim.optimum import least_ticks
+from sim.optimum.least import PATIENCE, least_ticks
 from sim.run import Run
+from sim.search.reactive import ImpatientError
 from sim.timeline import SNAPSHOT_TICKS, Timeline
 from sim.world import Cause, World
 
@@ -201,8 +202,11 @@ def _saving(timeline: Timeline, fatal: Run) -> tuple[int, bool, Saving | None]:
         for run in reversed(list(timeline.between(first, stop))):
             if (run.edits, run.config, run.world.episode) != (fatal.edits, fatal.config, fatal.world.episode):
                 return looked, False, None
+            try:
+                saving = _saved(timeline, run)
+            except ImpatientError:
+                return looked, False, None
             looked += 1
-            saving = _saved(timeline, run)
             if saving is not None:
                 return looked, False, saving
         stop, span = first, 4 * span
@@ -212,13 +216,13 @@ def _saving(timeline: Timeline, fatal: Run) -> tuple[int, bool, Saving | None]:
 def _saved(timeline: Timeline, run: Run) -> Saving | None:
     """A move from which a way leads to the goal, with the quickest, if there is one."""
     decision = timeline.decided(run)
-    if decision is None or least_ticks(run) is None:
+    if decision is None or least_ticks(run, PATIENCE) is None:
         return None
     ways = [
         (ticks, order, option.move)
         for order, option in enumerate(decision.options)
         if option.cell is not None and option.move is not decision.move
-        if (ticks := least_ticks(after_move(run, option.move))) is not None
+        if (ticks := least_ticks(after_move(run, option.move), PATIENCE)) is not None
     ]
     if not ways:
         return None

@@ -10,11 +10,12 @@ from dataclasses import dataclass, replace
 
 from sim.explain.future import followed
 from sim.kinds import Mode, Move, Outcome
-from sim.optimum import least_ticks
+from sim.optimum.least import PATIENCE, least_ticks
 from sim.plan import Decision
 from sim.planner_names import LOCAL
 from sim.repetition import NOTHING_KEPT, Situation, situation
 from sim.run import Run
+from sim.search.reactive import ImpatientError
 from sim.transition import transition
 
 
@@ -39,7 +40,8 @@ class Stakes:
     real: Future | None
     """how it ends after the move that was made, left to itself"""
     ticks_lost: int | None
-    """how much longer the best way on is after the foil; None where there is none after either"""
+    """how much longer the best way on is after the foil; None where there is none after either of them, and
+    where that is not known within `sim.optimum.least.PATIENCE`"""
     dead_end: bool
     """whether after the foil no way leads on, and after the move made one does"""
 
@@ -49,15 +51,19 @@ def stakes(run: Run, decision: Decision, foil: Move) -> Stakes | None:
     if decision.option(foil).cell is None or foil is decision.move:
         return None
     other, real = after_move(run, foil), after_move(run, decision.move)
-    rest_other, rest_real = least_ticks(other), least_ticks(real)
-    both = rest_other is not None and rest_real is not None
-    return Stakes(
-        foil=foil,
-        would=_end(other),
-        real=_end(real),
-        ticks_lost=rest_other - rest_real if both else None,  # type: ignore[operator]
-        dead_end=rest_other is None and rest_real is not None,
-    )
+    ticks_lost, dead_end = _compared(other, real)
+    return Stakes(foil, _end(other), _end(real), ticks_lost, dead_end)
+
+
+def _compared(other: Run, real: Run) -> tuple[int | None, bool]:
+    """Ticks that the best way on is longer after the other move; whether only after that none leads on."""
+    try:
+        rest_other, rest_real = least_ticks(other, PATIENCE), least_ticks(real, PATIENCE)
+    except ImpatientError:
+        return None, False
+    if rest_other is None or rest_real is None:
+        return None, rest_real is not None
+    return rest_other - rest_real, False
 
 
 def after_move(run: Run, move: Move) -> Run:

@@ -7,6 +7,7 @@ since then is left out of both, so that they differ in the change and in nothing
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 
 from sim.actions import Add, Drive, Remove, SetCount, WorldAction
@@ -14,9 +15,11 @@ from sim.edit import Applied, apply
 from sim.explain.facts import QuestionError
 from sim.explain.future import Story, followed, told
 from sim.kinds import Move
+from sim.optimum.least import PATIENCE
 from sim.optimum.regret import Regret, regret
 from sim.plan import Decision
 from sim.run import Run, Tick
+from sim.search.reactive import ImpatientError
 from sim.timeline import Timeline
 
 
@@ -46,7 +49,8 @@ class WhatIf:
     """whether both go on along the same road, so that moves can be compared"""
     first_difference: Difference | None
     regret: Regret | None
-    """what the real move costs at that moment on the real road, against the best that could be done there"""
+    """what the real move costs at that moment on the real road, against the best that could be done there;
+    None also where that is not known within `sim.optimum.least.PATIENCE`"""
     certain: bool
     """whether the regret is exact: nothing is left to who gives way"""
     said_since: int
@@ -77,7 +81,8 @@ def what_if(timeline: Timeline, change: Sequence[WorldAction], tick: int | None 
     lost, certain = None, run.config.certain
     if difference is not None:
         before = next(run for run, _ in real_ticks if run.world.tick == difference.tick)
-        lost = regret(before, difference.real)
+        with suppress(ImpatientError):
+            lost = regret(before, difference.real, PATIENCE)
     since = run.world.tick
     said_since = 0 if tick is None else sum(entry.tick > since for entry in timeline.entries)
     return WhatIf(run, tuple(done), real, other, same_road, difference, lost, certain, said_since)

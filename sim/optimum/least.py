@@ -6,6 +6,8 @@ have. The least cost assumes that nobody reacts to the vehicle after the first t
 
 from __future__ import annotations
 
+from typing import Final
+
 from sim.forecast import Forecast, foretell
 from sim.kinds import Move, Outcome
 from sim.perceive import perceive
@@ -15,6 +17,9 @@ from sim.search.costs import weights
 from sim.search.reach import flooded, reach, shortest_plan, steps_left
 from sim.search.reactive import ReactiveSearch
 from sim.search.spacetime import SpaceTime
+
+PATIENCE: Final = 1_000
+"""States searched for an answer to a question, where movers react: some 30 ms."""
 
 
 def foreseen(run: Run) -> tuple[Forecast, int]:

@@ -30,13 +30,16 @@ class Regret:
     """whether the goal could be reached before the move and cannot after it"""
 
 
-def regret(run: Run, move: Move) -> Regret:
-    """The regret of a move. Raises `ValueError` if it leads off the road or the episode has ended."""
-    best_ticks = least_ticks(run)
+def regret(run: Run, move: Move, patience: int | None = None) -> Regret:
+    """The regret of a move. Raises `ValueError` if it leads off the road or the episode has ended.
+
+    `patience`: as for `least_ticks`.
+    """
+    best_ticks = least_ticks(run, patience)
     after = _after(run, move)
     if best_ticks is None:
         return Regret(None, None, lost=False)
-    ticks = least_ticks(after)
+    ticks = least_ticks(after, patience)
     if ticks is None:
         return Regret(None, None, lost=True)
     forecast, limit = foreseen(run)

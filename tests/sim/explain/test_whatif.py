@@ -44,7 +44,7 @@ def test_where_they_part_and_what_the_real_move_costs() -> None:
 
 
 def test_what_changes_nothing_is_known_as_that() -> None:
-    found = what_if(Timeline(Config(seed=3)), [Set(parameter="planner", value="priority")])
+    found = what_if(Timeline(Config(seed=3)), [Set(parameter="planner", value="rules")])
     assert found.no_effect
     assert found.real == found.changed
     assert found.first_difference is None
