@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import pytest
 from playwright.sync_api import expect
 
@@ -17,13 +19,13 @@ def test_the_driver_is_chosen_from_all_planners_by_name(visit: Visit) -> None:
     expect(driver.locator("option")).to_have_text(DRIVERS)
     expect(driver).to_have_value("rules")
     driver.select_option("A*")
-    expect(visitor.page.locator(".log-line[data-tone=change]")).to_contain_text("Driver: A*")
+    expect(visitor.last_exchange("Driver: A*").locator(".reply")).to_contain_text("Rules → A*")
     assert visitor.script.state()["planner"] == "astar"
     visitor.say("let me drive")
     expect(driver).to_have_value("manual")
     driver.select_option("Quickest")
     expect(driver).to_have_value("exact")
-    expect(visitor.page.locator(".log-line[data-tone=change]").last).to_contain_text("Driver: Quickest")
+    expect(visitor.last_exchange("Driver: Quickest").locator(".reply")).to_contain_text("A* → Quickest")
     state = visitor.script.state()
     assert (state["mode"], state["planner"]) == ("auto", "exact")
 
@@ -35,7 +37,7 @@ def test_the_longest_name_of_a_driver_leaves_the_other_figures_their_room(visit:
     boxes = [figure.bounding_box() for figure in visitor.page.locator(".status .figure").all()]
     assert len(boxes) == 6
     ends = [(box["x"], box["x"] + box["width"]) for box in boxes if box]
-    assert all(end <= begin + 0.5 for (_, end), (begin, _) in zip(ends, ends[1:], strict=False))
+    assert all(end <= begin + 0.5 for (_, end), (begin, _) in pairwise(ends))
     within = visitor.page.locator(".status").bounding_box()
     assert within is not None
     assert ends[-1][1] <= within["x"] + within["width"] + 0.5
