@@ -28,6 +28,10 @@ class Ready(Loading):
         """Nothing is left to be done."""
 
 
+CARELESS = Config(seed=2, potholes=40, vehicles=30, planner="priority", attentive=0.0)
+"""A road that ends in a crash: nobody brakes, and the source's rule drives."""
+
+
 class Driver:
     """Sends real events through SDL's queue, and brings the time."""
 

@@ -11,7 +11,7 @@ from sim.config import Config
 from sim.kinds import Kind, Outcome
 from sim.view import theme
 from tests.window.conftest import Open
-from tests.window.driver import Driver
+from tests.window.driver import CARELESS, Driver
 
 SPARSE = Config(seed=3, potholes=6, vehicles=6, barriers=2, pedestrians=2)
 
@@ -112,10 +112,11 @@ def test_a_card_stays_on_top_while_it_drives_below(window: Open) -> None:
 
 
 def test_a_crash_is_written_over_the_road(window: Open) -> None:
-    driver = window(config=Config(seed=1, potholes=40, vehicles=30))
+    driver = window(config=CARELESS)
     assert theme.OUTCOMES["crash"] not in driver.colours(body(driver, "road"))
-    while driver.game.session.run.world.outcome is not Outcome.CRASH:
+    while driver.game.session.run.world.outcome is Outcome.RUNNING:
         driver.seconds(0.5)
+    assert driver.game.session.run.world.outcome is Outcome.CRASH
     driver.game.settle()
     driver.frames(1)
     assert theme.OUTCOMES["crash"] in driver.colours(body(driver, "road"))

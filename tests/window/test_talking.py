@@ -8,10 +8,9 @@ import pytest
 from service.window.exchange import Exchange
 from service.window.keys import EXAMPLES
 from service.window.look import ACCENT
-from sim.config import Config
 from sim.kinds import Kind, Outcome
 from tests.window.conftest import Open
-from tests.window.driver import Driver
+from tests.window.driver import CARELESS, Driver
 
 CTRL = pygame.KMOD_CTRL
 
@@ -241,9 +240,10 @@ def test_every_sentence_of_the_help_can_be_said(window: Open) -> None:
 
 
 def test_a_crash_is_told_in_the_log_and_asked_about(window: Open) -> None:
-    driver = window(config=Config(seed=1, potholes=40, vehicles=30))
-    while driver.game.session.run.world.outcome is not Outcome.CRASH:
+    driver = window(config=CARELESS)
+    while driver.game.session.run.world.outcome is Outcome.RUNNING:
         driver.seconds(0.5)
+    assert driver.game.session.run.world.outcome is Outcome.CRASH
     driver.game.settle()
     exchange = driver.say("why?")
     assert exchange.done
