@@ -14,7 +14,7 @@ import numpy as np
 from sim.batch import Batch
 from sim.batch.layout import Layout
 from sim.config import Config
-from sim.generate import generate
+from sim.generation import generate
 
 SOURCE = Path(__file__).parent / "c" / "roads.c"
 LANES, PLANES, LANE_PLANES = 64, 4, 18
@@ -33,7 +33,7 @@ class CLoop:
         with tempfile.TemporaryDirectory() as folder:
             library = Path(folder) / "roads.so"
             subprocess.run([compiler, *FLAGS, str(SOURCE), "-o", str(library)], check=True)
-            self._run = ctypes.CDLL(str(library)).run
+            self._run = ctypes.CDLL(str(library)).state
         self.layout = Layout.of(configs[0].columns, configs[0].rows)
         blocks = -(-len(configs) // LANES)
         self.state = np.zeros((blocks, self.layout.words, PLANES, LANES), np.uint64)

@@ -10,7 +10,7 @@ from service import actions as contract
 from service.actions import Ask
 from service.narrate import Narrator
 from service.sessions.facts import Asked
-from sim.kinds import Move
+from sim.types import Move
 from tests.sim.explain.moments import moments
 
 COUNTS = {"priority": 1_000, "exact": 200, "dijkstra": 60, "astar": 60}

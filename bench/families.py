@@ -21,12 +21,12 @@ from typing import Final, get_args
 
 from sim.actions import Layout, Preference
 from sim.config import Config
-from sim.intervals import mean, wilson
-from sim.kinds import Move, Outcome
-from sim.optimum import least_cost, least_ticks
-from sim.run import Run, advance
+from sim.oracle import least_cost, least_ticks
 from sim.search.costs import weights
-from sim.search.spacetime import around
+from sim.search.time_expanded import around
+from sim.state import SimState, step
+from sim.statistics import mean, wilson
+from sim.types import Move, Outcome
 from sim.world import World
 
 FAMILIES: Final[tuple[Layout | None, ...]] = (None, *get_args(Layout))
@@ -63,15 +63,15 @@ class Driven:
 
 def drive(config: Config) -> Driven:
     """The first episode of a configuration, to its end."""
-    run = Run.start(config)
+    run = SimState.start(config)
     best, cheapest, charges = least_ticks(run), least_cost(run), weights(config)
     distances: list[int] = []
     moves: list[Move] = []
     paid = potholes = 0
     while run.world.outcome is Outcome.RUNNING:
-        ticked = advance(run)
+        ticked = step(run)
         assert ticked.decision is not None
-        run = ticked.run
+        run = ticked.state
         moves.append(ticked.decision.move)
         near_movers = _distance(run.world, run.world.right | run.world.left)
         near_fixed = _distance(run.world, run.world.fixed)

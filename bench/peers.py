@@ -12,11 +12,11 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from sim.config import Config
-from sim.forecast import foretell
+from sim.forecast import predict
 from sim.perceive import perceive
-from sim.run import Run
 from sim.search.costs import weights
-from sim.search.spacetime import SpaceTime
+from sim.search.time_expanded import TimeExpandedGraph
+from sim.state import SimState
 
 SECONDS = 2.0
 
@@ -69,8 +69,8 @@ def networkx_plan() -> float:
     """Seconds for one A* of networkx on the time-expanded graph of a default road, built before."""
     import networkx
 
-    run = Run.start(Config(seed=1))
-    terrain = SpaceTime(foretell(perceive(run.world, run.config), 301), weights(run.config), 40)
+    run = SimState.start(Config(seed=1))
+    terrain = TimeExpandedGraph(predict(perceive(run.world, run.config), 301), weights(run.config), 40)
     graph, seen, way = networkx.DiGraph(), {terrain.start}, [terrain.start]
     while way:
         state = way.pop()
@@ -84,7 +84,7 @@ def networkx_plan() -> float:
                     way.append(there)
 
     def bound(state: int, _: int) -> int:
-        return 0 if state < 0 else terrain.at_least(state)
+        return 0 if state < 0 else terrain.heuristic(state)
 
     def once() -> int:
         networkx.astar_path_length(graph, terrain.start, -1, heuristic=bound)

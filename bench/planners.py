@@ -17,12 +17,12 @@ from multiprocessing import Pool
 from typing import Any
 
 from sim.config import Config
-from sim.forecast import foretell
-from sim.intervals import wilson
-from sim.kinds import Move, Outcome
+from sim.forecast import predict
 from sim.perceive import perceive
-from sim.run import Run, advance
-from sim.search.reach import reach, steps_left
+from sim.search.reachability import reachability, steps_left
+from sim.state import SimState, step
+from sim.statistics import wilson
+from sim.types import Move, Outcome
 
 PLANNERS = ("rules", "priority")
 DENSITIES = (None, 0, 10, 20, 40, 60)
@@ -82,23 +82,23 @@ def driven(seeds: Iterable[int], parts: dict[str, Any]) -> dict[str, Tally]:
     tallies = {planner: Tally() for planner in PLANNERS}
     for seed in seeds:
         config = Config(seed=seed, **parts)
-        start = Run.start(config)
+        start = SimState.start(config)
         limit = steps_left(config, start.world.episode_tick)
-        forecast = foretell(perceive(start.world, config), limit)
-        least = reach(forecast, 1 << start.world.av, limit).ticks
+        forecast = predict(perceive(start.world, config), limit)
+        least = reachability(forecast, 1 << start.world.av, limit).ticks
         if least is None:
             continue
         for planner, tally in tallies.items():
-            _drive(Run(config.with_parts(planner=planner), start.world), least, tally)
+            _drive(SimState(config.with_parts(planner=planner), start.world), least, tally)
     return tallies
 
 
-def _drive(run: Run, least: int, tally: Tally) -> None:
+def _drive(run: SimState, least: int, tally: Tally) -> None:
     """One episode to its end."""
     aside = longest = 0
     while run.world.outcome is Outcome.RUNNING:
-        tick = advance(run)
-        run = tick.run
+        tick = step(run)
+        run = tick.state
         if tick.decision is not None:
             tally.moves[tick.decision.move] += 1
             aside = aside + 1 if tick.decision.move in (Move.LEFT, Move.RIGHT) else 0

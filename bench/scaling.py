@@ -16,11 +16,11 @@ from pathlib import Path
 
 from sim.batch import Batch
 from sim.config import Config
-from sim.forecast import foretell
-from sim.generate import generate
+from sim.forecast import predict
+from sim.generation import generate
 from sim.perceive import perceive
-from sim.run import Run, advance
-from sim.search.reach import shortest_plan, steps_left
+from sim.search.reachability import shortest_plan, steps_left
+from sim.state import SimState, step
 
 SIZES = ((8, 30), (16, 120), (64, 512))
 MOVERS = (1, 10, 50, 100, 500)
@@ -66,14 +66,14 @@ def _cost(columns: int, rows: int, movers: int) -> Cost:
     holes = columns * rows // 60
     config = Config(columns=columns, rows=rows, vehicles=movers, potholes=holes, seed=1)
     runs = {
-        planner: Run.start(config.with_parts(planner=planner))
+        planner: SimState.start(config.with_parts(planner=planner))
         for planner in ("priority", "astar", "dijkstra")
     }
     run = runs["priority"]
 
     def plan() -> object:
         limit = steps_left(run.config, 0)
-        return shortest_plan(foretell(perceive(run.world, run.config), limit), limit)
+        return shortest_plan(predict(perceive(run.world, run.config), limit), limit)
 
     lanes = 512 if rows < 200 else 64
     configs = [config.with_parts(seed=seed) for seed in range(lanes)]
@@ -83,9 +83,9 @@ def _cost(columns: int, rows: int, movers: int) -> Cost:
         rows,
         movers,
         generate_us=_median_us(lambda: generate(config, 1)),
-        priority_us=_median_us(lambda: advance(runs["priority"])),
-        astar_us=_median_us(lambda: advance(runs["astar"])),
-        dijkstra_us=_median_us(lambda: advance(runs["dijkstra"])),
+        priority_us=_median_us(lambda: step(runs["priority"])),
+        astar_us=_median_us(lambda: step(runs["astar"])),
+        dijkstra_us=_median_us(lambda: step(runs["dijkstra"])),
         exact_plan_us=_median_us(plan),
         digest_us=_median_us(run.world.digest),
         batch_ns=_median_us(lambda: batch.run(ticks)) * 1e3 / (lanes * ticks),

@@ -26,11 +26,11 @@ from bench import peers
 from bench.c_loop import CLoop
 from sim.batch import Batch, BatchPlanner
 from sim.config import Config
-from sim.forecast import foretell
-from sim.kinds import Outcome
+from sim.forecast import predict
 from sim.perceive import perceive
-from sim.run import Run, advance
-from sim.search.reach import shortest_plan, steps_left
+from sim.search.reachability import shortest_plan, steps_left
+from sim.state import SimState, step
+from sim.types import Outcome
 from tests.sim import twin
 
 WORLDS, TICKS, REPEATS = 4096, 1000, 7
@@ -145,13 +145,13 @@ def plans() -> list[Line]:
         )
     starts, along = [], []
     for seed in range(60):
-        run = Run.start(Config(seed=seed))
+        run = SimState.start(Config(seed=seed))
         while run.world.outcome is Outcome.RUNNING:
             began = time.perf_counter()
             limit = steps_left(run.config, run.world.episode_tick)
-            shortest_plan(foretell(perceive(run.world, run.config), limit), limit)
+            shortest_plan(predict(perceive(run.world, run.config), limit), limit)
             (starts if run.world.episode_tick == 0 else along).append(time.perf_counter() - began)
-            run = advance(run).run
+            run = step(run).state
     start_us, along_us = statistics.median(starts) * 1e6, statistics.mean([*starts, *along]) * 1e6
     lines.append(
         Line(
@@ -171,12 +171,12 @@ def live() -> list[Line]:
     for planner, limit_us in limits_us.items():
         times = []
         for seed in range(60):
-            run = Run.start(Config(seed=seed, planner=planner))
+            run = SimState.start(Config(seed=seed, planner=planner))
             while run.world.outcome is Outcome.RUNNING:
                 began = time.perf_counter()
-                tick = advance(run)
+                tick = step(run)
                 times.append(time.perf_counter() - began)
-                run = tick.run
+                run = tick.state
         times.sort()
         median, tail = times[len(times) // 2] * 1e6, times[int(len(times) * 0.99)] * 1e6
         lines.append(
@@ -192,9 +192,11 @@ def live() -> list[Line]:
 
 def loading() -> list[Line]:
     """Importing, compiling, and loading what was compiled, each in a process of its own."""
-    bare = "import time; t = time.perf_counter(); import sim.run; print(time.perf_counter() - t)"
+    bare = "import time; t = time.perf_counter(); import sim.state; print(time.perf_counter() - t)"
     imported = min(float(_python(bare)) for _ in range(5))
-    loaded = _python("import sim, sim.run, sys; print(int('numba' in sys.modules or 'numpy' in sys.modules))")
+    loaded = _python(
+        "import sim, sim.state, sys; print(int('numba' in sys.modules or 'numpy' in sys.modules))"
+    )
     batch = (
         "import time; t = time.perf_counter()\n"
         "from sim.batch import Batch; from sim.config import Config\n"
@@ -205,7 +207,7 @@ def loading() -> list[Line]:
     with tempfile.TemporaryDirectory() as folder:
         first, cached = (float(_python(batch, NUMBA_CACHE_DIR=folder)) for _ in range(2))
     return [
-        Line("`import sim.run`", f"{imported * 1e3:.0f} ms", "150 ms", imported <= 0.15),
+        Line("`import sim.state`", f"{imported * 1e3:.0f} ms", "150 ms", imported <= 0.15),
         Line(
             "… without numba or numpy", "yes" if loaded.strip() == "0" else "no", "yes", loaded.strip() == "0"
         ),
@@ -230,7 +232,7 @@ def others() -> list[Line]:
 
 
 def _twin_rate() -> float:
-    positions = [twin.position(Run.start(Config(seed=seed)).world) for seed in range(40)]
+    positions = [twin.position(SimState.start(Config(seed=seed)).world) for seed in range(40)]
 
     def episodes() -> int:
         made = 0

@@ -5,21 +5,21 @@ from __future__ import annotations
 from bench.timing import timed
 from sim.config import Config
 from sim.explain import QuestionError, why, why_not
-from sim.generate import generate
-from sim.kinds import Move
-from sim.run import decide
-from sim.timeline import Timeline
+from sim.generation import generate
+from sim.session.timeline import Timeline
+from sim.state import decide
+from sim.types import Move
 
 
 def main() -> None:
     """Print the figures of the default world."""
     timeline = Timeline(Config(seed=1))
     print(timed(lambda _: timeline.advance(), range(20_000)).row("tick, everything"))
-    print(timed(lambda _: decide(timeline.run), range(5_000)).row("perceive, forecast, plan"))
+    print(timed(lambda _: decide(timeline.state), range(5_000)).row("perceive, forecast, plan"))
     print(
         timed(lambda episode: generate(timeline.config, episode), range(1, 2_000)).row("a road from a seed")
     )
-    print(timed(lambda _: timeline.run.world.digest(), range(5_000)).row("digest"))
+    print(timed(lambda _: timeline.state.world.digest(), range(5_000)).row("digest"))
     print(timed(lambda tick: timeline.at(tick), range(0, 20_000, 97)).row("any of 20,000 past ticks"))
     print(timed(lambda _: timeline.copy(), range(2_000)).row("copy of a session of 20,000 ticks"))
     _explanations()

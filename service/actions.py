@@ -37,7 +37,7 @@ from sim.actions import (
     Weather,
     Where,
 )
-from sim.kinds import Move
+from sim.types import Move
 
 __all__ = ["ACTIONS", "Action", "Where", "dump", "load"]
 

@@ -65,7 +65,7 @@ from service.talk.languages import DEFAULT, Language, Languages
 from service.talk.listener import Listener
 from service.talk.phrasebook import Phrasebook
 from service.version import VERSION
-from sim.plan.asking import not_in_this_thread
+from sim.plan.sandbox.client import not_in_this_thread
 
 _DESCRIPTION = """
 A vehicle that drives itself along a road of obstacles and potholes, live; changed and questioned in

@@ -12,14 +12,14 @@ from typing import Annotated, Literal
 
 from annotated_types import Ge, Gt, Le
 
-from sim.kinds import Mode, Move
+from sim.types import Mode, Move
 
 PlaceableKind = Literal["pothole", "vehicle", "barrier", "pedestrian", "av"]
 Weather = Literal["clear", "rain", "fog", "snow"]
 TimeOfDay = Literal["day", "dusk", "night", "dawn"]
 RoadType = Literal["highway", "city", "rural"]
 Layout = Literal["walls", "narrows", "dead_ends", "crossing", "maze"]
-"""A family of roads (`sim.layouts`)."""
+"""A family of roads (`sim.world.layouts`)."""
 Traffic = Literal["none", "light", "normal", "heavy"]
 PlannerName = Literal["rules", "priority", "astar", "dijkstra", "exact", "dwa", "rl", "cooperative"]
 Preference = Literal["avoid_potholes", "smooth_ride", "fastest", "cautious"]

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from sim.changing import changer
 from sim.config import Config
-from sim.courtesy import attentive, yielding
-from sim.kinds import Move
-from sim.moving import followed_table_once, move_movers_once
-from sim.rules import brake, followed_board, pedestrians_walk
+from sim.fast_replace import field_setter
+from sim.rules.traffic import brake, pedestrians_walk, shift_board
+from sim.rules.traffic_cache import cached_move_movers, cached_shift_table
+from sim.rules.yielding import attentive_movers, yielding_movers
+from sim.types import Move
 from sim.world import World
 
-_moved = changer(World, "tick", "avs", "right", "left", "pedestrians", "movers")
+_moved = field_setter(World, "tick", "avs", "right", "left", "pedestrians", "movers")
 
 
 def commit(world: World, move: Move, config: Config) -> World:
@@ -21,18 +21,18 @@ def commit(world: World, move: Move, config: Config) -> World:
     road = world.road
     disabled = world.disabled
     resting = disabled if pedestrians_walk(world.episode_tick) else disabled | world.pedestrians
-    motion = move_movers_once(
+    motion = cached_move_movers(
         world.right,
         world.left,
         resting,
         world.fixed,
-        yielding(world, config),
+        yielding_movers(world, config),
         world.driven,
         road.left_edge,
         road.right_edge,
     )
     if move is Move.STAY and motion.occupied >> world.av & 1:
-        motion = brake(motion, 1 << world.av, attentive(world, config))
+        motion = brake(motion, 1 << world.av, attentive_movers(world, config))
     target = road.moved(world.av, move)
     if target is None:
         raise ValueError(f"{move} leads off the road")
@@ -42,6 +42,6 @@ def commit(world: World, move: Move, config: Config) -> World:
         (target, *world.avs[1:]),
         motion.right,
         motion.left,
-        followed_board(world.pedestrians, motion) if world.pedestrians else 0,
-        followed_table_once(world.movers, motion),
+        shift_board(world.pedestrians, motion) if world.pedestrians else 0,
+        cached_shift_table(world.movers, motion),
     )

@@ -11,10 +11,10 @@ from typing import Any, Final, Literal, get_args
 
 from sim import planner_names
 from sim.actions import Layout, Preference, RoadType, SensorName, Traffic
-from sim.layouts import has_barriers, least_room
 from sim.randomness import MAX_SEED
-from sim.road import Road
-from sim.rules_version import RULES
+from sim.rules.versions import RULES
+from sim.world.grid import Road
+from sim.world.layouts import has_barriers, least_room
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,7 +100,7 @@ class Config:
     """Everything a world is made from besides the seed's own draws.
 
     `potholes` and `vehicles` are exact numbers that replace their probabilities when given;
-    `road` and `traffic` remember which preset the numbers came from (`sim.scenario`).
+    `road` and `traffic` remember which preset the numbers came from (`sim.session.scenario`).
     """
 
     columns: int = 8
@@ -119,13 +119,14 @@ class Config:
     attentive: float = 1.0
     """chance that a mover brakes for a vehicle that stands still before it"""
     collision: Collision = "swept"
-    """`swept`: bodies of stated size that move linearly within a tick (`sim.bodies`); `cell`: cells alone"""
+    """`swept`: bodies of stated size that move linearly within a tick (`sim.rules.bodies`); `cell`: cells
+    alone"""
     repetition: bool = True
     """whether a vehicle whose situation repeats is STUCK at once, and not at the limit of ticks"""
     reset_delay_s: float = 2.0
     road: RoadType | None = None
     layout: Layout | None = None
-    """the family of roads (`sim.layouts`), drawn until one can be driven; None: things are scattered"""
+    """the family of roads (`sim.world.layouts`), drawn until one can be driven; None: things are scattered"""
     traffic: Traffic | None = None
     planner: str = "rules"
     preferences: tuple[Preference, ...] = ()
@@ -134,7 +135,7 @@ class Config:
     """cells around a mover that cost something to be in, for planners that weigh costs"""
     sensor: SensorName = "perfect"
     rules: int = RULES
-    """version of the rules that defaults come from (`sim.rules_version`)"""
+    """version of the rules that defaults come from (`sim.rules.versions`)"""
     solvable: bool = False
     """draw roads until one can be driven"""
     seed: int = 0

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
-from sim.kinds import Cell, Move
+from sim.types import Cell, Move
 
 
 class EventType(StrEnum):

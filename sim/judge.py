@@ -7,15 +7,15 @@ rules as well as on the driving. All defects are listed, not the first.
 from __future__ import annotations
 
 from sim.config import Collision
-from sim.kinds import Kind, Outcome, kind_of
+from sim.types import Kind, Outcome, kind_of
 from sim.world import Cause, World
 
 
 def collisions(before: World, after: World, rule: Collision) -> tuple[Cause, ...]:
     """Every collision of an autonomous vehicle in the tick from `before` to `after`.
 
-    `swept`: two bodies of stated size that move linearly within the tick touch (`sim.bodies` derives the
-    cases); `cell`: they are in one cell after it, or have changed places.
+    `swept`: two bodies of stated size that move linearly within the tick touch (`sim.rules.bodies` derives
+    the cases); `cell`: they are in one cell after it, or have changed places.
     """
     found = []
     for number, (start, end) in enumerate(zip(before.avs, after.avs, strict=True)):

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from sim.changing import changer
-from sim.kinds import Move, Outcome
+from sim.fast_replace import field_setter
+from sim.types import Move, Outcome
 
 _LATERAL = frozenset((Move.LEFT, Move.RIGHT))
 _DIAGONAL = frozenset((Move.FORWARD_LEFT, Move.FORWARD_RIGHT))
@@ -63,7 +63,7 @@ class Metrics:
         )
 
 
-_forward = changer(Metrics, "forward", "distance_m")
-_lateral = changer(Metrics, "lateral", "distance_m")
-_diagonal = changer(Metrics, "diagonal", "distance_m")
-_stay = changer(Metrics, "stay")
+_forward = field_setter(Metrics, "forward", "distance_m")
+_lateral = field_setter(Metrics, "lateral", "distance_m")
+_diagonal = field_setter(Metrics, "diagonal", "distance_m")
+_stay = field_setter(Metrics, "stay")

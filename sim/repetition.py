@@ -12,9 +12,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from sim.road import Board
-from sim.rules import PEDESTRIAN_PERIOD
+from sim.rules.traffic import PEDESTRIAN_PERIOD
 from sim.world import World
+from sim.world.grid import Board
 
 
 class Situation(NamedTuple):
@@ -55,7 +55,7 @@ def situation(world: World) -> Situation:
     )
 
 
-def watched(watch: Watch, world: World) -> Watch | None:
+def update_watch(watch: Watch, world: World) -> Watch | None:
     """The watch with one more tick seen, at the end of which the world is this one; None if it repeats."""
     kept, ticks, span = watch
     now = situation(world)

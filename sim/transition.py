@@ -7,7 +7,7 @@ from dataclasses import replace
 from sim.commit import commit
 from sim.config import Config
 from sim.judge import collisions, outcome
-from sim.kinds import Move, Outcome
+from sim.types import Move, Outcome
 from sim.world import World
 
 

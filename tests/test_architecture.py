@@ -72,8 +72,8 @@ def packages_of(name: str) -> list[str]:
 
 
 def test_there_is_something_to_check() -> None:
-    assert {"sim.run", "sim.rules", "sim.timeline", "sim.plan.priority"} <= set(MODULES)
-    assert {"sim.commit", "sim.generate", "sim.plan"} <= loaded_by("sim.run")
+    assert {"sim.state", "sim.rules.traffic", "sim.session.timeline", "sim.plan.priority"} <= set(MODULES)
+    assert {"sim.commit", "sim.generation", "sim.plan"} <= loaded_by("sim.state")
 
 
 def test_no_import_cycles() -> None:
@@ -96,14 +96,15 @@ def test_no_import_cycles() -> None:
 def test_sim_reaches_neither_up_nor_out(name: str) -> None:
     tops = {imported.split(".")[0] for imported in imports(MODULES[name], whole=True)}
     assert tops.isdisjoint(FOREIGN_TO_SIM)
-    if not name.startswith("sim.view"):
+    if not name.startswith("sim.render"):
         assert tops.isdisjoint(ONLY_IN_VIEW)
         # A learning environment can be looked at: it is an edge of `sim`, nothing else there imports it.
-        assert "sim.view" not in set(imports(MODULES[name], whole=True)) or name == "sim.env.single"
+        assert "sim.render" not in set(imports(MODULES[name], whole=True)) or name == "sim.env.single"
 
 
 @pytest.mark.parametrize(
-    "name", ["sim.judge", "sim.defects", "sim.commit", "sim.world", "sim.rules", "sim.notation"]
+    "name",
+    ["sim.judge", "sim.validation", "sim.commit", "sim.world", "sim.rules.traffic", "sim.world.notation"],
 )
 def test_the_world_and_its_judge_know_no_planner_and_no_forecast(name: str) -> None:
     way, seen = [name], {name}
@@ -123,7 +124,7 @@ def test_planners_read_the_forecast_and_never_the_world() -> None:
 
 def test_a_live_session_needs_nothing_heavy() -> None:
     program = (
-        "import sys, sim.run, sim.timeline\n"
+        "import sys, sim.state, sim.session.timeline\n"
         "heavy = {'numba', 'numpy', 'pygame', 'pydantic', 'fastapi', 'yaml', 'sqlalchemy', 'service'}\n"
         "print(sorted(heavy & set(sys.modules)))"
     )

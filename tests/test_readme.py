@@ -16,7 +16,7 @@ import pytest
 
 from service.cli import cli
 from service.settings import Settings
-from sim.plan.checker import check
+from sim.plan.conformance import check
 from tests.browser.service_process import PATIENCE_S, ServiceProcess
 
 ROOT = Path(__file__).parents[1]

@@ -25,8 +25,8 @@ from service.sessions.facts import Advised
 from service.talk.listener import Source
 from service.wire.advice import advice_json
 from sim.actions import PlaceableKind
-from sim.advice import NoAdviceError, advise
-from sim.kinds import Kind
+from sim.hazard_advice import NoAdviceError, advise
+from sim.types import Kind
 
 router = APIRouter(tags=["talking"], route_class=StrictRoute)
 

@@ -108,7 +108,7 @@ async def step(
     @made_once
     def told(outcome: Outcome) -> Response:
         assert outcome.before is not None
-        runs = [outcome.before, *(tick.run for tick in outcome.ticks)]
+        runs = [outcome.before, *(tick.state for tick in outcome.ticks)]
         standing = replace(session.standing, paused=True, sequence=outcome.sequence)
         state = state_json(standing, runs[-1])
         decisions = [

@@ -38,8 +38,8 @@ from service.problems import (
 from service.sessions.utterance import Outcome, Utterance
 from sim.actions import Prefer, Set
 from sim.config import LISTS, Config, ConfigError
-from sim.kept import defaults_under
-from sim.settings import NEEDS_A_NEW_ROAD, STEPS
+from sim.session.saved_config import defaults_under
+from sim.session.settings import NEEDS_A_NEW_ROAD, STEPS
 
 MERGE_PATCH = "application/merge-patch+json"
 

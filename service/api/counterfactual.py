@@ -45,10 +45,10 @@ from sim.actions import (
     SetMode,
     WorldAction,
 )
-from sim.edit_error import EditError
 from sim.explain import QuestionError
-from sim.explain.beside import beside_change, beside_move
-from sim.kinds import Move
+from sim.explain.side_by_side import compare_change, compare_move
+from sim.session.errors import EditError
+from sim.types import Move
 
 router = APIRouter(tags=["time"], route_class=StrictRoute)
 
@@ -114,9 +114,9 @@ async def counterfactual(
 
     def found() -> dict[str, Any]:
         if body.move is not None:
-            told = beside_move(timeline, tick, Move(body.move))
+            told = compare_move(timeline, tick, Move(body.move))
         else:
-            told = beside_change(timeline, tick, actions)
+            told = compare_change(timeline, tick, actions)
         return beside_json(standing, told, body.ticks)
 
     try:

@@ -2,7 +2,7 @@
 
 Made beside the event loop, one film at a time; for each frame it queues for the drawing library like
 everyone else, so that single pictures and streams go on meanwhile. When whoever asked goes away the
-film ends at its next frame. Leaves out how a film is made (`sim.view.film`).
+film ends at its next frame. Leaves out how a film is made (`sim.render.video`).
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from service.api.errors import documented, invalid
 from service.api.frames import View
 from service.api.respond import StrictRoute, etag
 from service.problems import FieldProblem, Invalid, NotAvailable, NotRestorable, ProblemError, UnknownSession
-from sim.run import Run
-from sim.view.film import FPS, VideoMissingError, film, frames_in, has_video
+from sim.render.video import FPS, VideoMissingError, frames_in, has_video, render_video
+from sim.state import SimState
 
 router = APIRouter(tags=["watching"], route_class=StrictRoute)
 
@@ -96,7 +96,9 @@ async def moving(
         runs = list(timeline.between(start, end + 1))
         _check_frames(runs, form, fps, side, most)
         try:
-            return film(view, runs, form, fps=fps, size=(side, side), turn=turn, decided=timeline.decided)
+            return render_video(
+                view, runs, form, fps=fps, size=(side, side), turn=turn, decided=timeline.decided
+            )
         except _GoneError:
             return None
 
@@ -150,7 +152,7 @@ def _check(now: int, start: int, end: int, form: Format, fps: int, most: int) ->
         raise NotAvailable(sentence, errors=[FieldProblem("format", sentence)])
 
 
-def _check_frames(runs: list[Run], form: Format, fps: int, side: int, most: int) -> None:
+def _check_frames(runs: list[SimState], form: Format, fps: int, side: int, most: int) -> None:
     if form == "gif":
         most = min(most, GIF_PIXELS // side**2)
     frames = frames_in(runs, fps)

@@ -16,8 +16,8 @@ from service.api.errors import documented
 from service.api.respond import StrictRoute, etag
 from service.problems import Invalid, NotRestorable, UnknownSession
 from sim.plan import Decision
-from sim.run import Run
-from sim.view import encode, render
+from sim.render import encode, render
+from sim.state import SimState
 
 router = APIRouter(tags=["watching"], route_class=StrictRoute)
 
@@ -54,6 +54,6 @@ async def frame(
     return Response(data, headers=headers, media_type=f"image/{form}")
 
 
-def _drawn(run: Run, latest: tuple[Decision, Run] | None, view: View, form: Format) -> bytes:
+def _drawn(run: SimState, latest: tuple[Decision, SimState] | None, view: View, form: Format) -> bytes:
     decision, before = latest or (None, None)
     return encode(render(view, run, decision=decision, before=before.world if before else None), form)

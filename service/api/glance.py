@@ -24,7 +24,7 @@ from service.sessions.manager import SessionManager
 from service.sessions.session import Session
 from service.wire.encode import encoded
 from service.wire.state import Standing, state_json
-from sim.run import Run
+from sim.state import SimState
 
 _BEFORE = f"{PREFIX}/sessions/"
 _AFTER = "/state"
@@ -34,7 +34,7 @@ _AFTER = "/state"
 class _Seen:
     """A state that was encoded, and what it was made from."""
 
-    run: Run
+    run: SimState
     standing: Standing
     body: bytes
 

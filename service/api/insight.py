@@ -20,13 +20,13 @@ from service.api.shapes import Answered, CellPair, Decision
 from service.api.views import told_decision
 from service.problems import FieldProblem, Invalid, NotRestorable, UnknownSession
 from service.sessions.elsewhere import QUESTION_S, asks_others, off_loop
-from sim.forecast import foretell
-from sim.kinds import Move
-from sim.optimum.regret import regret
+from sim.forecast import predict
+from sim.oracle.regret import regret
 from sim.perceive import perceive
 from sim.plan import Decision as Taken
-from sim.run import Run
-from sim.timeline import Timeline
+from sim.session.timeline import Timeline
+from sim.state import SimState
+from sim.types import Move
 
 router = APIRouter(tags=["watching"], route_class=StrictRoute)
 
@@ -96,7 +96,7 @@ async def forecast(
     if tick is not None and tick > way.tick:
         raise invalid([FieldProblem("tick", f"has not come yet: it is tick {way.tick}")])
     run, decision = await off_loop(asks_others(way), QUESTION_S, lambda: _decided(way, tick))
-    expected = foretell(perceive(run.world, run.config), ticks)
+    expected = predict(perceive(run.world, run.config), ticks)
     if decision is not None:
         expected = expected.after(decision.move)
     road, now = run.world.road, run.world.tick
@@ -148,6 +148,6 @@ def _judged(way: Timeline, first: int, stop: int) -> Iterator[dict[str, Any]]:
         }
 
 
-def _decided(way: Timeline, tick: int | None) -> tuple[Run, Taken | None]:
-    run = way.run if tick is None else way.at(tick)
+def _decided(way: Timeline, tick: int | None) -> tuple[SimState, Taken | None]:
+    run = way.state if tick is None else way.at(tick)
     return run, way.decided(run)

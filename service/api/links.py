@@ -24,7 +24,7 @@ from service.problems import FieldProblem, Invalid, NotRestorable, UnknownSessio
 from service.sessions.forking import way_to, written_out
 from service.sessions.recording import FORMAT, VERSION
 from service.wire.encode import encoded
-from sim.timeline import Timeline
+from sim.session.timeline import Timeline
 
 router = APIRouter(tags=["time"], route_class=StrictRoute)
 
@@ -95,7 +95,7 @@ def _carried(timeline: Timeline, tick: int) -> str:
         "config": asdict(timeline.config),
         "entries": entries,
         "tick": tick,
-        "digest": way.run.world.digest(),
+        "digest": way.state.world.digest(),
     }
     deflate = zlib.compressobj(9, zlib.DEFLATED, _RAW)
     packed = deflate.compress(encoded(recording)) + deflate.flush()

@@ -30,9 +30,9 @@ from anyio import CapacityLimiter, to_thread
 from service.sessions.pace import MAX
 from service.sessions.session import Session
 from sim.plan import Decision
-from sim.run import Run
-from sim.timeline import Timeline
-from sim.view import encode, render
+from sim.render import encode, render
+from sim.session.timeline import Timeline
+from sim.state import SimState
 
 _LOG = structlog.get_logger(__name__)
 
@@ -89,11 +89,11 @@ class Reel:
         self._slots: set[Slot] = set()
         self._task: asyncio.Task[None] | None = None
         self._newest: bytes | None = None
-        self._run: Run | None = None
+        self._run: SimState | None = None
         self._phase = 1.0
-        self._before: Run | None = None
+        self._before: SimState | None = None
         self._moved_at = 0.0
-        self._decided: tuple[Run, Decision | None] | None = None
+        self._decided: tuple[SimState, Decision | None] | None = None
 
     def __len__(self) -> int:
         return len(self._slots)
@@ -147,11 +147,11 @@ class Reel:
                 await asyncio.sleep(AFTER_A_DEFECT_S)
             due_s = await _next_turn(due_s, max((slot.fps for slot in self._slots), default=1))
 
-    def _lasts_s(self, run: Run) -> float:
+    def _lasts_s(self, run: SimState) -> float:
         pace = self._session.pace
         return 0.0 if pace == MAX else run.config.step_seconds / float(pace)
 
-    def _drawn(self, timeline: Timeline, run: Run, before: Run | None, phase: float) -> bytes:
+    def _drawn(self, timeline: Timeline, run: SimState, before: SimState | None, phase: float) -> bytes:
         """In a thread; the one `look` under way waits for it."""
         decision = None
         if before is not None:

@@ -15,7 +15,7 @@ from service.api.bodies import Tick
 from service.api.shapes import Answered, LogEvent, PlaybackSpeed
 from service.api.shapes import Decision as Decision
 from service.api.shapes import State as State
-from sim.kinds import Mode, Outcome
+from sim.types import Mode, Outcome
 
 
 class Parent(Answered):

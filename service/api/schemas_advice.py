@@ -8,8 +8,8 @@ from pydantic import Field
 
 from service.api.shapes import Answered
 from sim.actions import Weather
-from sim.advice import Choice, Ending
-from sim.kinds import Kind
+from sim.hazard_advice import Choice, Ending
+from sim.types import Kind
 
 Share = Annotated[float, Field(ge=0, le=1)]
 Interval = Annotated[list[Share], Field(min_length=2, max_length=2, description="95 % interval")]

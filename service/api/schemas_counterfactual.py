@@ -8,7 +8,7 @@ from pydantic import Field
 
 from service.api.bodies import Tick
 from service.api.shapes import Answered, CellPair, CrashCause, State
-from sim.kinds import Move, Outcome
+from sim.types import Move, Outcome
 
 
 class BlockedMove(Answered):

@@ -6,6 +6,7 @@ import secrets
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Query, Request, Response
+from sim.rules.versions import NewerRulesError
 
 from service import actions as contract
 from service.api import bodies, examples, schemas
@@ -38,10 +39,9 @@ from service.settings import Settings
 from service.store import EntryRecord
 from sim.actions import Scenario
 from sim.config import Config, ConfigError, Problem
-from sim.generate import GenerationError
-from sim.kept import kept_config, new_config
-from sim.rules_version import NewerRulesError
-from sim.scenario import configured, unavailable
+from sim.generation import GenerationError
+from sim.session.saved_config import new_config, saved_config
+from sim.session.scenario import configured, unavailable
 
 router = APIRouter(tags=["sessions"], route_class=StrictRoute)
 
@@ -253,7 +253,7 @@ def _recorded(
     if late:
         raise invalid(FieldProblem(f"recording.entries.{each}.tick", f"is more than {most}") for each in late)
     try:
-        config = kept_config(_of_rules(recording), "This recording")
+        config = saved_config(_of_rules(recording), "This recording")
     except NewerRulesError as error:
         raise Invalid(str(error), errors=[FieldProblem("recording.rules", str(error))]) from error
     except ConfigError as error:

@@ -11,7 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from service.api.bodies import Tick
 from service.sessions.pace import FASTEST, SLOWEST
-from sim.kinds import Kind, Mode, Move, Outcome
+from sim.types import Kind, Mode, Move, Outcome
 
 CellPair = Annotated[
     list[int], Field(min_length=2, max_length=2, description="[column, row], row 0 at the goal")

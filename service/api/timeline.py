@@ -26,9 +26,9 @@ from service.problems import FieldProblem, Invalid, NotRestorable, NotSaved, Unk
 from service.sessions.words import Words
 from service.talk.languages import DEFAULT
 from service.wire.state import Standing, state_json
-from sim.kinds import Cell, Move, Outcome
-from sim.run import Run
-from sim.timeline import Timeline
+from sim.session.timeline import Timeline
+from sim.state import SimState
+from sim.types import Cell, Move, Outcome
 
 router = APIRouter(tags=["time"], route_class=StrictRoute)
 
@@ -188,7 +188,7 @@ def _check(first: int, now: int) -> None:
 def _moments(
     words: Words, standing: Standing, way: Timeline, first: int, stop: int
 ) -> Iterator[dict[str, Any]]:
-    before: Run | None = None
+    before: SimState | None = None
     for run in way.between(max(0, first - 1), stop):
         if run.world.tick >= first:
             decision = None if before is None else way.decided(before)
@@ -217,7 +217,7 @@ def _seen(way: Timeline, first: int, stop: int) -> tuple[str, list[dict[str, Any
     return "".join(letters), marks
 
 
-def _letter(way: Timeline, before: Run, after: Run, *, by_itself: bool) -> str:
+def _letter(way: Timeline, before: SimState, after: SimState, *, by_itself: bool) -> str:
     """How the vehicle moved; what was said on arriving may have put it elsewhere (not `by_itself`)."""
     if before.world.outcome is not Outcome.RUNNING:
         return _HELD
@@ -230,7 +230,7 @@ def _letter(way: Timeline, before: Run, after: Run, *, by_itself: bool) -> str:
     return _LETTERS[decision.move]
 
 
-def _near_miss(before: Run, after: Run) -> list[dict[str, Any]]:
+def _near_miss(before: SimState, after: SimState) -> list[dict[str, Any]]:
     old, new = before.world, after.world
     if old.episode != new.episode or old.outcome is not Outcome.RUNNING or old.av == new.av:
         return []
@@ -240,7 +240,7 @@ def _near_miss(before: Run, after: Run) -> list[dict[str, Any]]:
     return [_mark(new.tick, "near_miss", (name,), new.road.cell(old.av))]
 
 
-def _own_marks(run: Run) -> list[dict[str, Any]]:
+def _own_marks(run: SimState) -> list[dict[str, Any]]:
     """What the world of a tick is by itself: the end of an episode, or the beginning of one."""
     world = run.world
     marks = []

@@ -5,14 +5,15 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import Any
 
+from sim.rules.versions import note_on
+
 from service.sessions.session import Session
 from service.sessions.words import Words
 from service.store import SessionRecord
 from service.wire.decision import decision_json
 from sim.plan import Decision
-from sim.rules_version import note_on
-from sim.run import Run
-from sim.timeline import Timeline
+from sim.session.timeline import Timeline
+from sim.state import SimState
 
 PREFIX = "/api/v1"
 
@@ -92,7 +93,7 @@ def summary_json(record: SessionRecord, live: Session | None) -> dict[str, Any]:
     }
 
 
-def told_decision(words: Words, run: Run, decision: Decision) -> dict[str, Any]:
+def told_decision(words: Words, run: SimState, decision: Decision) -> dict[str, Any]:
     """A decision, the state it was taken in being `run`, with its narration."""
     return decision_json(decision, words.decision(decision, run))
 

@@ -10,7 +10,7 @@ import typer
 
 from service.commands.terminal import plain
 from sim import planner_names
-from sim.plan.checker import MAX_TOLD, Defect, Report, check, check_apart, claimed, found
+from sim.plan.conformance import MAX_TOLD, Defect, Report, check, check_apart, claimed, found
 
 DEFECTS, UNTRIED = 1, 2
 """Exit statuses."""

@@ -15,7 +15,7 @@ from service.language.frames import Filled
 from service.language.lattice import Edge
 from service.language.lexicon import Sense
 from service.language.noun_phrases import Amount
-from sim.kinds import kind_of
+from sim.types import kind_of
 
 _ABSENT = object()
 _MEASURES = ("number", "length", "speed", "seconds", "fraction", "times", "cells")

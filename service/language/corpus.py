@@ -21,7 +21,7 @@ from sim.actions import (
     Weather,
     Wish,
 )
-from sim.kinds import PLACEABLE, Move
+from sim.types import PLACEABLE, Move
 
 CHOICES: dict[str, tuple[str, ...]] = {
     "weather": get_args(Weather),

@@ -19,7 +19,7 @@ from service.language.parse_types import Parse, Refused, Understood
 from service.language.tokens import Token
 from service.language.topic import Phrases, Topic
 from sim.actions import Where
-from sim.kinds import kind_of
+from sim.types import kind_of
 
 REFERS = "refers"
 """Concept of words that refer; their value says how."""

@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from sim.kinds import Kind
+from sim.types import Kind
 
 _VARIANTS = str.maketrans(
     {

@@ -6,8 +6,8 @@ from service.narrate.answering import Json
 from service.narrate.sayings import Sayings
 from service.sessions.facts import Advised
 from service.wire.advice import advice_json
-from sim.advice import Advice, Choice, Ending
-from sim.kinds import Kind
+from sim.hazard_advice import Advice, Choice, Ending
+from sim.types import Kind
 
 CLOSE = (0.4, 0.6)
 """Between these chances it can go either way, and nothing is said of how it probably ends."""

@@ -7,8 +7,8 @@ from typing import Any, Protocol
 from service.actions import Ask
 from service.narrate.sayings import Sayings
 from service.sessions.facts import Asked
-from sim.kinds import Move, Outcome
-from sim.run import Run
+from sim.state import SimState
+from sim.types import Move, Outcome
 
 Json = dict[str, Any]
 
@@ -20,7 +20,7 @@ class Answerer(Protocol):
         """The `Answer` of the interface: facts as JSON values, and `text` made from nothing else."""
 
 
-def plain(sayings: Sayings, ask: Ask, run: Run, text: str) -> Json:
+def plain(sayings: Sayings, ask: Ask, run: SimState, text: str) -> Json:
     """What every answer has, without causes or proofs."""
     return {
         "question": question(sayings, ask),

@@ -10,9 +10,9 @@ from service.sessions.facts import Asked
 from service.wire.confidence import confidence_json
 from sim.explain.confidence import Clarity, Confidence, Method, confidence
 from sim.explain.facts import QuestionError
-from sim.kinds import Outcome
 from sim.plan import Measure
-from sim.run import Run
+from sim.state import SimState
+from sim.types import Outcome
 
 
 class Confidences:
@@ -24,14 +24,14 @@ class Confidences:
 
     def answer(self, asked: Asked) -> Json:
         """See `Answerer.answer`."""
-        run = asked.timeline.run
+        run = asked.timeline.state
         try:
             found = confidence(asked.timeline)
         except QuestionError as error:
             return plain(self._sayings, asked.ask, run, self._not_so(error))
         return plain(self._sayings, asked.ask, run, self.text(found, run)) | confidence_json(found)
 
-    def text(self, found: Confidence, run: Run) -> str:
+    def text(self, found: Confidence, run: SimState) -> str:
         """How sure, in two sentences or three. `run`: the moment it is about."""
         told = self._sure(found, run)
         if found.by_hand:
@@ -39,7 +39,7 @@ class Confidences:
         clarity = None if found.clarity is None else self._clarity(found.clarity, run)
         return told if clarity is None else f"{told} {clarity}"
 
-    def _sure(self, found: Confidence, run: Run) -> str:
+    def _sure(self, found: Confidence, run: SimState) -> str:
         ticks = found.arrival_ticks or found.end_ticks
         sampled = found.method is Method.SAMPLED
         return self._say(
@@ -54,7 +54,7 @@ class Confidences:
             ends=self._ends(found),
         )
 
-    def _key(self, found: Confidence, run: Run) -> str:
+    def _key(self, found: Confidence, run: SimState) -> str:
         """Which sentence it is."""
         if found.method is Method.SAMPLED:
             key = {1.0: "sampled_all", 0.0: "sampled_none"}.get(found.arrives, "sampled")
@@ -80,7 +80,7 @@ class Confidences:
             [self._say("share", ends=end, percent=self._percent(share)) for end, share in ends.items()]
         )
 
-    def _clarity(self, clarity: Clarity, run: Run) -> str:
+    def _clarity(self, clarity: Clarity, run: SimState) -> str:
         """The last move against the next best."""
         decision = clarity.decision
         move, cost = self._sayings.move(decision.move, "name"), decision.chosen.cost
@@ -97,7 +97,7 @@ class Confidences:
             planner=decision.planner,
         )
 
-    def _when(self, ticks: tuple[int, int], run: Run) -> str:
+    def _when(self, ticks: tuple[int, int], run: SimState) -> str:
         first, last = (f"{each * run.config.step_seconds:g}" for each in ticks)
         key = "one" if first == last else "many"
         return self._say("when", key, seconds=first, first=first, last=last)

@@ -10,8 +10,8 @@ from service.sessions.facts import Asked
 from service.wire.explanation import crash_json
 from sim.explain import QuestionError
 from sim.explain.crash import Crash, why_crashed
-from sim.kinds import Move, kind_of
 from sim.plan import Decision
+from sim.types import Move, kind_of
 
 MOST_TOLD = 3
 """How many of the things it hung on are told; the facts have all."""
@@ -32,9 +32,9 @@ class Crashes:
         try:
             crash = why_crashed(asked.timeline, tick)
         except QuestionError as error:
-            told = plain(self._sayings, asked.ask, asked.timeline.run, self._not_so(error))
+            told = plain(self._sayings, asked.ask, asked.timeline.state, self._not_so(error))
         else:
-            told = plain(self._sayings, asked.ask, asked.timeline.run, self.text(crash)) | crash_json(crash)
+            told = plain(self._sayings, asked.ask, asked.timeline.state, self.text(crash)) | crash_json(crash)
         return told | {"question": self._say("question" if tick is None else "question_at", tick=tick)}
 
     def text(self, crash: Crash) -> str:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from service.narrate.sayings import Sayings
-from sim.course import Sake
+from sim.episode_record import DetourReason
 from sim.explain.summary import Summary, summary
-from sim.kinds import Outcome
-from sim.run import Run
+from sim.state import SimState
+from sim.types import Outcome
 
 
 class Ends:
@@ -16,7 +16,7 @@ class Ends:
         """`sayings`: the language's."""
         self._sayings = sayings
 
-    def text(self, run: Run) -> str:
+    def text(self, run: SimState) -> str:
         """One line about the episode that has ended in this run."""
         found = summary(run)
         match found.outcome:
@@ -86,7 +86,7 @@ class Ends:
             return self._say("open_to_the_last")
         return self._say("open_until", ticks=self._many("ticks", found.open_until))
 
-    def _sake(self, sake: Sake, count: int) -> str:
+    def _sake(self, sake: DetourReason, count: int) -> str:
         one, many = self._sayings.words("ends", "sakes", sake)
         return str(one if count == 1 else many)
 

@@ -7,8 +7,8 @@ from service.narrate.outlook import outlook
 from service.narrate.sayings import Sayings
 from sim.actions import Prefer
 from sim.explain import Cause, Counterfactual, Explanation, Future
-from sim.kinds import Move, Outcome
 from sim.plan import Measure, Option
+from sim.types import Move, Outcome
 
 MOST_TOLD = 3
 """How many causes are told; the facts have all."""

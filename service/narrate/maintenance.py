@@ -26,7 +26,7 @@ class Maintenance:
 
     def answer(self, asked: Asked) -> Json:
         """See `Answerer.answer`."""
-        run = asked.timeline.run
+        run = asked.timeline.state
         metrics = run.metrics
         left = SERVICE_INTERVAL_M - metrics.distance_m % SERVICE_INTERVAL_M
         return plain(self._sayings, asked.ask, run, self._text(metrics, left)) | {

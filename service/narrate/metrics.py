@@ -6,9 +6,9 @@ from service.narrate.answering import Json, plain
 from service.narrate.sayings import Sayings
 from service.sessions.facts import Asked
 from service.wire.future import figures_json
-from sim.intervals import wilson
 from sim.metrics import Metrics
-from sim.run import Run
+from sim.state import SimState
+from sim.statistics import wilson
 
 ENOUGH = 5
 """Episodes from which on a rate is told, with its interval."""
@@ -23,13 +23,13 @@ class Figures:
 
     def answer(self, asked: Asked) -> Json:
         """See `Answerer.answer`."""
-        run = asked.timeline.run
+        run = asked.timeline.state
         metrics = run.metrics
         interval = wilson(metrics.successes, metrics.episodes) if metrics.episodes >= ENOUGH else None
         text = self._text(asked.ask.metric, run, interval)
         return plain(self._sayings, asked.ask, run, text) | figures_json(run, interval)
 
-    def _text(self, metric: str | None, run: Run, interval: tuple[float, float] | None) -> str:
+    def _text(self, metric: str | None, run: SimState, interval: tuple[float, float] | None) -> str:
         metrics = run.metrics
         if not metrics.steps:
             return self._say("nothing")
@@ -49,7 +49,7 @@ class Figures:
             case _:
                 return self._all(run, interval)
 
-    def _all(self, run: Run, interval: tuple[float, float] | None) -> str:
+    def _all(self, run: SimState, interval: tuple[float, float] | None) -> str:
         metrics = run.metrics
         if not metrics.episodes:
             return " ".join([self._say("no_episode"), self._moves(metrics), self._distance(metrics)])
@@ -79,7 +79,7 @@ class Figures:
         shares = _shares(metrics, interval)
         return self._say("rate_of", hits=metrics.successes, episodes=episodes, **shares)
 
-    def _steps(self, run: Run) -> str:
+    def _steps(self, run: SimState) -> str:
         steps = run.metrics.steps
         seconds = f"{round(steps * run.config.step_seconds, 1):.10g}"
         return self._say("steps", "one" if steps == 1 else "many", count=steps, seconds=seconds)

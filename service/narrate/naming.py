@@ -10,14 +10,14 @@ from collections.abc import Hashable, Sequence
 from functools import lru_cache
 
 from service.narrate.sayings import Sayings
-from sim.kinds import Cell, Kind
-from sim.run import Run
+from sim.state import SimState
+from sim.types import Cell, Kind
 
 
 class Naming:
     """Names in one language, as seen in one moment."""
 
-    def __init__(self, sayings: Sayings, run: Run) -> None:
+    def __init__(self, sayings: Sayings, run: SimState) -> None:
         """`run`: the moment; the vehicle stands where it stood then."""
         self._sayings = sayings
         self._world = run.world

@@ -15,9 +15,9 @@ from service.narrate.replies import Replies
 from service.narrate.sayings import Sayings
 from service.sessions.facts import Answerable, Fact, Lesson
 from sim.events import Event, EventType
-from sim.kinds import Move
 from sim.plan import Decision, Measure, Option
-from sim.run import Run
+from sim.state import SimState
+from sim.types import Move
 
 REMEMBERED = 4_096
 """So many sentences are kept for being said again."""
@@ -43,7 +43,7 @@ class Narrator:
         """A narrator of the language `code`."""
         return cls(Sayings.load(code, folder))
 
-    def decision(self, decision: Decision, run: Run) -> str:
+    def decision(self, decision: Decision, run: SimState) -> str:
         """What the vehicle does at a tick and why, in one line."""
         if decision.fault is not None:
             return self._say("fault", planner=decision.planner, fault=decision.fault)
@@ -80,7 +80,7 @@ class Narrator:
             self._remember(None if things is None else key, told)
         return told
 
-    def _straight_on(self, chosen: Option, run: Run) -> str:
+    def _straight_on(self, chosen: Option, run: SimState) -> str:
         """Straight on, in a word; in a few more where something is passed closely, or the goal is near."""
         if chosen.cell is not None and chosen.cell[1] == 0:
             return self._say("into_the_goal")
@@ -112,7 +112,7 @@ class Narrator:
         """The reply to a phrase that was taught or forgotten."""
         return self._replies.lesson(lesson)
 
-    def event(self, event: Event, run: Run) -> str:
+    def event(self, event: Event, run: SimState) -> str:
         """One line of the log."""
         if event.type in ENDS:
             return self._ends.text(run)
@@ -156,7 +156,7 @@ class Narrator:
         """The answer to a question, as JSON values."""
         return self._answers.answer(asked)
 
-    def _weighed(self, decision: Decision, run: Run, naming: Naming) -> str:
+    def _weighed(self, decision: Decision, run: SimState, naming: Naming) -> str:
         """The move of a planner that knows what each costs in all, against going straight on."""
         name = self._named(decision.move)
         straight, chosen = decision.option(Move.FORWARD), decision.chosen

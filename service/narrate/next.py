@@ -9,10 +9,10 @@ from service.narrate.naming import Naming
 from service.narrate.sayings import Sayings
 from service.sessions.facts import Asked
 from service.wire.future import way_json
-from sim.course import Sake
-from sim.explain.future import Detour, Way, way_ahead
-from sim.kinds import Move, Outcome
-from sim.run import Run
+from sim.episode_record import DetourReason
+from sim.explain.rollout import Detour, RouteAhead, route_ahead
+from sim.state import SimState
+from sim.types import Move, Outcome
 
 
 class Next:
@@ -24,12 +24,12 @@ class Next:
 
     def answer(self, asked: Asked) -> Json:
         """See `Answerer.answer`."""
-        run = asked.timeline.run
-        way = way_ahead(run)
+        run = asked.timeline.state
+        way = route_ahead(run)
         return plain(self._sayings, asked.ask, run, self._text(way)) | way_json(way)
 
-    def _text(self, way: Way) -> str:
-        run = way.run
+    def _text(self, way: RouteAhead) -> str:
+        run = way.state
         if run.world.outcome is not Outcome.RUNNING:
             return self._ended(run)
         if not way.decisions:
@@ -38,26 +38,26 @@ class Next:
         more = way.chance and way.outcome is Outcome.RUNNING
         return f"{told} {self._say('chance')}" if more else told
 
-    def _way(self, way: Way) -> str:
+    def _way(self, way: RouteAhead) -> str:
         detours = {detour.tick: detour for detour in way.detours}
-        asked = len(way.run.queue)
+        asked = len(way.state.queue)
         steps = [
             (decision.move, detours.get(decision.tick), place >= asked)
             for place, decision in enumerate(way.decisions)
         ]
         alike = groupby(steps, key=lambda step: (step[0], step[1] and (step[1].sake, step[1].ids), step[2]))
-        naming = Naming(self._sayings, way.run)
+        naming = Naming(self._sayings, way.state)
         told = []
         named: tuple[str, ...] = ()
         for (move, _, silent), group in alike:
             members = list(group)
             detour = members[0][1]
-            if detour is not None and detour.sake is Sake.YOU and silent:
+            if detour is not None and detour.sake is DetourReason.YOU and silent:
                 told.append(self._say("waits"))
                 continue
             if detour is not None and detour.ids and detour.ids == named:
                 detour = None  # they have been spoken of
-            told.append(self._move(move, len(members), detour, way.run, naming))
+            told.append(self._move(move, len(members), detour, way.state, naming))
             named = named if detour is None else detour.ids
         said = self._say("then").join(told)
         if way.outcome is Outcome.SUCCESS:
@@ -66,11 +66,11 @@ class Next:
             a = "" if way.cause is None else self._sayings.say("words", "a", way.cause.kind)
             return self._say("crashes", way=said, a=a)
         if way.outcome is Outcome.STUCK:
-            ticks = way.run.world.episode_tick + len(way.decisions)
-            return self._say("stuck_again" if ticks <= way.run.config.max_ticks else "stuck", way=said)
+            ticks = way.state.world.episode_tick + len(way.decisions)
+            return self._say("stuck_again" if ticks <= way.state.config.max_ticks else "stuck", way=said)
         return said
 
-    def _move(self, move: Move, count: int, detour: Detour | None, run: Run, naming: Naming) -> str:
+    def _move(self, move: Move, count: int, detour: Detour | None, run: SimState, naming: Naming) -> str:
         metres = f"{count * run.config.cell_m:g}"
         said = self._say("moves", move, "one" if count == 1 else "many", count=count, metres=metres)
         if detour is None:
@@ -78,7 +78,7 @@ class Next:
         key = "stays" if move is Move.STAY and detour.ids else detour.sake
         return self._say("sakes", key, move=said, who=naming.things(detour.ids))
 
-    def _ended(self, run: Run) -> str:
+    def _ended(self, run: SimState) -> str:
         world = run.world
         stood = 0 if world.ended is None else world.tick - world.ended
         seconds = max(1, run.config.reset_delay_ticks - stood) * run.config.step_seconds

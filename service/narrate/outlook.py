@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from service.narrate.naming import Naming
 from service.narrate.sayings import Sayings
-from sim.forecast import foretell
-from sim.kinds import Move, kind_of
+from sim.forecast import predict
 from sim.perceive import perceive
 from sim.plan import Decision, Option
 from sim.plan.rule_based import Leads, Prospect, RulesPlanner, standing
-from sim.run import Run
+from sim.state import SimState
+from sim.types import Move, kind_of
 
 _OTHER_SIDE = {Move.LEFT: Move.RIGHT, Move.RIGHT: Move.LEFT}
 
 
-def outlook(sayings: Sayings, decision: Decision, run: Run) -> Outlook | None:
+def outlook(sayings: Sayings, decision: Decision, run: SimState) -> Outlook | None:
     """What a decision of `rules`, taken in `run`, went by; None for another planner's or a person's."""
     if decision.planner != RulesPlanner.name or decision.asked is not None or decision.fault is not None:
         return None
@@ -24,11 +24,11 @@ def outlook(sayings: Sayings, decision: Decision, run: Run) -> Outlook | None:
 class Outlook:
     """One decision of `rules` on its way into words."""
 
-    def __init__(self, sayings: Sayings, decision: Decision, run: Run) -> None:
+    def __init__(self, sayings: Sayings, decision: Decision, run: SimState) -> None:
         """`run`: the moment in which the decision was taken."""
         self._sayings = sayings
         self._decision = decision
-        self._forecast = foretell(perceive(run.world, run.config), 1)
+        self._forecast = predict(perceive(run.world, run.config), 1)
         self._standing = standing(self._forecast)
         self._naming = Naming(sayings, run)
         self._straight = decision.option(Move.FORWARD)

@@ -8,12 +8,12 @@ from service.sessions.pace import PaceSet
 from service.sessions.pace import said as said_pace
 from service.sessions.saved import Kept, Went
 from sim.actions import Add, Adjust, Drive, Prefer, Remove, Reset, Scenario, Set, SetCount, SetMode
-from sim.edit import Applied, Change
 from sim.events import EventType
-from sim.kinds import Mode
 from sim.planner_names import WEIGHING
-from sim.run import Run
-from sim.settings import AS_IT_IS, FROM_THE_NEXT_ROAD, NEEDS_A_NEW_ROAD
+from sim.session.edits import Applied, Change
+from sim.session.settings import AS_IT_IS, FROM_THE_NEXT_ROAD, NEEDS_A_NEW_ROAD
+from sim.state import SimState
+from sim.types import Mode
 
 
 class Replies:
@@ -91,7 +91,7 @@ class Replies:
                     diff=self._diff(applied.changes),
                 )
             case Scenario():
-                return self._scenario(applied.run)
+                return self._scenario(applied.state)
             case Reset():
                 return self._say("reset")
             case SetMode(mode=mode):
@@ -102,7 +102,7 @@ class Replies:
             case Set(parameter=parameter) | Adjust(parameter=parameter):
                 return self._setting(parameter, applied)
             case Drive(move=move):
-                key = "drive" if applied.run.mode is Mode.MANUAL else "drive_then_auto"
+                key = "drive" if applied.state.mode is Mode.MANUAL else "drive_then_auto"
                 said = self._say(key, move=self._sayings.move(move, "do"))
         started = any(event.type is EventType.EPISODE_STARTED for event in applied.events)
         return f"{self._say('road_first')} {said}" if started else said
@@ -113,12 +113,12 @@ class Replies:
         changed = {change.path: change for change in applied.changes}
         change = changed.get(f"config.{parameter}")
         if change is None:
-            value = getattr(applied.run.config, parameter, None) or AS_IT_IS.get(parameter, "")
+            value = getattr(applied.state.config, parameter, None) or AS_IT_IS.get(parameter, "")
             return self._say("set_already", name=name, value=self._value(parameter, value))
         before = self._say("unset") if change.before is None else self._value(parameter, change.before)
         said = self._say("set", name=name, before=before, after=self._value(parameter, change.after))
         if parameter in NEEDS_A_NEW_ROAD:
-            return f"{said} {self._scenario(applied.run)}"
+            return f"{said} {self._scenario(applied.state)}"
         counted = self._diff(applied.changes)
         told = [said, self._say("on_the_road", diff=counted) if counted else ""]
         if parameter in FROM_THE_NEXT_ROAD:
@@ -130,7 +130,7 @@ class Replies:
         return self._sayings.planner(str(value)) if parameter == "planner" else value
 
     def _preferring(self, applied: Applied) -> str:
-        config = applied.run.config
+        config = applied.state.config
         wishes = [self._sayings.say("replies", "preferences", wish) for wish in config.preferences]
         said = self._say("prefer", wishes=self._sayings.joined(wishes)) if wishes else self._say("balanced")
         if not wishes or config.planner in WEIGHING:
@@ -157,7 +157,7 @@ class Replies:
         diff = self._diff(changes_of(tuple(group)))
         return self._say("remove_many", count=len(things), things=named, diff=diff)
 
-    def _scenario(self, run: Run) -> str:
+    def _scenario(self, run: SimState) -> str:
         road = self._sayings.say("replies", "roads", run.config.road or "none")
         contents = [
             self._say("contents", count=count, things=self._sayings.things(kind, count))

@@ -9,8 +9,8 @@ from typing import Any, Protocol
 import yaml
 
 from service.resources import prompts_folder
-from sim.kinds import Cell, Move, kind_of
 from sim.plan import Option
+from sim.types import Cell, Move, kind_of
 
 
 class Names(Protocol):

@@ -10,10 +10,10 @@ from service.narrate.naming import Naming
 from service.narrate.sayings import Sayings
 from service.sessions.facts import Asked
 from service.wire.scene import scene_json
-from sim.explain.scene import Scene, Seen, look
-from sim.kinds import PLACEABLE, Kind, Outcome
+from sim.explain.scene import Detection, Scene, describe_percept
 from sim.perceive import perceive
-from sim.run import Run
+from sim.state import SimState
+from sim.types import PLACEABLE, Kind, Outcome
 
 MAX_TOLD: Final = 3
 """Things of a kind told one by one; the structured part has them all."""
@@ -30,14 +30,14 @@ class Scenes:
 
     def answer(self, asked: Asked) -> Json:
         """See `Answerer.answer`."""
-        run = asked.timeline.run
+        run = asked.timeline.state
         kind = None if asked.ask.kind is None else Kind(asked.ask.kind)
-        scene = look(perceive(run.world, run.config), run.config)
+        scene = describe_percept(perceive(run.world, run.config), run.config)
         text = self.text(scene, run, kind)
         found = scene_json(scene, kind, run.config.cell_m, run.config.step_seconds)
         return plain(self._sayings, asked.ask, run, text) | found
 
-    def text(self, scene: Scene, run: Run, kind: Kind | None) -> str:
+    def text(self, scene: Scene, run: SimState, kind: Kind | None) -> str:
         """What is seen, or what of one kind. `run`: the moment the scene is of."""
         told = _Told(self._sayings, run, scene)
         return told.everything() if kind is None else told.kind(kind)
@@ -46,7 +46,7 @@ class Scenes:
 class _Told:
     """One scene in words."""
 
-    def __init__(self, sayings: Sayings, run: Run, scene: Scene) -> None:
+    def __init__(self, sayings: Sayings, run: SimState, scene: Scene) -> None:
         self._sayings = sayings
         self._naming = Naming(sayings, run)
         self._run = run
@@ -78,7 +78,7 @@ class _Told:
             told.append(self._say("rest", "one" if rest == 1 else "many", count=self._count(rest)))
         return " ".join(told)
 
-    def _ahead(self, ahead: Sequence[Seen], rest: int) -> str:
+    def _ahead(self, ahead: Sequence[Detection], rest: int) -> str:
         """Those ahead; `rest`: how many there are besides."""
         if len(ahead) == 1:
             return self._say("single_ahead", one=self._one(ahead[0]))
@@ -115,13 +115,13 @@ class _Told:
         key = "clear_to_goal" if scene.reach == scene.cell[1] else "clear"
         return self._say(key, metres=f"{scene.reach * self._run.config.cell_m:g}")
 
-    def _threat(self, thing: Seen) -> str:
+    def _threat(self, thing: Detection) -> str:
         key = "threat_moving" if thing.walks else "threat"
         noun, place = self._say("a", thing.kind), self._naming.place(thing.cell)
         place = self._sure(thing, place, "place_sure")
         return self._say(key, thing=noun, place=place, seconds=self._seconds(thing))
 
-    def _met(self, ahead: Sequence[Seen]) -> list[str]:
+    def _met(self, ahead: Sequence[Detection]) -> list[str]:
         """The first of a kind that is met straight on."""
         threats = [thing for thing in ahead if thing.ticks is not None]
         if not threats or self._run.world.outcome is not Outcome.RUNNING:
@@ -130,22 +130,22 @@ class _Told:
         key = "met_it" if len(ahead) == 1 else "met_moving" if first.walks else "met"
         return [self._say(key, place=self._naming.place(first.cell), seconds=self._seconds(first))]
 
-    def _near(self, thing: Seen) -> str:
+    def _near(self, thing: Detection) -> str:
         noun, place = self._say("a", thing.kind), self._naming.place(thing.cell)
         return self._sure(thing, self._say("near", thing=noun, place=place))
 
-    def _one(self, thing: Seen) -> str:
+    def _one(self, thing: Detection) -> str:
         return self._sure(
             thing, self._say("held" if thing.held else "one", place=self._naming.place(thing.cell))
         )
 
-    def _sure(self, thing: Seen, told: str, key: str = "sure") -> str:
+    def _sure(self, thing: Detection, told: str, key: str = "sure") -> str:
         """With how sure the sensors are, where they are not; never all of it, nor none."""
         if thing.likelihood == 1.0:
             return told
         return self._say(key, told=told, percent=min(99, max(1, round(100 * thing.likelihood))))
 
-    def _seconds(self, thing: Seen) -> str:
+    def _seconds(self, thing: Detection) -> str:
         return f"{(thing.ticks or 0) * self._run.config.step_seconds:g}"
 
     def _noun(self, kind: Kind, count: int) -> str:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from service.narrate.answering import Json, plain
 from service.narrate.sayings import Sayings
 from service.sessions.facts import Asked
-from sim.kinds import Mode, Outcome
-from sim.run import Run
+from sim.state import SimState
+from sim.types import Mode, Outcome
 
 
 class Status:
@@ -18,10 +18,10 @@ class Status:
 
     def answer(self, asked: Asked) -> Json:
         """See `Answerer.answer`."""
-        run = asked.timeline.run
+        run = asked.timeline.state
         return plain(self._sayings, asked.ask, run, self._status(run))
 
-    def _status(self, run: Run) -> str:
+    def _status(self, run: SimState) -> str:
         world = run.world
         if world.outcome is not Outcome.RUNNING:
             outcome = self._sayings.say("answers", "outcomes", world.outcome)
@@ -54,4 +54,4 @@ class Help:
         """See `Answerer.answer`."""
         examples = self._sayings.joined([f"“{example}”" for example in self._sayings.examples()])
         text = self._sayings.say("answers", "help", examples=examples)
-        return plain(self._sayings, asked.ask, asked.timeline.run, text)
+        return plain(self._sayings, asked.ask, asked.timeline.state, text)

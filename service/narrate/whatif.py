@@ -22,15 +22,15 @@ from sim.actions import (
     SetMode,
     WorldAction,
 )
-from sim.edit import Applied
-from sim.edit_error import EditError
 from sim.explain import QuestionError
-from sim.explain.future import Story
-from sim.explain.whatif import Difference, WhatIf, what_if
-from sim.kinds import Kind, Outcome
+from sim.explain.rollout import EpisodeRollout
+from sim.explain.what_if import Difference, WhatIf, what_if
 from sim.planner_names import WEIGHING
-from sim.run import Run
-from sim.settings import AS_IT_IS
+from sim.session.edits import Applied
+from sim.session.errors import EditError
+from sim.session.settings import AS_IT_IS
+from sim.state import SimState
+from sim.types import Kind, Outcome
 
 WORLD_ACTIONS = (Add, Remove, SetCount, Scenario, Reset, SetMode, Drive, Set, Adjust, Prefer)
 
@@ -52,18 +52,18 @@ class WhatIfs:
         change = ask.change or ()
         actions = [action for action in change if isinstance(action, WORLD_ACTIONS) and not sets_pace(action)]
         if not actions:
-            return plain(self._sayings, ask, timeline.run, self._say("only_road"))
+            return plain(self._sayings, ask, timeline.state, self._say("only_road"))
         try:
             found = what_if(timeline, actions, ask.tick)
         except QuestionError as error:
-            return plain(self._sayings, ask, timeline.run, not_so(self._sayings, error.code, error.facts))
+            return plain(self._sayings, ask, timeline.state, not_so(self._sayings, error.code, error.facts))
         except EditError as error:
-            told = plain(self._sayings, ask, timeline.run, self._say("cannot", message=error.message))
+            told = plain(self._sayings, ask, timeline.state, self._say("cannot", message=error.message))
             return told | {"evidence": {"code": error.code, "field": error.field, "message": error.message}}
         text = self._text(ask, found)
         if len(actions) < len(change):
             text = f"{text} {self._say('rest_aside')}"
-        return plain(self._sayings, ask, found.run, text) | what_if_json(change, found)
+        return plain(self._sayings, ask, found.state, text) | what_if_json(change, found)
 
     def _text(self, ask: Ask, found: WhatIf) -> str:
         told = []
@@ -74,10 +74,10 @@ class WhatIfs:
         clauses = self._conditions.clauses(found)
         if found.no_effect or not clauses:
             told.append(self._say("so_already"))
-            told.append(self._say("as_it_is", end=self._end(found.real, found.run)))
+            told.append(self._say("as_it_is", end=self._end(found.real, found.state)))
         else:
             told.append(self._condition(clauses, found))
-            if found.run.world.tick in found.changed.held_back:
+            if found.state.world.tick in found.changed.held_back:
                 told.append(self._say("held_back"))
             told += self._beside(found)
         if found.said_since:
@@ -101,14 +101,14 @@ class WhatIfs:
     def _then(self, found: WhatIf) -> str:
         """What I would do, and what would come of it."""
         if not found.same_road:
-            return self._say("new_road", end=self._end(found.changed, found.done[-1].run))
+            return self._say("new_road", end=self._end(found.changed, found.done[-1].state))
         difference = found.first_difference
         if difference is None and self._alike(found):
-            return self._say("nothing", end=self._end(found.changed, found.run))
+            return self._say("nothing", end=self._end(found.changed, found.state))
         if difference is None:
             return self._say("same_moves", end=self._both(found))
         do, doing = self._moves(difference)
-        seconds = self._say("seconds", seconds=f"{difference.ahead * found.run.config.step_seconds:g}")
+        seconds = self._say("seconds", seconds=f"{difference.ahead * found.state.config.step_seconds:g}")
         return self._say(
             self._when(difference, found), do=do, doing=doing, end=self._both(found), time=seconds
         )
@@ -116,7 +116,7 @@ class WhatIfs:
     def _beside(self, found: WhatIf) -> list[str]:
         """How it is beside that: the end on this road, or what the real move costs."""
         if not found.same_road:
-            return [self._say("as_it_is", end=self._end(found.real, found.run))]
+            return [self._say("as_it_is", end=self._end(found.real, found.state))]
         difference, regret = found.first_difference, found.regret
         if difference is None:
             return self._why_nothing(found)
@@ -134,7 +134,7 @@ class WhatIfs:
 
     def _why_nothing(self, found: WhatIf) -> list[str]:
         """Wishes are nothing to a planner that does not weigh."""
-        planner = found.done[-1].run.config.planner
+        planner = found.done[-1].state.config.planner
         wished = any(isinstance(each.action, Prefer) for each in found.done)
         if not wished or planner in WEIGHING or found.real.by_hand:
             return []
@@ -160,7 +160,7 @@ class WhatIfs:
 
     def _both(self, found: WhatIf) -> str:
         """Both ends in one clause."""
-        real, changed, run = found.real, found.changed, found.run
+        real, changed, run = found.real, found.changed, found.state
         parts = {**self._parts(changed, run), "count": real.driven}
         if self._alike(found) or real.outcome is changed.outcome is Outcome.STUCK:
             return self._say("alike", _ending(changed), **parts)
@@ -169,10 +169,10 @@ class WhatIfs:
             return self._say("both", changed.outcome, **parts)
         return self._say("rather", changed=self._end(changed, run), real=self._end(real, run))
 
-    def _end(self, story: Story, run: Run) -> str:
+    def _end(self, story: EpisodeRollout, run: SimState) -> str:
         return self._say("ends", _ending(story), **self._parts(story, run))
 
-    def _parts(self, story: Story, run: Run) -> dict[str, object]:
+    def _parts(self, story: EpisodeRollout, run: SimState) -> dict[str, object]:
         a = "" if story.cause is None else self._sayings.say("words", "a", story.cause.kind)
         return {"a": a, "ticks": self._ticks(story.driven), "planner": run.config.planner}
 
@@ -183,7 +183,7 @@ class WhatIfs:
         return self._sayings.say("whatif", *keys, **parts)
 
 
-def _ending(story: Story) -> str:
+def _ending(story: EpisodeRollout) -> str:
     """How it ends, as the sayings call it."""
     return "silent" if story.silent is not None else str(story.outcome)
 
@@ -197,15 +197,15 @@ class Conditions:
 
     def clauses(self, found: WhatIf) -> list[str]:
         """One for each action that changed anything."""
-        told, before = [], found.run
+        told, before = [], found.state
         for applied in found.done:
             touched = applied.changes or applied.added or applied.events
             if applied.removed or (touched and not isinstance(applied.action, Remove)):
                 told.append(self._clause(applied, applied.action, before))
-            before = applied.run
+            before = applied.state
         return told
 
-    def _clause(self, applied: Applied, action: WorldAction, before: Run) -> str:
+    def _clause(self, applied: Applied, action: WorldAction, before: SimState) -> str:
         match action:
             case Remove():
                 return self._removed(applied, action, before)
@@ -216,7 +216,7 @@ class Conditions:
                     return self._say("none_left", things=self._sayings.things(kind, 2))
                 return self._say("exactly", count=count, things=self._sayings.things(kind, count))
             case Scenario():
-                return self._road(applied.run)
+                return self._road(applied.state)
             case Reset():
                 return self._say("reset")
             case SetMode(mode=mode):
@@ -226,11 +226,11 @@ class Conditions:
             case Prefer(preference=wish):
                 return self._sayings.say("whatif", "prefer", wish)
             case Set(parameter=parameter) | Adjust(parameter=parameter):
-                return self._setting(parameter, applied.run)
+                return self._setting(parameter, applied.state)
 
-    def _removed(self, applied: Applied, action: Remove, before: Run) -> str:
+    def _removed(self, applied: Applied, action: Remove, before: SimState) -> str:
         things = applied.removed
-        left = applied.run.world
+        left = applied.state.world
         if action.kind == "everything" and not any(left.counts().values()):
             return self._say("nothing_left")
         if len(things) <= NAMED:
@@ -248,19 +248,19 @@ class Conditions:
             return self._say(
                 "more", count=action.count, things=self._sayings.things(action.kind, action.count)
             )
-        place = Naming(self._sayings, applied.run).place(applied.added[0].cell)
+        place = Naming(self._sayings, applied.state).place(applied.added[0].cell)
         if action.where is None:
             return self._say("one_more", thing=self._sayings.things(action.kind, 1), place=place)
         return self._say("one_at", a=self._sayings.say("words", "a", action.kind), place=place)
 
-    def _setting(self, parameter: str, run: Run) -> str:
+    def _setting(self, parameter: str, run: SimState) -> str:
         value = getattr(run.config, parameter, None)
         if parameter == "planner":
             return self._say("planner", planner=self._sayings.planner(str(value), "with"))
         name = self._sayings.say("whatif", "settings", parameter)
         return self._say("setting", name=name, value=AS_IT_IS.get(parameter, "") if value is None else value)
 
-    def _road(self, run: Run) -> str:
+    def _road(self, run: SimState) -> str:
         road = self._sayings.say("replies", "roads", run.config.road or "none")
         contents = [
             self._sayings.say("replies", "contents", count=count, things=self._sayings.things(kind, count))

@@ -35,9 +35,9 @@ class Whys:
             else:
                 explanation = why(timeline, ask.tick, ask.move)
         except QuestionError as error:
-            return plain(self._sayings, ask, timeline.run, not_so(self._sayings, error.code, error.facts))
+            return plain(self._sayings, ask, timeline.state, not_so(self._sayings, error.code, error.facts))
         text = self._explained.text(explanation)
-        return plain(self._sayings, ask, timeline.run, text) | explanation_json(explanation)
+        return plain(self._sayings, ask, timeline.state, text) | explanation_json(explanation)
 
     def _about_a_crash(self, asked: Asked) -> bool:
         return asked.supposes == "crash" or led_to_crash(asked.timeline, asked.ask.tick)

@@ -11,19 +11,19 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from contextlib import suppress
 
-from sim.kinds import Mode, Outcome
 from sim.perceive import Percept, perceive
 from sim.plan import Decision
-from sim.plan.answer import Answer
-from sim.plan.asking import ask
-from sim.plan.guard import is_foreign, taken
-from sim.run import Run
+from sim.plan.safe_planning import is_foreign, plan_answered
+from sim.plan.sandbox.answer import Answer
+from sim.plan.sandbox.client import ask
+from sim.state import SimState
+from sim.types import Mode, Outcome
 
 
 class Asking:
     """At most one question under way."""
 
-    def __init__(self, take: Callable[[Run, Decision], None]) -> None:
+    def __init__(self, take: Callable[[SimState, Decision], None]) -> None:
         """`take`: given each decision with the state that was asked about, on the event loop's thread."""
         self._take = take
         self._asked: Future[Answer] | None = None
@@ -33,7 +33,7 @@ class Asking:
         """Whether an answer is waited for."""
         return self._asked is not None
 
-    def begin(self, run: Run) -> bool:
+    def begin(self, run: SimState) -> bool:
         """Ask what a state leads to, if another package's planner is to say; needs a running loop."""
         if not decides(run):
             return False
@@ -52,13 +52,13 @@ class Asking:
         """Whatever is answered yet is not taken."""
         self._asked = None
 
-    def _answered(self, asked: Future[Answer], run: Run, percept: Percept) -> None:
+    def _answered(self, asked: Future[Answer], run: SimState, percept: Percept) -> None:
         if self._asked is asked:
             self._asked = None
-            self._take(run, taken(asked.result, percept, run.config))
+            self._take(run, plan_answered(asked.result, percept, run.config))
 
 
-def decides(run: Run) -> bool:
+def decides(run: SimState) -> bool:
     """Whether a planner of another package decides the next move."""
     by_hand = bool(run.queue) or run.mode is Mode.MANUAL
     return not by_hand and run.world.outcome is Outcome.RUNNING and is_foreign(run.config.planner)

@@ -9,9 +9,9 @@ from __future__ import annotations
 from service.actions import Action, Ask, Hide, Show
 from service.sessions.pace import sets_pace
 from sim.actions import Add, Adjust, Drive, Remove, Reset, Scenario, Set, SetCount, SetMode
-from sim.kinds import Kind
-from sim.scenario import unavailable
-from sim.settings import offered
+from sim.session.scenario import unavailable
+from sim.session.settings import offered
+from sim.types import Kind
 
 _OFFERED = frozenset(
     (

@@ -19,7 +19,7 @@ from service.language.topic import Phrases, Topic
 from service.sessions.facts import Answerable, Asked, Fact, Undone
 from service.sessions.utterance import Outcome
 from sim.actions import Add, Remove, Reset, SetCount, Where
-from sim.edit import Applied
+from sim.session.edits import Applied
 from sim.world import World
 
 REMEMBERED = 200
@@ -79,7 +79,7 @@ class Conversation:
         if not isinstance(action, Add | Remove | SetCount):
             self._forget_things()
             return
-        self._enter(fact.run.world)
+        self._enter(fact.state.world)
         self._things += tuple(thing.id for thing in fact.added)
         for thing in fact.added:
             if thing.id in self._added:
@@ -94,7 +94,7 @@ class Conversation:
         told = tuple(cause["id"] for cause in answer.get("causes", ()) if cause.get("id"))
         asked = [fact for fact in facts if isinstance(fact, Asked)]
         if told and asked:
-            self._enter(asked[-1].timeline.run.world)
+            self._enter(asked[-1].timeline.state.world)
             self._things = told
 
     def _enter(self, world: World) -> None:

@@ -49,13 +49,13 @@ from sim.actions import (
     Weather,
     WorldAction,
 )
-from sim.advice import NoAdviceError, advise
-from sim.edit import Change, differences
-from sim.edit_error import EditError
-from sim.kinds import Kind
+from sim.hazard_advice import NoAdviceError, advise
 from sim.planner_names import installed
-from sim.run import Run
-from sim.timeline import PlannerSilentError, Timeline
+from sim.session.edits import Change, differences
+from sim.session.errors import EditError
+from sim.session.timeline import PlannerSilentError, Timeline
+from sim.state import SimState
+from sim.types import Kind
 
 WORLD_ACTIONS = (Add, Remove, SetCount, Scenario, Reset, SetMode, Drive, Set, Adjust, Prefer)
 STEPS = (*WORLD_ACTIONS, Rewind, Load)
@@ -178,7 +178,7 @@ class Draft:
         return applied
 
     def _advise(self, position: int, action: Advise) -> Advised:
-        weather: Weather = getattr(self.timeline.run.config, "weather", "clear")
+        weather: Weather = getattr(self.timeline.state.config, "weather", "clear")
         try:
             advice = advise(Kind(action.hazard), action.distance_m, action.speed_kmh, weather)
         except NoAdviceError as error:
@@ -221,7 +221,7 @@ class Draft:
         return self._take(step, again=True)
 
     def _rewind(self, position: int, ticks: int) -> Went:
-        before = self.timeline.run
+        before = self.timeline.state
         go_back(self.timeline, ticks, f"actions.{position}.ticks")
         return self._went(before, len(self.timeline.entries))
 
@@ -238,14 +238,14 @@ class Draft:
         moment = self.history.saved.get(name)
         if moment is None:
             raise unknown(name, self.history.saved, f"actions.{position}.name")
-        before, log = self.timeline.run, self.timeline.entries
+        before, log = self.timeline.state, self.timeline.entries
         self.timeline = moment.timeline.copy()
         return self._went(before, log.alike(self.timeline.entries), name)
 
-    def _went(self, before: Run, kept: int, name: str | None = None) -> Went:
+    def _went(self, before: SimState, kept: int, name: str | None = None) -> Went:
         self._open.kept = min(self._open.kept, kept)
         self._open.jumped = self._jumped = True
-        run = self.timeline.run
+        run = self.timeline.state
         return Went(before.world.tick, run.world.tick, differences(before, run), name)
 
     def _close_step(self) -> None:
@@ -264,7 +264,7 @@ class Draft:
 
     def _take(self, step: Step, *, again: bool) -> Undone:
         """Put the log's tail as the step left it, and replay."""
-        before = self.timeline.run
+        before = self.timeline.state
         kept = len(self.timeline.entries) - len(step.before)
         if step.jump is None:
             try:
@@ -278,7 +278,7 @@ class Draft:
         if paused == step.paused_before:
             self.paused = step.paused_after
         self._open = _Mark(self.timeline.copy(), self.paused, kept)
-        changes = differences(before, self.timeline.run)
+        changes = differences(before, self.timeline.state)
         if before.world.tick != self.timeline.tick:
             changes = (Change("tick", before.world.tick, self.timeline.tick), *changes)
         if paused != self.paused:

@@ -15,10 +15,10 @@ from typing import Final, TypeVar
 from anyio import to_thread
 
 from service.actions import Action
-from sim.plan.asking import within
-from sim.plan.guard import is_foreign
+from sim.plan.safe_planning import is_foreign
+from sim.plan.sandbox.client import within
 from sim.planner_names import installed
-from sim.timeline import Timeline
+from sim.session.timeline import Timeline
 
 QUESTION_S: Final = 10.0
 """How long foreign planners are waited for, in all, for the answer to a question."""
@@ -53,7 +53,7 @@ def patiently(seconds: float, work: Callable[[], Result]) -> Callable[[], Result
 
 def asks_others(timeline: Timeline) -> bool:
     """Whether a question about a timeline is one for a planner of another package."""
-    return is_foreign(timeline.run.config.planner) or is_foreign(timeline.config.planner)
+    return is_foreign(timeline.state.config.planner) or is_foreign(timeline.config.planner)
 
 
 def names_another(actions: Iterable[Action]) -> bool:

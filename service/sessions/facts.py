@@ -8,10 +8,10 @@ from typing import TypeAlias
 from service.actions import Ask
 from service.sessions.pace import PaceSet
 from service.sessions.saved import Kept, Went
-from sim.advice import Advice
-from sim.edit import Applied, Change
-from sim.run import Run, Tick
-from sim.timeline import Timeline
+from sim.hazard_advice import Advice
+from sim.session.edits import Applied, Change
+from sim.session.timeline import Timeline
+from sim.state import SimState, StepResult
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +28,7 @@ class Stepped:
     """Some ticks were run at once, from a tick on."""
 
     first_tick: int
-    ticks: tuple[Tick, ...]
+    ticks: tuple[StepResult, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,14 +102,14 @@ def asked_about(facts: tuple[Fact, ...]) -> list[Timeline]:
     return [fact.timeline for fact in facts if isinstance(fact, Asked)]
 
 
-def happened_in(facts: tuple[Fact, ...]) -> list[tuple[Run, Applied | Tick]]:
+def happened_in(facts: tuple[Fact, ...]) -> list[tuple[SimState, Applied | StepResult]]:
     """The parts that bring events, each with the run they happened in, in order."""
-    parts: list[tuple[Run, Applied | Tick]] = []
+    parts: list[tuple[SimState, Applied | StepResult]] = []
     for fact in facts:
         if isinstance(fact, Applied):
-            parts.append((fact.run, fact))
+            parts.append((fact.state, fact))
         elif isinstance(fact, Stepped):
-            parts += [(tick.run, tick) for tick in fact.ticks]
+            parts += [(tick.state, tick) for tick in fact.ticks]
     return parts
 
 

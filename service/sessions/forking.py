@@ -20,7 +20,7 @@ from service.sessions.history import History
 from service.sessions.pace import sets_pace
 from service.store import Branch, EntryRecord
 from service.store.lineage import standing
-from sim.timeline import Entry, Timeline
+from sim.session.timeline import Entry, Timeline
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,9 +21,9 @@ from service.sessions.pace import Pace
 from service.sessions.rewinding import Jump
 from service.sessions.saved import Moment
 from sim.actions import WorldAction
-from sim.chain import Chain
-from sim.packing import Packer, Pool, Unpacker
-from sim.timeline import Entry, Snapshot, Timeline
+from sim.session.persistent_list import PersistentList
+from sim.session.serialization import Packer, Pool, Unpacker
+from sim.session.timeline import Entry, Snapshot, Timeline
 
 if TYPE_CHECKING:
     from service.sessions.session import Session
@@ -188,7 +188,7 @@ class _Writing:
         ]
 
     def _written_snapshot(self, snapshot: Snapshot) -> list[int]:
-        return [self.packer.run(snapshot.run), snapshot.entries]
+        return [self.packer.run(snapshot.state), snapshot.entries]
 
     def _step(self, step: Step) -> list[Any]:
         jump = step.jump
@@ -231,10 +231,10 @@ def read(values: Mapping[str, Any], session: str) -> Frozen:
         Entry(sequence, tick, actions[number])
         for sequence, tick, number in zip(sequences, ticks, which, strict=True)
     ]
-    logs: list[Chain[Entry]] = []
+    logs: list[PersistentList[Entry]] = []
     for alike, *stretches in values["logs"]:
         begin = logs[-1].shared[:alike] if alike else ()
-        logs.append(Chain([*begin, *_of_stretches(stretches, entries)]))
+        logs.append(PersistentList([*begin, *_of_stretches(stretches, entries)]))
     snapshots = [
         Snapshot(states.runs[run].world.tick, states.runs[run], count) for run, count in values["snapshots"]
     ]
@@ -273,8 +273,8 @@ def read(values: Mapping[str, Any], session: str) -> Frozen:
         pace=values["pace"],
         timeline=timelines[values["timeline"]],
         history=History(
-            done=Chain([step(parts) for parts in values["done"]]),
-            undone=Chain([step(parts) for parts in values["undone"]]),
+            done=PersistentList([step(parts) for parts in values["done"]]),
+            undone=PersistentList([step(parts) for parts in values["undone"]]),
             saved={name: Moment(name, number, timelines[of]) for name, number, of in values["saved"]},
             ground=ground,
             ground_steps=ground_steps,

@@ -12,8 +12,8 @@ from dataclasses import dataclass, field, replace
 
 from service.sessions.rewinding import Jump
 from service.sessions.saved import Moment
-from sim.chain import Chain
-from sim.timeline import Entry, Timeline
+from sim.session.persistent_list import PersistentList
+from sim.session.timeline import Entry, Timeline
 
 MOST_JUMPS = 100
 """How many moves in time can be taken back: each keeps a timeline. What is older than that stays."""
@@ -64,8 +64,8 @@ class History:
     become steps, one for each utterance, when there is nothing later to undo.
     """
 
-    done: Chain[Step] = field(default_factory=Chain)
-    undone: Chain[Step] = field(default_factory=Chain)
+    done: PersistentList[Step] = field(default_factory=PersistentList)
+    undone: PersistentList[Step] = field(default_factory=PersistentList)
     saved: Mapping[str, Moment] = field(default_factory=dict)
     ground: int = 0
     ground_steps: int = 0
@@ -84,11 +84,11 @@ class History:
     def add(self, step: Step) -> None:
         """One more change; what was undone before it cannot be redone."""
         self.done = self.done.plus([step])
-        self.undone = Chain()
+        self.undone = PersistentList()
         if step.jump is not None:
             jumps = [number for number, each in enumerate(self.done) if each.jump is not None]
             if len(jumps) > MOST_JUMPS:
-                self.done = Chain(self.done.after(jumps[0] + 1))
+                self.done = PersistentList(self.done.after(jumps[0] + 1))
                 self.ground = self.ground_steps = 0
 
     def undo(self, timeline: Timeline) -> Step | None:
@@ -113,7 +113,7 @@ class History:
         self.done = self.done.plus([step.left_before(timeline)])
         return step
 
-    def latest_first(self, entries: Chain[Entry]) -> Iterator[Step]:
+    def latest_first(self, entries: PersistentList[Entry]) -> Iterator[Step]:
         """What could be undone of a log."""
         yield from reversed(self.done)
         stop = self.ground

@@ -11,7 +11,7 @@ from collections import deque
 from dataclasses import dataclass
 from itertools import islice
 
-from sim.kinds import Cell
+from sim.types import Cell
 
 
 @dataclass(frozen=True, slots=True)

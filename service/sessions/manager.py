@@ -15,6 +15,7 @@ from functools import partial
 
 import structlog
 from anyio import to_thread
+from sim.rules.versions import NewerRulesError
 
 from service import actions as contract
 from service.actions import Action
@@ -41,8 +42,7 @@ from service.sessions.waking import woken
 from service.store import EntryRecord, KeptAnswer, MomentRecord, SessionRecord, StoreError
 from sim.actions import Set
 from sim.config import Config, ConfigError
-from sim.rules_version import NewerRulesError
-from sim.timeline import Timeline
+from sim.session.timeline import Timeline
 
 _LOG = structlog.get_logger(__name__)
 

@@ -11,10 +11,10 @@ from service.sessions.watchers import Missed
 from service.wire.decision import brief_decision_json
 from service.wire.encode import encoded
 from service.wire.state import Json, Standing, metrics_json, state_json
-from sim.edit import Change
-from sim.kinds import Cell, Kind
 from sim.plan import Decision
-from sim.run import Run
+from sim.session.edits import Change
+from sim.state import SimState
+from sim.types import Cell, Kind
 from sim.world import World
 
 PROTOCOL = 1
@@ -47,8 +47,8 @@ def hello_message(
 def tick_message(
     sequence: int,
     standing: Callable[[], Standing],
-    before: Run,
-    after: Run,
+    before: SimState,
+    after: SimState,
     decision: Decision | None,
     narration: str | None,
     lines: Sequence[LogEvent],
@@ -78,7 +78,7 @@ def tick_message(
 
 def changed_message(
     standing: Standing,
-    run: Run,
+    run: SimState,
     text: str | None,
     reply: str,
     changes: Sequence[Change],
@@ -101,7 +101,7 @@ def changed_message(
     return encoded(told)
 
 
-def state_message(standing: Standing, run: Run, missed: Missed | None) -> bytes:
+def state_message(standing: Standing, run: SimState, missed: Missed | None) -> bytes:
     """All there is to go on from, for a reader that missed some ticks."""
     told = None if missed is None else [missed.first_tick, missed.last_tick]
     return encoded({"type": "state", "missed": told, "state": state_json(standing, run)})

@@ -18,9 +18,9 @@ from anyio import to_thread
 from service.sessions.facts import Fact, Undone
 from service.sessions.saved import Went
 from sim.events import Event, EventType
-from sim.kinds import Outcome
-from sim.optimum.outlook import OPEN, Outlook, outlook, quickly_open
-from sim.run import Run
+from sim.oracle.outlook import OPEN, Outlook, outlook, quickly_open
+from sim.state import SimState
+from sim.types import Outcome
 
 _WORKER = ThreadPoolExecutor(max_workers=1, thread_name_prefix="outlook")
 
@@ -37,15 +37,15 @@ class Seen:
 class Outlooks:
     """What is known of one session's road. All methods are for the event loop's thread."""
 
-    def __init__(self, present: Callable[[], Run], tell: Callable[[Event], None]) -> None:
+    def __init__(self, present: Callable[[], SimState], tell: Callable[[Event], None]) -> None:
         """`present`: the state now; `tell`: given what is found out about a road that began by itself."""
         self._present = present
         self._tell = tell
         self._seen: Seen | None = None
         self._looking: asyncio.Future[Outlook | None] | None = None
-        self._waiting: Run | None = None
+        self._waiting: SimState | None = None
 
-    def begun(self, run: Run) -> None:
+    def begun(self, run: SimState) -> None:
         """A road has begun with a tick; needs a running loop."""
         if quickly_open(run):
             self._seen = _seen(run, OPEN)
@@ -60,7 +60,7 @@ class Outlooks:
             await asyncio.wait([self._looking])
             await asyncio.sleep(0)
 
-    async def after(self, run: Run, facts: Sequence[Fact]) -> Seen | None:
+    async def after(self, run: SimState, facts: Sequence[Fact]) -> Seen | None:
         """What is to be known once a change has led here; None where it changes no road."""
         back = any(isinstance(fact, Undone | Went) for fact in facts)
         if not back and _road(run) == _road(self._present()):
@@ -71,7 +71,7 @@ class Outlooks:
             return _seen(run, OPEN)
         return _seen(run, await to_thread.run_sync(outlook, run))
 
-    def notice(self, seen: Seen, run: Run) -> Event | None:
+    def notice(self, seen: Seen, run: SimState) -> Event | None:
         """What is to be told of this, beside what is known; `run` is the state it was found in."""
         before, found = self._seen, seen.found
         if found is None:
@@ -90,12 +90,12 @@ class Outlooks:
         """This holds from now on."""
         self._seen = seen
 
-    def _look(self, run: Run) -> None:
+    def _look(self, run: SimState) -> None:
         looking = asyncio.get_running_loop().run_in_executor(_WORKER, outlook, run)
         self._looking = looking
         looking.add_done_callback(lambda done: self._looked(run, done))
 
-    def _looked(self, run: Run, done: asyncio.Future[Outlook | None]) -> None:
+    def _looked(self, run: SimState, done: asyncio.Future[Outlook | None]) -> None:
         self._looking = None
         waiting, self._waiting = self._waiting, None
         if waiting is not None:
@@ -110,11 +110,11 @@ class Outlooks:
                 self._tell(event)
 
 
-def _seen(run: Run, found: Outlook | None) -> Seen:
+def _seen(run: SimState, found: Outlook | None) -> Seen:
     return Seen(_road(run), (run.world.episode, run.world.episode_start), found)
 
 
-def _road(run: Run) -> Hashable:
+def _road(run: SimState) -> Hashable:
     """Equal for states of one road between two changes that matter to the way."""
     world, config = run.world, run.config
     drawn = (world.episode, world.episode_start, run.edits, world.fixed)

@@ -8,7 +8,7 @@ from service.sessions.availability import refusal
 from service.sessions.draft import Draft
 from service.sessions.facts import changes_of
 from sim.actions import Add, Remove, SetCount, SetMode
-from sim.edit import Applied
+from sim.session.edits import Applied
 
 TRIED = (Add, Remove, SetCount, SetMode, Undo, Redo, Pause, Resume, Rewind, Load)
 """Actions that are tried on a copy at once, to know whether they are possible."""

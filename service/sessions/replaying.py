@@ -26,10 +26,10 @@ from service.sessions.telling import reply
 from service.sessions.utterance import Outcome, Utterance
 from service.sessions.words import Words
 from service.store import Branch, EntryRecord
-from sim.edit_error import EditError
 from sim.events import Event
-from sim.run import Run, Tick
-from sim.timeline import PlannerSilentError, Timeline
+from sim.session.errors import EditError
+from sim.session.timeline import PlannerSilentError, Timeline
+from sim.state import SimState, StepResult
 
 if TYPE_CHECKING:
     from service.sessions.session import Session
@@ -88,7 +88,7 @@ class Replay:
         self._session = session
         self._words = words
         self._log = log
-        self._lines: deque[_Line | tuple[Event, Run]] = deque(maxlen=log.kept)
+        self._lines: deque[_Line | tuple[Event, SimState]] = deque(maxlen=log.kept)
         self._written = 0
 
     def all(self, entries: Sequence[EntryRecord], tick: int, most: int | None, first: int | None) -> None:
@@ -179,7 +179,7 @@ class Replay:
         while timeline.tick < tick:
             done = _went_on(timeline)
             for event in done.events:
-                self._add((event, done.run))
+                self._add((event, done.state))
 
     def tell(self) -> None:
         """Write the lines that the log still holds."""
@@ -194,7 +194,7 @@ class Replay:
         self._lines.clear()
         self._written = 0
 
-    def _add(self, line: _Line | tuple[Event, Run]) -> None:
+    def _add(self, line: _Line | tuple[Event, SimState]) -> None:
         self._lines.append(line)
         self._written += 1
 
@@ -207,7 +207,7 @@ class Replay:
             raise RecordingMismatch(told)
 
 
-def _went_on(timeline: Timeline) -> Tick:
+def _went_on(timeline: Timeline) -> StepResult:
     try:
         return timeline.advance()
     except PlannerSilentError as silence:

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from service.actions import Rewind
 from service.problems import FieldProblem, Invalid
 from service.sessions.utterance import Utterance
-from sim.timeline import Timeline
+from sim.session.timeline import Timeline
 
 MOST_TICKS = 10_000
 """How far one action goes back; a longer way is several of them."""

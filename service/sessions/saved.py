@@ -15,8 +15,8 @@ from rapidfuzz import process
 from service.actions import Action, Load
 from service.problems import FieldProblem, UnknownName
 from service.store import EntryRecord, Store, StoreError
-from sim.edit import Change
-from sim.timeline import Timeline
+from sim.session.edits import Change
+from sim.session.timeline import Timeline
 
 MOST_NAMES = 100
 """Names that a session may hold: each keeps a whole timeline, though states are shared."""

@@ -46,13 +46,13 @@ from service.store import SessionRecord, Store, StoreError
 from service.timing import part as timed
 from service.wire.state import Standing, state_json
 from sim.actions import SetMode
-from sim.edit import Applied, Change
 from sim.events import Event
 from sim.explain.summary import long_to_tell
-from sim.kinds import Mode
 from sim.plan import Decision
-from sim.run import Run, Tick
-from sim.timeline import PlannerSilentError, Timeline
+from sim.session.edits import Applied, Change
+from sim.session.timeline import PlannerSilentError, Timeline
+from sim.state import SimState, StepResult
+from sim.types import Mode
 
 _LOG = structlog.get_logger(__name__)
 
@@ -113,9 +113,9 @@ class Session:
         return self.record.id
 
     @property
-    def run(self) -> Run:
+    def run(self) -> SimState:
         """The present state."""
-        return self.timeline.run
+        return self.timeline.state
 
     @property
     def standing(self) -> Standing:
@@ -126,17 +126,17 @@ class Session:
     @property
     def period_s(self) -> float:
         """Seconds from one turn of the clock to the next."""
-        return period_s(self.pace, self.timeline.run.config.step_seconds)
+        return period_s(self.pace, self.timeline.state.config.step_seconds)
 
     def state(self) -> dict[str, Any]:
         """The present state as JSON values."""
         return state_json(self.standing, self.run)
 
-    def latest_decision(self) -> tuple[Decision, Run] | None:
+    def latest_decision(self) -> tuple[Decision, SimState] | None:
         """The decision that led to the present state, and the state it was taken in."""
         return self.decision_at(self.timeline.tick - 1) if self.timeline.tick else None
 
-    def decision_at(self, tick: int) -> tuple[Decision, Run] | None:
+    def decision_at(self, tick: int) -> tuple[Decision, SimState] | None:
         """The decision taken at a past tick, and the state it was taken in; None while a result stood."""
         run = self.timeline.at(tick)
         decision = self.timeline.decided(run)
@@ -157,17 +157,17 @@ class Session:
         if self._changing:
             self._tick_due = True
             return
-        for _ in turn(self.pace, self.timeline.run.config.step_seconds):
+        for _ in turn(self.pace, self.timeline.state.config.step_seconds):
             # In real time the words of an ending are done by the next tick; in a hurry they are waited for.
             if self._changing or self.paused or (self._later.busy and hurried(self.pace)):
                 return
-            if self._asking.busy or self._asking.begin(self.timeline.run):
+            if self._asking.busy or self._asking.begin(self.timeline.state):
                 return  # a planner of another package decides this one, and nobody waits for it here
             self._tick_once()
 
-    def _planned(self, run: Run, decision: Decision) -> None:
+    def _planned(self, run: SimState, decision: Decision) -> None:
         """A planner of another package has decided, or has not in time."""
-        if self._ended or self._changing or self.paused or self.timeline.run is not run:
+        if self._ended or self._changing or self.paused or self.timeline.state is not run:
             return  # asked anew when its turn comes
         try:
             self._tick_once(decision)
@@ -176,19 +176,19 @@ class Session:
             self.tick_failed(error)
 
     def _tick_once(self, decided: Decision | None = None) -> None:
-        before = self.timeline.run
+        before = self.timeline.state
         try:
             tick = self.timeline.advance(decided)
         except PlannerSilentError as silence:
             self._hand_over(silence)
             return
-        if tick.events and long_to_tell(tick.run):
-            self._later.begin(lambda: self._worded(tick.run, tick))
+        if tick.events and long_to_tell(tick.state):
+            self._later.begin(lambda: self._worded(tick.state, tick))
             self._publish_tick(before, tick, ())
         else:
-            self._publish_tick(before, tick, self._note(tick.run, tick))
-        if tick.events and tick.run.world.episode_tick == 0:
-            self.outlooks.begun(tick.run)
+            self._publish_tick(before, tick, self._note(tick.state, tick))
+        if tick.events and tick.state.world.episode_tick == 0:
+            self.outlooks.begun(tick.state)
 
     def _hand_over(self, silence: PlannerSilentError) -> None:
         """Let a person drive, as a change like any other: a replay does not ask that planner again."""
@@ -282,8 +282,8 @@ class Session:
                 draft = self._draft()
                 with timed("apply"):
                     facts = await self._perform(draft, utterance)
-                seen = await self.outlooks.after(draft.timeline.run, facts)
-                event = None if seen is None else self.outlooks.notice(seen, draft.timeline.run)
+                seen = await self.outlooks.after(draft.timeline.state, facts)
+                event = None if seen is None else self.outlooks.notice(seen, draft.timeline.state)
                 if dry_run:
                     return await self._told(utterance, facts, self.sequence, event, draft)
                 if all(isinstance(action, CHANGES_NOTHING) for action in utterance.actions):
@@ -327,7 +327,7 @@ class Session:
         """The outcome in words; beside the event loop where that takes long. `event`: of the draft's road."""
         notice = None
         if event is not None and draft is not None:
-            notice = Notice(event, self._around.words.event(event, draft.timeline.run))
+            notice = Notice(event, self._around.words.event(event, draft.timeline.state))
         told = partial(outcome_of, self._around.words, self.run, utterance, facts, sequence, notice)
         if not long_to_answer(self.run.config.planner, facts):
             return told()
@@ -360,7 +360,7 @@ class Session:
         playing = outcome.only_steps and len(outcome.ticks) <= PLAYED_TICKS
         for run, part in happened_in(outcome.facts):
             noted = self._note(run, part)
-            if isinstance(part, Tick) and playing:
+            if isinstance(part, StepResult) and playing:
                 self._publish_tick(before, part, noted)
             else:
                 lines += noted
@@ -393,12 +393,12 @@ class Session:
 
     # Telling
 
-    def _note(self, run: Run, part: Applied | Tick) -> list[LogEvent]:
+    def _note(self, run: SimState, part: Applied | StepResult) -> list[LogEvent]:
         """Write the events of a tick or an action to the log."""
         self._later.settle()
         return self._write(self._worded(run, part)) if part.events else []
 
-    def _worded(self, run: Run, part: Applied | Tick) -> list[tuple[Event, str]]:
+    def _worded(self, run: SimState, part: Applied | StepResult) -> list[tuple[Event, str]]:
         return [(event, self._around.words.event(event, run)) for event in part.events]
 
     def _write(self, worded: list[tuple[Event, str]]) -> list[LogEvent]:
@@ -424,15 +424,15 @@ class Session:
         self._later.settle()
         return self.log.add(tick, kind, text, passing=passing)
 
-    def _publish_tick(self, before: Run, tick: Tick, lines: Sequence[LogEvent]) -> None:
+    def _publish_tick(self, before: SimState, tick: StepResult, lines: Sequence[LogEvent]) -> None:
         def message() -> bytes:
             decision = tick.decision
             narration = None if decision is None else self._around.words.decision(decision, before)
             return tick_message(
-                self.sequence, lambda: self.standing, before, tick.run, decision, narration, lines
+                self.sequence, lambda: self.standing, before, tick.state, decision, narration, lines
             )
 
-        self.stages.tick(tick.run.world.tick, message)
+        self.stages.tick(tick.state.world.tick, message)
 
     def _publish_changed(
         self,

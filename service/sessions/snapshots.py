@@ -26,9 +26,9 @@ from service.sessions.footing import Footing
 from service.sessions.freezing import Frozen, read, written
 from service.store import EntryRecord, SessionRecord, SnapshotRecord
 from service.version import VERSION
-from sim.kept import kept_config
-from sim.plan.guard import is_foreign
+from sim.plan.safe_planning import is_foreign
 from sim.planner_names import installed
+from sim.session.saved_config import saved_config
 
 FORMAT = 2
 """Of the JSON values."""
@@ -144,7 +144,7 @@ def _position(
 
 def _check(frozen: Frozen, snapshot: SnapshotRecord, record: SessionRecord, last: EntryRecord | None) -> None:
     """Raise `UnfitError` where it does not end where the log does, as far as the log tells."""
-    config = kept_config(record.config)
+    config = saved_config(record.config)
     if frozen.timeline.tick != snapshot.tick or frozen.timeline.config != config:
         raise UnfitError("it is of another moment, or another road")
     shared = 0 if record.branch is None else record.branch.sequence

@@ -12,7 +12,7 @@ from service.sessions.facts import Answerable, Asked, Fact, asked_about, changes
 from service.sessions.utterance import Notice, Outcome, Utterance
 from service.sessions.words import Words
 from service.store import EntryRecord
-from sim.run import Run
+from sim.state import SimState
 
 QUICK_PLANNERS = frozenset(("priority", "rules"))
 """Planners that decide in so little time that an answer from hundreds of decisions is at once."""
@@ -23,7 +23,7 @@ LONG_QUESTIONS = frozenset(("what_if", "why_not", "confidence"))
 
 def outcome_of(
     words: Words,
-    before: Run,
+    before: SimState,
     utterance: Utterance,
     facts: tuple[Fact, ...],
     sequence: int,
@@ -56,7 +56,7 @@ def entry_of(outcome: Outcome, tick: int, draft: Draft) -> EntryRecord:
         tick=tick,
         text=outcome.utterance.text,
         actions=contract.dump(outcome.utterance.actions),
-        digest=draft.timeline.run.world.digest(),
+        digest=draft.timeline.state.world.digest(),
         names={
             moment.name: moment.tick
             for moment in draft.history.saved.values()

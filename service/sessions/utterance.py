@@ -7,9 +7,9 @@ from typing import Any
 
 from service.actions import Action
 from service.sessions.facts import Fact, Stepped
-from sim.edit import Change
 from sim.events import Event
-from sim.run import Run, Tick
+from sim.session.edits import Change
+from sim.state import SimState, StepResult
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,14 +40,14 @@ class Outcome:
     answer: dict[str, Any] | None
     sequence: int
     changes: tuple[Change, ...]
-    before: Run | None = None
+    before: SimState | None = None
     """the state in which it was said"""
     done: str = ""
     """the reply without the notice: what a replay says again"""
     notice: Notice | None = None
 
     @property
-    def ticks(self) -> list[Tick]:
+    def ticks(self) -> list[StepResult]:
         """The ticks that steps ran."""
         return [tick for fact in self.facts if isinstance(fact, Stepped) for tick in fact.ticks]
 

@@ -10,8 +10,8 @@ from service.sessions.replaying import ReplayError, replay
 from service.sessions.session import Session, Surroundings
 from service.sessions.snapshots import UnfitError, opened
 from service.store import EntryRecord, SessionRecord, SnapshotRecord
-from sim.kept import kept_config
-from sim.timeline import Timeline
+from sim.session.saved_config import saved_config
+from sim.session.timeline import Timeline
 
 _LOG = structlog.get_logger(__name__)
 
@@ -42,7 +42,7 @@ def woken(
         why = str(unfit) if unfit is not None else "there is no snapshot of it"
         said = "a session is done again from all of its log; whoever asked for it waits, nobody else"
         _LOG.info(said, session=record.id, entries=len(entries), reason=why)
-    session = Session(record, Timeline(kept_config(record.config)), around)
+    session = Session(record, Timeline(saved_config(record.config)), around)
     replay(session, around.words, entries, record.tick)
     return session, unfit
 

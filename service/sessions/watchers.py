@@ -12,7 +12,7 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from sim.changing import maker
+from sim.fast_replace import fast_constructor
 
 SLOT_MESSAGES = 16
 """A watcher that keeps up never has more than a few waiting; stepping plays through as many."""
@@ -39,7 +39,7 @@ class Notice:
     number: int = 0
 
 
-_notice = maker(Notice, "tick", "data", "number")
+_notice = fast_constructor(Notice, "tick", "data", "number")
 
 
 def stamped(data: bytes, event: str) -> bytes:

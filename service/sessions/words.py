@@ -7,16 +7,16 @@ from typing import Any, Protocol
 from service.sessions.facts import Answerable, Fact, Lesson
 from sim.events import Event
 from sim.plan import Decision
-from sim.run import Run
+from sim.state import SimState
 
 
 class Words(Protocol):
     """Facts → words; nothing is said that is not in the facts."""
 
-    def decision(self, decision: Decision, run: Run) -> str:
+    def decision(self, decision: Decision, run: SimState) -> str:
         """What the vehicle does at a tick and why, `run` being the state it was decided in."""
 
-    def event(self, event: Event, run: Run) -> str:
+    def event(self, event: Event, run: SimState) -> str:
         """One line of the log."""
 
     def silent(self, planner: str, fault: str) -> str:

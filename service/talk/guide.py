@@ -22,8 +22,8 @@ from service.sessions.pace import Pace, PaceError, pace_after, sets_pace
 from service.sessions.session import Session
 from sim.actions import Adjust, Set
 from sim.config import Config
-from sim.edit_error import EditError
-from sim.settings import setting
+from sim.session.errors import EditError
+from sim.session.settings import setting
 
 MOST_AT_ONCE = 40
 """Characters of the longest prefix that is completed where it came in: each completion is read as a whole."""

@@ -32,7 +32,7 @@ from service.talk.preview import Preview, preview
 from service.timing import part
 from sim.actions import Add, Adjust, Drive, Prefer, Remove, Scenario, Set, SetCount, SetMode
 from sim.config import Config
-from sim.described import UndescribableError, actions_for
+from sim.session.config_to_actions import UndescribableError, config_to_actions
 
 HARMLESS = (Ask, Advise, Show, Hide)
 """Actions that change no session: an interpretation that is only these needs no confirmation."""
@@ -103,7 +103,7 @@ class Listener:
     def sentence(self, config: Config) -> str | None:
         """The sentence that makes such a road; None where nothing that can be said does."""
         try:
-            return self.languages[DEFAULT].sentence(actions_for(config) or (Scenario(),))
+            return self.languages[DEFAULT].sentence(config_to_actions(config) or (Scenario(),))
         except (UndescribableError, Unsayable):
             return None
 

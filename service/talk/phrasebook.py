@@ -21,7 +21,7 @@ from service.sessions.facts import Lesson
 from service.store import KeptAnswer, PhraseRecord, Store, StoreError
 from service.talk.languages import DEFAULT, Languages
 from sim.actions import Where
-from sim.kinds import PLACEABLE, Kind
+from sim.types import PLACEABLE, Kind
 
 OWNER = "everyone"
 MAX_PHRASES = 200

@@ -16,7 +16,7 @@ from service.problems import ProblemError
 from service.sessions.draft import Draft
 from service.sessions.facts import changes_of
 from service.sessions.session import Session
-from sim.edit import Change
+from sim.session.edits import Change
 
 MOST_TICKS = 64
 """More ticks than this are not run for a preview."""

@@ -7,7 +7,7 @@ from collections.abc import Callable, Hashable
 import pygame
 
 from service.window import look
-from sim.view import theme
+from sim.render import theme
 
 
 class Canvas:

@@ -84,7 +84,7 @@ def _described(loading: Loading, sentence: str, base: Config, given: dict[str, o
     """The road that a sentence describes; what was given as an option stands."""
     from service.window.loading import LoadError
     from service.window.scenario import NoScenarioError, scenario_in
-    from sim.scenario import configured
+    from sim.session.scenario import configured
 
     try:
         scenario: Scenario = scenario_in(sentence, loading.wait().languages)

@@ -11,8 +11,8 @@ from service.window import look
 from service.window.exchange import Exchange, told
 from service.window.line import Line
 from service.window.panels import PANELS, TITLES, Panels
-from sim.view import theme
-from sim.view.text import cut, width_of, wrapped, written
+from sim.render import theme
+from sim.render.text import cut, width_of, wrapped, written
 
 FIELD_PX: Final = 38
 BAR_PX: Final = 24

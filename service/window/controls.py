@@ -16,7 +16,7 @@ from service.window.exchange import Exchange
 from service.window.game import Game
 from service.window.panels import PANELS, Panels
 from sim.actions import Adjust, Drive, Reset, SetMode
-from sim.kinds import Mode, Move
+from sim.types import Mode, Move
 
 F_KEYS: Final = (pygame.K_F1, pygame.K_F2, pygame.K_F3, pygame.K_F4, pygame.K_F5)
 MOVES: Final = {

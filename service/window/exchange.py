@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from service.problems import Ambiguous, ProblemError
 from service.sessions.utterance import Outcome
-from sim.edit import Change
+from sim.session.edits import Change
 
 PLAIN = {"config.planner": "planner", "config.preferences": "preferences", "playback_speed": "speed"}
 """Paths whose last part says less than it could."""

@@ -7,9 +7,9 @@ from typing import Final
 
 import pygame
 
-from sim.view import theme
-from sim.view.text import cut, width_of, written
-from sim.view.theme import Colour
+from sim.render import theme
+from sim.render.text import cut, width_of, written
+from sim.render.theme import Colour
 
 GROUND: Final[Colour] = (13, 15, 18)
 HEAD: Final[Colour] = (33, 37, 44)

@@ -13,7 +13,7 @@ import pygame
 from service.window.loading import Loading
 from service.window.window import Window
 from sim.config import Config
-from sim.view.sprites import av_sprite
+from sim.render.sprites import av_sprite
 
 FPS: Final = 60
 UNSEEN: Final = ("dummy", "offscreen", "evdev")

@@ -8,8 +8,8 @@ import pygame
 
 from service.window import look
 from service.window.keys import EXAMPLES, KEYS
-from sim.view import theme
-from sim.view.text import cut, width_of, written
+from sim.render import theme
+from sim.render.text import cut, width_of, written
 
 ROW_PX: Final = 25
 SMALL_ROW_PX: Final = 20

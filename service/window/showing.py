@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from sim.kinds import Outcome
 from sim.plan import Decision
-from sim.plan.guard import is_foreign
-from sim.run import Run, decide
+from sim.plan.safe_planning import is_foreign
+from sim.state import SimState, decide
+from sim.types import Outcome
 
 if TYPE_CHECKING:
     from service.sessions.session import Session
@@ -24,13 +24,13 @@ class Showing:
 
     def __init__(self, session: Session, now_s: float) -> None:
         self._session = session
-        self.after: Run = session.run
-        self.before: Run = session.run
+        self.after: SimState = session.run
+        self.before: SimState = session.run
         self.moving: Decision | None = None
         """the decision that leads from `before` to `after`"""
         self._began_s = now_s
         self._lasts_s = 0.0
-        self._planned: tuple[Run, Decision | None] = (self.after, self._decide())
+        self._planned: tuple[SimState, Decision | None] = (self.after, self._decide())
 
     def follow(self, now_s: float) -> None:
         """See where the session has come to."""
@@ -54,11 +54,11 @@ class Showing:
         return min(1.0, max(0.0, (now_s - self._began_s) / self._lasts_s))
 
     @property
-    def planned(self) -> tuple[Run, Decision | None]:
+    def planned(self) -> tuple[SimState, Decision | None]:
         """The latest state that was decided in, and the decision; the next one while time stands still."""
         return self._planned
 
-    def _glide(self, old: Run, now_s: float) -> None:
+    def _glide(self, old: SimState, now_s: float) -> None:
         pace = self._session.pace
         if self._session.paused:
             self._lasts_s = STEP_S

@@ -9,10 +9,10 @@ import pygame
 
 from service.window import look
 from sim.config import Config, ConfigError
-from sim.run import Run, Tick, advance
-from sim.view import render, theme
-from sim.view.text import cut, wrapped, written
-from sim.view.theme import MAX_SIDE_PX
+from sim.render import render, theme
+from sim.render.text import cut, wrapped, written
+from sim.render.theme import MAX_SIDE_PX
+from sim.state import SimState, StepResult, step
 
 DEFAULT_POTHOLES: Final = 10
 MOST_DIGITS: Final = 4
@@ -32,8 +32,8 @@ class Start:
         self.waiting = False
         """whether it is answered, and the language is still being read"""
         self._fresh = True
-        self._tick: Tick | None = None
-        self._before: Run | None = None
+        self._tick: StepResult | None = None
+        self._before: SimState | None = None
         self._tick_s = 0.0
         self._look_again()
 
@@ -67,12 +67,12 @@ class Start:
 
     def _look_again(self) -> None:
         try:
-            run = Run.start(self._config_of(int(self.text or 0)))
+            run = SimState.start(self._config_of(int(self.text or 0)))
         except ConfigError as error:
             self.message = "; ".join(problem.message for problem in error.problems).capitalize() + "."
             return
         self.message = "" if self.text else "A number, please: 0 is one too."
-        self._before, self._tick = None, Tick(run, None, ())
+        self._before, self._tick = None, StepResult(run, None, ())
 
     def draw(self, screen: pygame.Surface, now_s: float) -> None:
         """All of the window."""
@@ -85,10 +85,10 @@ class Start:
         room = (width - CARD[0] - 60 if wide else width, height)
         road = render(
             "road",
-            self._tick.run,
+            self._tick.state,
             before=before.world if before else None,
             decision=self._tick.decision,
-            phase=(now_s - self._tick_s) / self._tick.run.config.step_seconds if before else 1.0,
+            phase=(now_s - self._tick_s) / self._tick.state.config.step_seconds if before else 1.0,
             size=(min(MAX_SIDE_PX, max(64, room[0])), min(MAX_SIDE_PX, max(64, room[1]))),
         )
         centre = (width - room[0] // 2, height // 2) if wide else (width // 2, height // 2)
@@ -99,14 +99,14 @@ class Start:
     def _go_on(self, now_s: float) -> None:
         assert self._tick is not None
         if self._before is None:
-            self._tick_s, self._before = now_s, self._tick.run
-            self._tick = advance(self._tick.run)
+            self._tick_s, self._before = now_s, self._tick.state
+            self._tick = step(self._tick.state)
             return
-        step_s = self._tick.run.config.step_seconds
+        step_s = self._tick.state.config.step_seconds
         if now_s - self._tick_s >= step_s:
             self._tick_s = now_s if now_s - self._tick_s > 2 * step_s else self._tick_s + step_s
-            self._before = self._tick.run
-            self._tick = advance(self._tick.run)
+            self._before = self._tick.state
+            self._tick = step(self._tick.state)
 
     def _card(self, now_s: float) -> pygame.Surface:
         card = look.card(CARD)

@@ -23,13 +23,13 @@ from service.window.panels import PANELS, TITLES, Panels
 from service.window.showing import Showing
 from service.window.start import Start
 from sim.config import Config
-from sim.generate import GenerationError
-from sim.kinds import Mode
-from sim.view import MIN_SIDE_PX, render
-from sim.view.log_view import draw_log
-from sim.view.occupancy import draw_occupancy
-from sim.view.plan_view import draw_plan
-from sim.view.theme import MAX_SIDE_PX
+from sim.generation import GenerationError
+from sim.render import MIN_SIDE_PX, render
+from sim.render.log_view import draw_log
+from sim.render.occupancy import draw_occupancy
+from sim.render.plan_view import draw_plan
+from sim.render.theme import MAX_SIDE_PX
+from sim.types import Mode
 
 LOG_LINES: Final = 120
 Spot = tuple[pygame.Rect, tuple[str, str]]

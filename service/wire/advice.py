@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import Any
 
-from sim.advice import Advice, Prospect
-from sim.advice.parameters import Quantity, parameters
-from sim.advice.samples import SEED
+from sim.hazard_advice import Advice, Prospect
+from sim.hazard_advice.parameters import Quantity, parameters
+from sim.hazard_advice.samples import SEED
 
 Json = dict[str, Any]
 

@@ -7,13 +7,13 @@ from typing import Any
 from service.sessions.messages import motion_json
 from service.wire.decision import brief_decision_json
 from service.wire.state import Standing, cause_json, state_json
-from sim.explain.beside import Beside, Side
-from sim.run import Run, Tick
+from sim.explain.side_by_side import Side, SideBySide
+from sim.state import SimState, StepResult
 
 Json = dict[str, Any]
 
 
-def beside_json(standing: Standing, found: Beside, most: int) -> Json:
+def beside_json(standing: Standing, found: SideBySide, most: int) -> Json:
     """Both runs, at most so many ticks of each."""
     return {
         "at_tick": found.tick,
@@ -32,18 +32,18 @@ def _side_json(standing: Standing, side: Side, most: int) -> Json:
         "driven": story.driven,
         "waited": story.waited,
         "by_hand": story.by_hand,
-        "cause": cause_json(side.ticks[-1][1].run.world) if side.ticks else None,
+        "cause": cause_json(side.ticks[-1][1].state.world) if side.ticks else None,
         "digest": story.digest,
     }
     ticks = [_tick_json(standing, before, tick) for before, tick in side.ticks[:most]]
     return {"state": state_json(standing, side.start), "ticks": ticks, "end": end}
 
 
-def _tick_json(standing: Standing, before: Run, tick: Tick) -> Json:
-    world = tick.run.world
+def _tick_json(standing: Standing, before: SimState, tick: StepResult) -> Json:
+    world = tick.state.world
     told: Json = {"tick": world.tick, "episode": world.episode, "status": world.outcome}
     if world.episode != before.world.episode:
-        told["state"] = state_json(standing, tick.run)
+        told["state"] = state_json(standing, tick.state)
     else:
         told |= motion_json(before.world, world)
     decision = tick.decision

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from sim.forecast import Verdict
+from sim.forecast import StepVerdict
 from sim.plan import Decision, Option
 
 
@@ -27,7 +27,7 @@ def brief_decision_json(decision: Decision) -> dict[str, Any]:
     `reason` and `causes` are those of the most preferred move: why it was taken, or what kept the
     vehicle from it.
     """
-    options, free = decision.options, Verdict.FREE
+    options, free = decision.options, StepVerdict.FREE
     preferred = options[0]
     return {
         "tick": decision.tick,

@@ -6,9 +6,9 @@ from typing import Any
 
 from service import actions as contract
 from service.wire.decision import option_json
-from sim.explain import Cause, Counterfactual, Explanation, Future, Stakes
-from sim.explain.crash import Crash, Saving
-from sim.run import Run
+from sim.explain import Alternatives, Cause, Counterfactual, Explanation, Future
+from sim.explain.crash import Crash, LastAvoidance
+from sim.state import SimState
 
 Json = dict[str, Any]
 
@@ -52,7 +52,7 @@ def crash_json(crash: Crash) -> Json:
     return told
 
 
-def _saving_json(saving: Saving) -> Json:
+def _saving_json(saving: LastAvoidance) -> Json:
     return {
         "tick": saving.tick,
         "made": saving.made,
@@ -61,7 +61,7 @@ def _saving_json(saving: Saving) -> Json:
     }
 
 
-def _cause_json(cause: Cause, moment: Run) -> Json:
+def _cause_json(cause: Cause, moment: SimState) -> Json:
     return {
         "id": cause.id,
         "kind": cause.kind,
@@ -75,7 +75,7 @@ def _cause_json(cause: Cause, moment: Run) -> Json:
     }
 
 
-def _distance(cell: tuple[int, int], moment: Run) -> float:
+def _distance(cell: tuple[int, int], moment: SimState) -> float:
     """Metres from the vehicle, lanes and rows alike."""
     column, row = moment.world.road.cell(moment.world.av)
     return max(abs(cell[0] - column), abs(cell[1] - row)) * moment.config.cell_m
@@ -86,7 +86,7 @@ def _flip_json(flip: Counterfactual, tick: int) -> Json:
     return {"at_tick": tick, "change": contract.dump(flip.change), "decision": flip.move}
 
 
-def _stakes_json(stakes: Stakes) -> Json:
+def _stakes_json(stakes: Alternatives) -> Json:
     return {
         "foil": stakes.foil,
         "would": None if stakes.would is None else _future_json(stakes.would),

@@ -7,10 +7,10 @@ from typing import Any
 from service import actions as contract
 from service.actions import Action
 from service.wire.state import metrics_json
-from sim.edit import Applied
-from sim.explain.future import Detour, Story, Way
-from sim.explain.whatif import WhatIf
-from sim.run import Run
+from sim.explain.rollout import Detour, EpisodeRollout, RouteAhead
+from sim.explain.what_if import WhatIf
+from sim.session.edits import Applied
+from sim.state import SimState
 from sim.world import Cause, Thing
 
 Json = dict[str, Any]
@@ -48,12 +48,12 @@ def what_if_json(asked: tuple[Action, ...], found: WhatIf) -> Json:
             "certain": found.certain,
         },
         "counterfactual": {"change": actions, "decision": decision},
-        "play": {"at_tick": found.run.world.tick, "actions": actions},
+        "play": {"at_tick": found.state.world.tick, "actions": actions},
         "evidence": {"reruns": len(found.real.path) + len(found.changed.path)},
     }
 
 
-def story_json(story: Story) -> Json:
+def story_json(story: EpisodeRollout) -> Json:
     """A run to the end of its episode."""
     return {
         "from_tick": story.tick,
@@ -74,7 +74,7 @@ def story_json(story: Story) -> Json:
     }
 
 
-def way_json(way: Way) -> Json:
+def way_json(way: RouteAhead) -> Json:
     """The next decisions, none of them taken yet."""
     return {
         "way": [{"tick": decision.tick, "move": decision.move} for decision in way.decisions],
@@ -86,7 +86,7 @@ def way_json(way: Way) -> Json:
     }
 
 
-def figures_json(run: Run, interval: tuple[float, float] | None) -> Json:
+def figures_json(run: SimState, interval: tuple[float, float] | None) -> Json:
     """A session's figures, with the 95 % interval of its rate of arrivals where it is told."""
     return {"figures": metrics_json(run.metrics) | {"success_rate_interval": interval}}
 

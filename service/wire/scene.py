@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from sim.explain.scene import Scene, Seen
-from sim.kinds import Kind
+from sim.explain.scene import Detection, Scene
+from sim.types import Kind
 
 Json = dict[str, Any]
 
@@ -20,7 +20,7 @@ def scene_json(scene: Scene, kind: Kind | None, cell_m: float, step_seconds: flo
     }
 
 
-def _seen_json(thing: Seen, cell_m: float, step_seconds: float) -> Json:
+def _seen_json(thing: Detection, cell_m: float, step_seconds: float) -> Json:
     return {
         "id": thing.id,
         "kind": thing.kind,

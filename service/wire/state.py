@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from sim.kinds import Kind
 from sim.metrics import Metrics
-from sim.run import Run
+from sim.state import SimState
+from sim.types import Kind
 from sim.world import Thing, World
 
 Json = dict[str, Any]
@@ -25,7 +25,7 @@ class Standing:
     redo: int = 0
 
 
-def state_json(standing: Standing, run: Run) -> Json:
+def state_json(standing: Standing, run: SimState) -> Json:
     """Everything there is to see at one tick: the `State` of the interface."""
     world, config = run.world, run.config
     things = list(world.things())

@@ -6,7 +6,7 @@ leaves out is a person: queued moves, manual mode and edits.
 
 Structure: a block of worlds is kept in the processor's nearest cache for many ticks
 (`sim.batch.layout`), one compiled call does all ticks of all worlds (`sim.batch.tick`). Guarantee: the
-same states as `sim.run.advance`, bit for bit, every tick. Idea: worlds as arrays of machine words, as
+same states as `sim.state.advance`, bit for bit, every tick. Idea: worlds as arrays of machine words, as
 in Waymax (Gulino et al., 2023) and Craftax (Matthews et al., 2024), with the set operations of chess
 engines in place of floating point.
 """
@@ -24,6 +24,7 @@ from typing import Any, Final, Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from sim.batch.backward_dp import weighted_moves
 from sim.batch.layout import (
     ASKED,
     ATTENTIVE,
@@ -66,19 +67,18 @@ from sim.batch.layout import (
     Words,
 )
 from sim.batch.observe import observe
-from sim.batch.reach import exact_moves
+from sim.batch.reachability import exact_moves
 from sim.batch.roads import begin_all, renew
-from sim.batch.sweep import weighted_moves
 from sim.batch.tick import END_FIELD, MAX_TICKS_A_CALL, MOVE_FIELD, ticks_kernel
 from sim.config import Config
-from sim.generate import GenerationError, named
-from sim.kinds import Kind, Outcome
+from sim.generation import GenerationError, assign_ids
 from sim.randomness import Stream
 from sim.repetition import Watch
-from sim.road import Board, bits
-from sim.run import Run
 from sim.search.costs import weights
+from sim.state import SimState
+from sim.types import Kind, Outcome
 from sim.world import World
+from sim.world.grid import Board, bits
 
 After = Literal["next", "restart", "stop"]
 """What follows an end: the next road as live, once the result has stood; the lane's first road, at once;
@@ -188,7 +188,7 @@ class Batch:
         self._remember_first()
 
     @classmethod
-    def of(cls, runs: Sequence[Run], *, after: After = "next") -> Batch:
+    def of(cls, runs: Sequence[SimState], *, after: After = "next") -> Batch:
         """Every lane at a given moment of a run; queued moves and the manual mode are left behind.
 
         Raises `ValueError` where a road has a layout and `after` is "next": no more of them are drawn here.
@@ -284,8 +284,9 @@ class Batch:
     def renew(self, lanes: NDArray[np.bool_], seeds: Sequence[int | None] | None = None) -> None:
         """Begin the next episode in the chosen lanes (shape: lanes), or the first of a seed that is given.
 
-        Where a next road must be drivable and none is found, the present one again (`sim.run.next_episode`).
-        Raises `GenerationError` where none is found for a seed, and `ConfigError` for a seed that is none.
+        Where a next road must be drivable and none is found, the present one again
+        (`sim.state.next_episode`). Raises `GenerationError` where none is found for a seed, and
+        `ConfigError` for a seed that is none.
         """
         chosen = np.where(lanes, _NEXT, 0).astype(np.uint8)
         for lane, seed in enumerate(seeds or ()):
@@ -383,7 +384,7 @@ class Batch:
         numbered: dict[Kind, int] = {}
 
         def ids(kind: Kind, board: Board) -> dict[int, str]:
-            return named(kind, bits(board), numbered)
+            return assign_ids(kind, bits(board), numbered)
 
         barriers = fixed & ~potholes
         vehicles = (right | left) & ~walkers
@@ -505,7 +506,7 @@ class Batch:
         self._first_state = self._state.copy() if restart else self._state
         self._first_lanes = self._lanes.copy() if restart else self._lanes
 
-    def _place(self, lane: int, run: Run) -> None:
+    def _place(self, lane: int, run: SimState) -> None:
         """Put a moment of a run into a lane."""
         world = run.world
         block, inner = divmod(lane, LANES)

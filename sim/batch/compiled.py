@@ -1,6 +1,6 @@
 """Compiling the rules' own text for machine words, and keeping what was compiled.
 
-A function of `sim.rules` or `sim.randomness` is compiled as it stands, with the functions it calls
+A function of `sim.rules.traffic` or `sim.randomness` is compiled as it stands, with the functions it calls
 replaced by their compiled forms, so that there is one copy of every rule. Compiled code is kept
 in a folder named by a digest of everything it was made from: the usual check looks only at the file
 of the outermost function, and would go on using an old rule that had been compiled into it.
@@ -22,12 +22,15 @@ import numba
 import numpy as np
 from numba.cpython.unsafe import numbers
 
-from sim import randomness, rules
+from sim import randomness
+from sim.rules import traffic as rules
 
 config: Any = numba.config
 
 _SIM: Final = Path(__file__).parent.parent
-_COMPILED_IN: Final = tuple(_SIM / name for name in ("rules.py", "randomness.py", "generate.py", "kinds.py"))
+_COMPILED_IN: Final = tuple(
+    _SIM / name for name in ("rules/traffic.py", "randomness.py", "generation.py", "types.py")
+)
 """Sources outside this package whose functions or constants are compiled into it."""
 _KEPT_VERSIONS: Final = 3
 
@@ -94,7 +97,7 @@ scaled = _with_names(randomness.scaled, "uint64(uint64, uint64)")
 pedestrians_walk = _with_names(rules.pedestrians_walk)
 move_movers = _with_names(rules.move_movers)
 brake = _with_names(rules.brake)
-followed_board = _with_names(rules.followed_board)
+followed_board = _with_names(rules.shift_board)
 free_steps = _with_names(rules.free_steps)
 spread = _with_names(rules.spread)
 spread_back = _with_names(rules.spread_back)

@@ -15,7 +15,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.road import Board, Road
+from sim.world.grid import Board, Road
 
 Words = NDArray[np.uint64]
 

@@ -1,4 +1,4 @@
-"""Roads drawn in compiled code, bit for bit those of `sim.generate`: the same streams, the same draws.
+"""Roads drawn in compiled code, bit for bit those of `sim.generation`: the same streams, the same draws.
 
 Furnishing a road is no rule of motion and is written twice, as boards there and as words here; what is
 drawn is written once, in `sim.randomness`. The tests compare digests of both over many configurations.
@@ -39,10 +39,10 @@ from sim.batch.layout import (
     WALKERS,
     WORD,
 )
-from sim.batch.reach import drivable
-from sim.generate import MAX_ATTEMPTS
-from sim.kinds import Kind
+from sim.batch.reachability import drivable
+from sim.generation import MAX_ATTEMPTS
 from sim.randomness import purpose_key
+from sim.types import Kind
 
 _GOLDEN: Final = np.uint64(0x9E3779B97F4A7C15)
 _VEHICLE_KEY: Final = np.uint64(purpose_key(f"spawn {Kind.VEHICLE}"))
@@ -119,7 +119,7 @@ def _stream(base, purpose, episode, attempt):
 
 @compiled
 def begin(block, lane_block, lane, columns, rows, wholes, shares):
-    """Begin episode `wholes[EPISODE]` in a lane, as `sim.generate.generate`; False: no road was found."""
+    """Begin episode `wholes[EPISODE]` in a lane, as `sim.generation.generate`; False: no road was found."""
     if not wholes[SOLVABLE]:
         _draw(block, lane_block, lane, columns, rows, wholes, shares, 0)
         return True
@@ -132,7 +132,7 @@ def begin(block, lane_block, lane, columns, rows, wholes, shares):
 
 @compiled
 def begin_next(block, lane_block, lane, columns, rows, wholes, shares):
-    """Begin the next episode, or where no road is found the present one again (`sim.run.next_episode`)."""
+    """Begin the next episode, or where no road is found the present one again (`sim.state.next_episode`)."""
     wholes[EPISODE] += 1
     if not begin(block, lane_block, lane, columns, rows, wholes, shares):
         wholes[EPISODE] -= 1

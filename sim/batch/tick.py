@@ -69,14 +69,14 @@ from sim.batch.layout import (
     YIELDING,
 )
 from sim.batch.roads import begin_next
-from sim.rules import PEDESTRIAN_PERIOD, Motion
+from sim.rules.traffic import PEDESTRIAN_PERIOD, Motion
 
 _ZERO: Final = np.uint64(0)
 _ONE: Final = np.uint64(1)
 _ALL: Final = np.uint64(2**64 - 1)
 
 RUNNING, SUCCESS, CRASH, STUCK = (np.uint64(code) for code in range(4))
-"""Outcomes, in the order of `sim.kinds.Outcome`."""
+"""Outcomes, in the order of `sim.types.Outcome`."""
 
 MOVE_FIELD: Final = 16
 """Bits of each of the four counters in `MOVES`: forward, sideways, diagonal, stay."""

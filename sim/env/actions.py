@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 
 from sim.batch import Batch
 from sim.config import Config
-from sim.forecast import foretell
-from sim.kinds import Move, Outcome
+from sim.forecast import predict
 from sim.perceive import perceive
-from sim.road import Road
+from sim.types import Move, Outcome
 from sim.world import World
+from sim.world.grid import Road
 
 MOVES: Final = tuple(Move)
 STAY: Final = MOVES.index(Move.STAY)
@@ -55,7 +55,7 @@ def action_mask(world: World, config: Config) -> Masks:
     """The moves of one world (shape: 6)."""
     mask = np.zeros(len(MOVES), np.bool_)
     if world.outcome is Outcome.RUNNING:
-        forecast = foretell(perceive(world, config), 1)
+        forecast = predict(perceive(world, config), 1)
         for number, move in enumerate(MOVES):
             mask[number] = forecast.will_be_free(world.av, world.road.moved(world.av, move))
     return _never_empty(mask)

@@ -23,10 +23,10 @@ from numpy.typing import NDArray
 
 from sim.config import Config
 from sim.env.options import one_of, whole
-from sim.kinds import Kind
-from sim.road import bits
-from sim.rules import pedestrians_walk
+from sim.rules.traffic import pedestrians_walk
+from sim.types import Kind
 from sim.world import World
+from sim.world.grid import bits
 
 PLANES: Final = 7
 POTHOLES, BARRIERS, RIGHT, LEFT, PEDESTRIANS, VEHICLE, STEPPING, OFF_ROAD = range(8)

@@ -10,16 +10,16 @@ import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
-from sim import notation
 from sim.config import Config
-from sim.env import saving
+from sim.env import saved_state as saving
 from sim.env.actions import MOVES, STAY, action_mask, checked_action
 from sim.env.observation import Observer, observed
 from sim.env.options import one_of, refuse_unknown, reset_options, road_config, switch
 from sim.env.reward import Rewards
 from sim.env.seeds import DRAWN_BELOW, checked_seed, folded
-from sim.kinds import Outcome
-from sim.run import Run, next_episode, repeated
+from sim.state import SimState, apply_move, next_episode
+from sim.types import Outcome
+from sim.world import notation
 
 RENDER_MODES: Final = ("ansi", "rgb_array")
 RENDER_FPS: Final = 2
@@ -85,7 +85,7 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
         self._masked = switch("action_mask", action_mask)
         self.observation_space = self._observer.space
         self.action_space = spaces.Discrete(len(MOVES))
-        self._run: Run | None = None
+        self._run: SimState | None = None
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
@@ -101,7 +101,7 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
             self._run = next_episode(self._run)[0]
         else:
             drawn = int(self.np_random.integers(DRAWN_BELOW)) if given is None else folded(given)
-            self._run = Run.start(self.config.with_parts(seed=drawn))
+            self._run = SimState.start(self.config.with_parts(seed=drawn))
         return self._observation(), self._info()
 
     def step(self, action: np.int64 | int) -> tuple[NDArray[np.uint8], float, bool, bool, dict[str, Any]]:
@@ -109,14 +109,14 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
 
         Raises `RuntimeError` before `reset`, and once the episode has ended.
         """
-        run, number = self._begun(), checked_action(action)
-        before = run.world
+        state, number = self._begun(), checked_action(action)
+        before = state.world
         if before.outcome is not Outcome.RUNNING:
             raise RuntimeError("the episode has ended; call reset")
         if before.road.moved(before.av, MOVES[number]) is None:
             number = STAY
         # As a person's move: what repeats then proves nothing about a planner.
-        self._run = repeated(run, MOVES[number], by_person=True)
+        self._run = apply_move(state, MOVES[number], by_person=True)
         after = self._run.world
         arrived, crashed = after.outcome is Outcome.SUCCESS, after.outcome is Outcome.CRASH
         columns = before.road.columns
@@ -155,7 +155,7 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
         """The configuration with the seed of the present episode. Raises `RuntimeError` before `reset`."""
         return self._begun().config
 
-    def _begun(self) -> Run:
+    def _begun(self) -> SimState:
         if self._run is None:
             raise RuntimeError("call reset first")
         return self._run
@@ -166,26 +166,26 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
         return shown
 
     def _info(self) -> dict[str, Any]:
-        run = self._begun()
-        world = run.world
+        state = self._begun()
+        world = state.world
         told: dict[str, Any] = {
             "outcome": str(world.outcome),
             "is_success": world.outcome is Outcome.SUCCESS,
             "tick": world.episode_tick,
             "episode_number": world.episode,
-            "seed": run.config.seed,
+            "seed": state.config.seed,
         }
         if self._masked:
-            told["action_mask"] = action_mask(world, run.config).astype(np.int8)
+            told["action_mask"] = action_mask(world, state.config).astype(np.int8)
         return told
 
 
-def frame(run: Run, render_mode: str | None) -> Any:
+def frame(state: SimState, render_mode: str | None) -> Any:
     """One world's frame in a render mode; None without one."""
     if render_mode == "ansi":
-        return notation.write(run.world)
+        return notation.write(state.world)
     if render_mode == "rgb_array":
-        from sim.view import pixels, render
+        from sim.render import pixels, render
 
-        return pixels(render("road", run))
+        return pixels(render("road", state))
     return None

@@ -12,16 +12,16 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from sim.batch import Batch
-from sim.env import saving
+from sim.env import saved_state as saving
 from sim.env.actions import MOVES, action_masks, checked_actions
 from sim.env.observation import Observer
 from sim.env.options import one_of, refuse_unknown, reset_options, road_config, switch, whole
 from sim.env.reward import Rewards
 from sim.env.seeds import DRAWN_BELOW, checked_seed, folded
 from sim.env.single import ARGUMENTS, RENDER_FPS, RENDER_MODES, frame
-from sim.kinds import Outcome
 from sim.metrics import Metrics
-from sim.run import Run
+from sim.state import SimState
+from sim.types import Outcome
 
 RUNNING, SUCCESS, CRASH, STUCK = range(len(Outcome))
 """As `Batch.outcomes` has them: numbers in the order of `Outcome`."""
@@ -244,7 +244,7 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
             "_final_info": ended.copy(),
         }
 
-    def _run(self, batch: Batch, lane: int) -> Run:
+    def _run(self, batch: Batch, lane: int) -> SimState:
         """One lane as a run, with what its picture shows."""
         totals = batch.totals()
         counted = Metrics(
@@ -252,7 +252,7 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
             crashes=int(totals.crashes[lane]),
             stuck=int(totals.stuck[lane]),
         )
-        return Run(batch.configs[lane], batch.world(lane), metrics=counted)
+        return SimState(batch.configs[lane], batch.world(lane), metrics=counted)
 
 
 def _of_each(seed: object) -> bool:

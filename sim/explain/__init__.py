@@ -4,18 +4,18 @@
 `crash` the same for how an episode ended, `facts` is what they answer. Words come last and elsewhere.
 """
 
+from sim.explain.alternatives import Alternatives, Future
 from sim.explain.facts import Cause, Counterfactual, Explanation, QuestionError, Role, Verified
 from sim.explain.query import why, why_not
-from sim.explain.stakes import Future, Stakes
 
 __all__ = [
+    "Alternatives",
     "Cause",
     "Counterfactual",
     "Explanation",
     "Future",
     "QuestionError",
     "Role",
-    "Stakes",
     "Verified",
     "why",
     "why_not",

@@ -1,16 +1,16 @@
 """How sure it is that the vehicle arrives in this episode, over all that is drawn only later.
 
-On a road that is seen whole, one thing is not known yet: who will give way or brake (`sim.courtesy`). So the
-futures form a tree that branches only where a mover beside the vehicle has a reason to react. Where
+On a road that is seen whole, one thing is not known yet: who will give way or brake (`sim.rules.yielding`).
+So the futures form a tree that branches only where a mover beside the vehicle has a reason to react. Where
 the branches meet again, which is soon, they are one: rows that lie behind take no part any more. Mostly the
 tree is then small enough to be walked whole, and the share of futures that arrive is exact. Where it is
 not, futures are drawn from it, with seeds of their own, and the share has Wilson's interval
-(`sim.intervals`).
+(`sim.statistics`).
 
 A future in which the vehicle is proved to be shut off from the goal, by hazards or by movers in the rows
 before it, is followed no further: it does not arrive, however it ends.
 
-Every step is the session's own (`sim.run.advance`) with the draws of its tick set. Work is limited by
+Every step is the session's own (`sim.state.advance`) with the draws of its tick set. Work is limited by
 decisions taken and never by the clock, so the same moment has the same answer everywhere. Not foreseen:
 what a person will do. In manual mode it is told how it goes if the vehicle drives from here on by itself.
 """
@@ -24,22 +24,22 @@ from itertools import chain, combinations, count, product
 from typing import Final, TypeAlias
 
 from sim.config import Config
-from sim.courtesy import attentive, yielding
 from sim.explain.facts import QuestionError
-from sim.forecast import foretell
-from sim.intervals import wilson
-from sim.kinds import Mode, Move, Outcome
+from sim.forecast import predict
 from sim.perceive import perceive
 from sim.plan import Decision
 from sim.planner_names import BUILT_IN, WEIGHING
 from sim.randomness import Stream
-from sim.road import Board, bits, board_of
-from sim.run import Run, advance
+from sim.rules.yielding import attentive_movers, yielding_movers
 from sim.search.costs import weights
-from sim.search.leading import leading_on
-from sim.search.reach import steps_left
-from sim.timeline import Timeline
+from sim.search.dead_ends import cells_that_may_arrive
+from sim.search.reachability import steps_left
+from sim.session.timeline import Timeline
+from sim.state import SimState, step
+from sim.statistics import wilson
+from sim.types import Mode, Move, Outcome
 from sim.world import World
+from sim.world.grid import Board, bits, board_of
 
 WORK: Final = {"priority": 450, "rules": 450, "exact": 450, "astar": 240, "dijkstra": 240}
 """Decisions taken for one answer, by planner; a few more where the last future is run to its end."""
@@ -123,10 +123,10 @@ class Confidence:
 
 def confidence(timeline: Timeline) -> Confidence:
     """How sure it is that the present episode ends with an arrival. Raises `QuestionError`."""
-    run = timeline.run
-    if run.world.outcome is not Outcome.RUNNING:
-        raise QuestionError("confidence_ended", outcome=run.world.outcome, tick=run.world.tick)
-    futures = _Futures(run)
+    state = timeline.state
+    if state.world.outcome is not Outcome.RUNNING:
+        raise QuestionError("confidence_ended", outcome=state.world.outcome, tick=state.world.tick)
+    futures = _Futures(state)
     ends = futures.walked()
     drawn = None
     if ends is None:
@@ -142,7 +142,7 @@ def confidence(timeline: Timeline) -> Confidence:
     low, high = (arrives, arrives) if drawn is None else wilson(round(mass[Outcome.SUCCESS]), drawn)
     method = Method.ONE_RUN if futures.branched == 0 else Method.ALL_FUTURES
     return Confidence(
-        tick=run.world.tick,
+        tick=state.world.tick,
         method=method if drawn is None else Method.SAMPLED,
         arrives=arrives,
         low=low,
@@ -154,14 +154,14 @@ def confidence(timeline: Timeline) -> Confidence:
         end_ticks=(min(waited), max(waited)) if waited else None,
         futures=drawn,
         decisions=futures.work,
-        chance=0.0 < run.config.courtesy < 1.0 or 0.0 < run.config.attentive < 1.0,
-        by_hand=run.mode is Mode.MANUAL,
+        chance=0.0 < state.config.courtesy < 1.0 or 0.0 < state.config.attentive < 1.0,
+        by_hand=state.mode is Mode.MANUAL,
         clarity=_clarity(timeline),
     )
 
 
 def _clarity(timeline: Timeline) -> Clarity | None:
-    if timeline.run.world.episode_tick == 0:
+    if timeline.state.world.episode_tick == 0:
         return None
     decision = timeline.decision(timeline.tick - 1)
     if decision is None or decision.asked is not None or decision.fault is not None:
@@ -181,7 +181,7 @@ def _clarity(timeline: Timeline) -> Clarity | None:
 class _Node:
     """A moment of a future; `after` is where it may go, with the chance of each, once that is known."""
 
-    run: Run
+    state: SimState
     after: list[tuple[float, _Node]] | None = None
 
 
@@ -189,7 +189,7 @@ class _Node:
 class _Futures:
     """The tree of futures of a moment, grown where it is looked at."""
 
-    start: Run
+    start: SimState
     work: int = 0
     branched: int = 0
     _nodes: dict[tuple[int, ...], _Node] = field(default_factory=dict)
@@ -255,7 +255,7 @@ class _Futures:
         return WORK.get(self.start.config.planner, OTHER_WORK)
 
     def _end(self, node: _Node) -> End | None:
-        world = node.run.world
+        world = node.state.world
         ticks = world.tick - self.start.world.tick
         if world.outcome is not Outcome.RUNNING:
             return world.outcome, ticks
@@ -267,20 +267,20 @@ class _Futures:
 
     def _after(self, node: _Node) -> list[tuple[float, _Node]]:
         if node.after is None:
-            ways = [(1.0, self.start.config)] if node is self._root else list(self._ways(node.run))
+            ways = [(1.0, self.start.config)] if node is self._root else list(self._ways(node.state))
             self.branched += len(ways) > 1
-            node.after = [(chance, self._step(node.run, config)) for chance, config in ways]
+            node.after = [(chance, self._step(node.state, config)) for chance, config in ways]
         return node.after
 
-    def _ways(self, run: Run) -> Iterator[tuple[float, Config]]:
+    def _ways(self, state: SimState) -> Iterator[tuple[float, Config]]:
         """What may be drawn in the coming tick: the chance of it, and a configuration that draws it.
 
         What makes no difference to where anything goes is one way. The tick that comes next is seen already,
         which is why the root has no ways to choose from.
         """
-        world, config = run.world, run.config
-        giving = _drawn(yielding(world, self._all), config.courtesy)
-        braking = _drawn(attentive(world, self._all), config.attentive)
+        world, config = state.world, state.config
+        giving = _drawn(yielding_movers(world, self._all), config.courtesy)
+        braking = _drawn(attentive_movers(world, self._all), config.attentive)
         if len(giving) == len(braking) == 1:
             yield 1.0, config
             return
@@ -288,7 +288,7 @@ class _Futures:
         for (gives, chance), (brakes, other) in product(giving, braking):
             drawing = self._drawing(world, gives, brakes)
             if self._known:
-                forecast = foretell(perceive(world, drawing), 1)
+                forecast = predict(perceive(world, drawing), 1)
                 standing = forecast.standing
                 key: object = forecast.slices[0], None if standing is None else standing.slices[0]
             else:
@@ -299,27 +299,27 @@ class _Futures:
 
     def _drawing(self, world: World, gives: Board, brakes: Board) -> Config:
         """A configuration under which exactly these movers give way, and these brake, in the coming tick."""
-        near = yielding(world, self._all)
+        near = yielding_movers(world, self._all)
         base = self._all.with_parts(courtesy=_share(gives, near), attentive=_share(brakes, near))
         tried = (base.with_parts(seed=seed) for seed in count())
         return next(
             config
             for config in tried
-            if (yielding(world, config), attentive(world, config)) == (gives, brakes)
+            if (yielding_movers(world, config), attentive_movers(world, config)) == (gives, brakes)
         )
 
-    def _step(self, run: Run, config: Config) -> _Node:
+    def _step(self, state: SimState, config: Config) -> _Node:
         self.work += 1
-        tick = advance(replace(run, config=config))
+        tick = step(replace(state, config=config))
         if tick.decision is not None and tick.decision.fault is not None:
             # It may answer the next time, or cost a new process each time: neither is to be built upon.
             raise QuestionError("confidence_fault", planner=tick.decision.planner, fault=tick.decision.fault)
-        after = replace(tick.run, config=self.start.config)
+        after = replace(tick.state, config=self.start.config)
         return self._nodes.setdefault(self._key(after), _Node(after))
 
-    def _key(self, run: Run) -> tuple[int, ...]:
+    def _key(self, state: SimState) -> tuple[int, ...]:
         """Equal for moments from which everything goes on alike."""
-        world = run.world
+        world = state.world
         ahead = world.road.all
         if self._known:
             rows = world.road.cell(world.av)[1] + 1 + self._buffer
@@ -344,10 +344,10 @@ def _share(drawn: Board, near: Board) -> float:
     return 0.0 if not drawn else 1.0 if drawn == near else 0.5
 
 
-def _hopeful(run: Run) -> list[Board]:
+def _hopeful(state: SimState) -> list[Board]:
     """The cells from which the goal may still be reached in time, by ticks from now."""
-    limit = steps_left(run.config, run.world.episode_tick)
-    return leading_on(foretell(perceive(run.world, run.config), max(1, limit)), limit)
+    limit = steps_left(state.config, state.world.episode_tick)
+    return cells_that_may_arrive(predict(perceive(state.world, state.config), max(1, limit)), limit)
 
 
 def _pick(ways: list[tuple[float, _Node]], draw: float) -> _Node:

@@ -13,16 +13,16 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Final
 
-from sim.explain.causes import hung_on, ranked, telling_first
+from sim.explain.alternatives import after_move
 from sim.explain.factors import is_factor, removal
 from sim.explain.facts import Counterfactual, Explanation, QuestionError, Verified
-from sim.explain.rerun import Rerun
-from sim.explain.stakes import after_move
-from sim.kinds import Move, Outcome
-from sim.optimum.least import PATIENCE, least_ticks
-from sim.run import Run
+from sim.explain.intervention import Intervention
+from sim.explain.why_causes import by_salience, minimal_sufficient_set, rank_causes
+from sim.oracle.lower_bounds import PATIENCE, least_ticks
 from sim.search.reactive import ImpatientError
-from sim.timeline import SNAPSHOT_TICKS, Timeline
+from sim.session.timeline import SNAPSHOT_TICKS, Timeline
+from sim.state import SimState
+from sim.types import Move, Outcome
 from sim.world import Cause, World
 
 LOOK_BACK_TICKS: Final = 1_000
@@ -33,7 +33,7 @@ SAVED_WITHIN: Final = 64
 
 
 @dataclass(frozen=True, slots=True)
-class Saving:
+class LastAvoidance:
     """A move after which a way led to the goal, at the last tick at which there was one."""
 
     tick: int
@@ -61,16 +61,16 @@ class Crash:
     """how many ticks before the crash were looked at for one that would have saved it"""
     whole: bool
     """whether that was the whole way from the episode's beginning, on a road nobody changed"""
-    saving: Saving | None
+    saving: LastAvoidance | None
     """None where no way led to the goal at any of those ticks"""
 
 
 class _LastTick:
     """The last tick again on roads that differ from its own: whether it ends in a crash."""
 
-    def __init__(self, run: Run, rerun: Rerun) -> None:
+    def __init__(self, state: SimState, rerun: Intervention) -> None:
         """`rerun` is that of its decision."""
-        self._run = run
+        self._run = state
         self._rerun = rerun
         self._known: dict[tuple[str, frozenset[str]], bool] = {}
 
@@ -102,15 +102,15 @@ def why_crashed(timeline: Timeline, tick: int | None = None) -> Crash:
     Raises `QuestionError`: `no_crash` with the number of episodes that have ended, `no_crash_lately`,
     `no_such_tick`, and `no_crash_then`.
     """
-    run = _fatal(timeline) if tick is None else _at(timeline, tick)
-    decision = timeline.decided(run)
+    state = _fatal(timeline) if tick is None else _at(timeline, tick)
+    decision = timeline.decided(state)
     assert decision is not None
-    after = timeline.led_to(run).run.world
+    after = timeline.led_to(state).state.world
     assert after.cause is not None
-    certain = run.config.certain
-    rerun = Rerun(run, decision)
+    certain = state.config.certain
+    rerun = Intervention(state, decision)
     explanation = _last_tick(rerun)
-    looked_back, whole, saving = _saving(timeline, run) if certain else (0, False, None)
+    looked_back, whole, saving = _saving(timeline, state) if certain else (0, False, None)
     free = tuple(option.move for option in decision.options if option.verdict == "free")
     return Crash(explanation, after.cause, after.tick, free, certain, looked_back, whole, saving)
 
@@ -118,61 +118,61 @@ def why_crashed(timeline: Timeline, tick: int | None = None) -> Crash:
 def led_to_crash(timeline: Timeline, tick: int | None) -> bool:
     """Whether the decision of a tick ended in a crash, or if none is named, the latest one."""
     if tick is None:
-        world = timeline.run.world
+        world = timeline.state.world
         return world.outcome is Outcome.CRASH and (world.ended or 0) > 0
     return 0 <= tick < timeline.tick and crashed_in(timeline, timeline.at(tick))
 
 
-def crashed_in(timeline: Timeline, run: Run) -> bool:
+def crashed_in(timeline: Timeline, state: SimState) -> bool:
     """Whether the decision that is taken in this state of a timeline ends in a crash."""
-    if run.world.outcome is not Outcome.RUNNING:
+    if state.world.outcome is not Outcome.RUNNING:
         return False
-    return timeline.led_to(run).run.world.outcome is Outcome.CRASH
+    return timeline.led_to(state).state.world.outcome is Outcome.CRASH
 
 
-def _at(timeline: Timeline, tick: int) -> Run:
+def _at(timeline: Timeline, tick: int) -> SimState:
     """The state before the crash at a tick: that of its decision, or that in which it was so."""
     for each in (tick, tick - 1):
         if not 0 <= each < timeline.tick:
             continue
-        run = timeline.at(each)
-        if crashed_in(timeline, run):
-            return run
+        state = timeline.at(each)
+        if crashed_in(timeline, state):
+            return state
     if tick > timeline.tick:
         raise QuestionError("no_such_tick", tick=tick, now=timeline.tick)
     raise QuestionError("no_crash_then", tick=tick)
 
 
-def _fatal(timeline: Timeline) -> Run:
+def _fatal(timeline: Timeline) -> SimState:
     """The state in which the last decision before the latest crash was taken."""
-    metrics = timeline.run.metrics
+    metrics = timeline.state.metrics
     if not metrics.crashes:
         raise QuestionError("no_crash", episodes=metrics.episodes)
     stop, span = timeline.tick, 1
     oldest = max(0, stop - LOOK_BACK_TICKS)
-    after = timeline.run
+    after = timeline.state
     while stop > oldest:
         first = max(oldest, stop - span)
-        for run in reversed(list(timeline.between(first, stop))):
-            if after.metrics.crashes > run.metrics.crashes:
-                return run
-            after = run
+        for state in reversed(list(timeline.between(first, stop))):
+            if after.metrics.crashes > state.metrics.crashes:
+                return state
+            after = state
         stop, span = first, min(4 * span, SNAPSHOT_TICKS)
     raise QuestionError("no_crash_lately", ticks=LOOK_BACK_TICKS)
 
 
-def _last_tick(rerun: Rerun) -> Explanation:
+def _last_tick(rerun: Intervention) -> Explanation:
     """What the crash hung on, as the explanation of the last decision."""
-    run, decision = rerun.run, rerun.decision
-    tried = _LastTick(run, rerun)
-    names = [*rerun.factors, *telling_first(run.world, decision)]
-    enough, groups, minimal = hung_on(tried, True, names)
+    state, decision = rerun.state, rerun.decision
+    tried = _LastTick(state, rerun)
+    names = [*rerun.factors, *by_salience(state.world, decision)]
+    enough, groups, minimal = minimal_sufficient_set(tried, True, names)
     made_first = sorted(decision.options, key=lambda option: option.move is not decision.move)
-    causes = ranked(tried, True, run.world, made_first, groups)
+    causes = rank_causes(tried, True, state.world, made_first, groups)
     told = dict.fromkeys(cause.group for cause in causes if cause.group)
     return Explanation(
         about="why",
-        moment=run,
+        moment=state,
         decision=decision,
         foil=None,
         causes=causes,
@@ -182,14 +182,14 @@ def _last_tick(rerun: Rerun) -> Explanation:
             minimal=minimal,
         ),
         counterfactuals=tuple(
-            Counterfactual(removal(group, run.config), rerun.without(group), group) for group in told
+            Counterfactual(removal(group, state.config), rerun.without(group), group) for group in told
         ),
         stakes=None,
         reruns=rerun.count,
     )
 
 
-def _saving(timeline: Timeline, fatal: Run) -> tuple[int, bool, Saving | None]:
+def _saving(timeline: Timeline, fatal: SimState) -> tuple[int, bool, LastAvoidance | None]:
     """The last move instead of which another would have led to the goal.
 
     With how many ticks before the crash were looked at, and whether the episode began with the first of them.
@@ -199,11 +199,15 @@ def _saving(timeline: Timeline, fatal: Run) -> tuple[int, bool, Saving | None]:
     oldest = max(start, stop - SAVED_WITHIN)
     while stop > oldest:
         first = max(oldest, stop - span)
-        for run in reversed(list(timeline.between(first, stop))):
-            if (run.edits, run.config, run.world.episode) != (fatal.edits, fatal.config, fatal.world.episode):
+        for state in reversed(list(timeline.between(first, stop))):
+            if (state.edits, state.config, state.world.episode) != (
+                fatal.edits,
+                fatal.config,
+                fatal.world.episode,
+            ):
                 return looked, False, None
             try:
-                saving = _saved(timeline, run)
+                saving = _saved(timeline, state)
             except ImpatientError:
                 return looked, False, None
             looked += 1
@@ -213,19 +217,19 @@ def _saving(timeline: Timeline, fatal: Run) -> tuple[int, bool, Saving | None]:
     return looked, oldest == start, None
 
 
-def _saved(timeline: Timeline, run: Run) -> Saving | None:
+def _saved(timeline: Timeline, state: SimState) -> LastAvoidance | None:
     """A move from which a way leads to the goal, with the quickest, if there is one."""
-    decision = timeline.decided(run)
-    if decision is None or least_ticks(run, PATIENCE) is None:
+    decision = timeline.decided(state)
+    if decision is None or least_ticks(state, PATIENCE) is None:
         return None
     ways = [
         (ticks, order, option.move)
         for order, option in enumerate(decision.options)
         if option.cell is not None and option.move is not decision.move
-        if (ticks := least_ticks(after_move(run, option.move), PATIENCE)) is not None
+        if (ticks := least_ticks(after_move(state, option.move), PATIENCE)) is not None
     ]
     if not ways:
         return None
     ticks, _, move = min(ways)
-    world = run.world
-    return Saving(world.tick, decision.move, move, world.episode_tick + 1 + ticks)
+    world = state.world
+    return LastAvoidance(world.tick, decision.move, move, world.episode_tick + 1 + ticks)

@@ -12,8 +12,8 @@ from typing import Final
 
 from sim.actions import Prefer, Remove, Set, Where, WorldAction
 from sim.config import Config
-from sim.kinds import kind_of
 from sim.plan import Decision, Measure
+from sim.types import kind_of
 
 PREFERENCE: Final = "preference"
 SETTING: Final = "setting"

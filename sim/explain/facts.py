@@ -7,10 +7,10 @@ from enum import StrEnum
 from typing import Literal
 
 from sim.actions import Add, WorldAction
-from sim.explain.stakes import Stakes
-from sim.kinds import Cell, Kind, Move
+from sim.explain.alternatives import Alternatives
 from sim.plan import Decision
-from sim.run import Run
+from sim.state import SimState
+from sim.types import Cell, Kind, Move
 
 
 class QuestionError(ValueError):
@@ -96,7 +96,7 @@ class Explanation:
 
     about: str
     """`why` or `why_not`"""
-    moment: Run
+    moment: SimState
     """the state it was decided in"""
     decision: Decision
     foil: Move | None
@@ -106,7 +106,7 @@ class Explanation:
     verified: Verified
     counterfactuals: tuple[Counterfactual, ...]
     """one for each cause or group, in the order of the causes; without causes, the move's cell blocked"""
-    stakes: Stakes | None
+    stakes: Alternatives | None
     """what the foil would have led to; None without one, or where it leads off the road"""
     reruns: int
     """how often the decision was run again for this answer"""

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from sim.explain.causes import explain_why
-from sim.explain.contrast import explain_why_not
 from sim.explain.facts import Explanation, QuestionError
-from sim.kinds import Move
+from sim.explain.why_causes import explain_why
+from sim.explain.why_not import explain_why_not
 from sim.plan import Decision
-from sim.run import Run
-from sim.timeline import SNAPSHOT_TICKS, Timeline
+from sim.session.timeline import SNAPSHOT_TICKS, Timeline
+from sim.state import SimState
+from sim.types import Move
 
 LOOK_BACK_TICKS = 1_000
 """How far back a move that is asked about is looked for."""
@@ -23,52 +23,52 @@ _SAID_OF = {
 def why(timeline: Timeline, tick: int | None = None, move: Move | None = None) -> Explanation:
     """Why the latest decision, the one at a tick, or the latest with a move. Raises `QuestionError`."""
     if tick is None and move is not None:
-        run, decision = _latest(timeline, _SAID_OF.get(move, (move,)))
+        state, decision = _latest(timeline, _SAID_OF.get(move, (move,)))
         if decision is None:
             raise QuestionError("never_made", move=move, ticks=min(timeline.tick, LOOK_BACK_TICKS))
-        return explain_why(run, decision)
-    run, decision = _decision_at(timeline, tick)
+        return explain_why(state, decision)
+    state, decision = _decision_at(timeline, tick)
     if move is not None and decision.move not in _SAID_OF.get(move, (move,)):
         raise QuestionError("not_that_move", asked=move, made=decision.move, tick=decision.tick)
-    return explain_why(run, decision)
+    return explain_why(state, decision)
 
 
 def why_not(timeline: Timeline, move: Move, tick: int | None = None) -> Explanation:
     """Why the latest decision, or the one at a tick, was not `move`. Raises `QuestionError`."""
-    run, decision = _decision_at(timeline, tick)
+    state, decision = _decision_at(timeline, tick)
     if decision.move is move:
         raise QuestionError("was_made", move=move, tick=decision.tick)
-    return explain_why_not(run, decision, move)
+    return explain_why_not(state, decision, move)
 
 
-def _decision_at(timeline: Timeline, tick: int | None) -> tuple[Run, Decision]:
+def _decision_at(timeline: Timeline, tick: int | None) -> tuple[SimState, Decision]:
     if tick is None:
-        run, found = _latest(timeline, tuple(Move))
+        state, found = _latest(timeline, tuple(Move))
         if found is None:
             raise QuestionError("nothing_yet", tick=timeline.tick)
-        return run, found
+        return state, found
     if tick == timeline.tick:
         raise QuestionError("not_yet", tick=tick)
     try:
-        run = timeline.at(tick)
+        state = timeline.at(tick)
     except IndexError:
         raise QuestionError("no_such_tick", tick=tick, now=timeline.tick) from None
-    decision = timeline.decided(run)
+    decision = timeline.decided(state)
     if decision is None:
-        raise QuestionError("result_stood", tick=tick, outcome=run.world.outcome)
-    return run, decision
+        raise QuestionError("result_stood", tick=tick, outcome=state.world.outcome)
+    return state, decision
 
 
-def _latest(timeline: Timeline, moves: tuple[Move, ...]) -> tuple[Run, Decision | None]:
+def _latest(timeline: Timeline, moves: tuple[Move, ...]) -> tuple[SimState, Decision | None]:
     """The latest decision that was one of these moves, looked for in spans that grow backwards."""
     stop, span = timeline.tick, 1
     oldest = max(0, timeline.tick - LOOK_BACK_TICKS)
     while stop > oldest:
         first = max(oldest, stop - span)
         runs = [timeline.at(first)] if span == 1 else list(timeline.between(first, stop))
-        for run in reversed(runs):
-            decision = timeline.decided(run)
+        for state in reversed(runs):
+            decision = timeline.decided(state)
             if decision is not None and decision.move in moves:
-                return run, decision
+                return state, decision
         stop, span = first, min(4 * span, SNAPSHOT_TICKS)
-    return timeline.run, None
+    return timeline.state, None

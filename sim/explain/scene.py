@@ -15,17 +15,17 @@ from types import MappingProxyType
 from typing import Final
 
 from sim.config import Config
-from sim.forecast import foretell
-from sim.kinds import Cell, Kind, Move
+from sim.forecast import predict
 from sim.perceive import Percept
-from sim.road import Road
+from sim.types import Cell, Kind, Move
+from sim.world.grid import Road
 
 CERTAIN: Final[Mapping[str, float]] = MappingProxyType({})
 """The likelihoods of sensors that are always sure."""
 
 
 @dataclass(frozen=True, slots=True)
-class Seen:
+class Detection:
     """One thing as it is seen."""
 
     id: str
@@ -59,20 +59,20 @@ class Scene:
     """where the vehicle is"""
     reach: int
     """rows ahead that were looked at for what would be met; fewer where the goal is nearer"""
-    seen: tuple[Seen, ...]
+    seen: tuple[Detection, ...]
     """what would be met, soonest first; then the rest, the nearest first"""
 
     @property
-    def threats(self) -> tuple[Seen, ...]:
+    def threats(self) -> tuple[Detection, ...]:
         """What would be met on the way straight on, soonest first."""
         return tuple(thing for thing in self.seen if thing.ticks is not None)
 
-    def of(self, kind: Kind | None) -> tuple[Seen, ...]:
+    def of(self, kind: Kind | None) -> tuple[Detection, ...]:
         """Everything, or the things of one kind."""
         return tuple(thing for thing in self.seen if kind is None or thing.kind is kind)
 
 
-def look(percept: Percept, config: Config, likelihoods: Mapping[str, float] = CERTAIN) -> Scene:
+def describe_percept(percept: Percept, config: Config, likelihoods: Mapping[str, float] = CERTAIN) -> Scene:
     """What is seen. `likelihoods`: by id, of the things of which the sensors are not sure."""
     road = percept.road
     column, row = road.cell(percept.ego)
@@ -83,7 +83,7 @@ def look(percept: Percept, config: Config, likelihoods: Mapping[str, float] = CE
         cell = road.cell(index)
         moves, bit = kind.moves, 1 << index
         seen.append(
-            Seen(
+            Detection(
                 id=name,
                 kind=kind,
                 cell=cell,
@@ -110,12 +110,12 @@ def _meetings(percept: Percept, reach: int) -> dict[str, int]:
     """In how many ticks each thing is met that stands in the way straight on."""
     if not reach:
         return {}
-    forecast = foretell(percept, reach)
+    forecast = predict(percept, reach)
     met: dict[str, int] = {}
     here = percept.ego
     for ahead in range(reach):
         then = _on(percept.road, here)
-        for name in forecast.expect(here, then, ahead)[1]:
+        for name in forecast.check_step(here, then, ahead)[1]:
             met.setdefault(name, ahead + 1)
         here = then
     return met
@@ -127,7 +127,7 @@ def _on(road: Road, here: int) -> int:
     return then
 
 
-def _nearest(thing: Seen) -> tuple[bool, int, int, int, bool, Cell]:
+def _nearest(thing: Detection) -> tuple[bool, int, int, int, bool, Cell]:
     """What is met first; then by distance, and among equals own lane, then ahead, first."""
     away = max(abs(thing.lanes), abs(thing.rows))
     return thing.ticks is None, thing.ticks or 0, away, abs(thing.lanes), thing.rows < 0, thing.cell

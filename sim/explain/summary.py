@@ -1,9 +1,9 @@
 """What an episode has come to, at its end: detours and for whose sake, and what the best would have been.
 
-Read off the course that the run carries (`sim.course`), so nothing is driven again. What cannot be known for
-certain is left out: the best, and until when a way was open, are for roads that nobody changed on the
-way and on which nothing hung on who gives way or brakes. Where movers react, ways are searched with their
-reactions (`sim.optimum.least`), and what takes too long to find out is left out as well.
+Read off the course that the run carries (`sim.episode_record`), so nothing is driven again. What cannot be
+known for certain is left out: the best, and until when a way was open, are for roads that nobody changed on
+the way and on which nothing hung on who gives way or brakes. Where movers react, ways are searched with their
+reactions (`sim.oracle.lower_bounds`), and what takes too long to find out is left out as well.
 """
 
 from __future__ import annotations
@@ -13,15 +13,15 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Final
 
-from sim.course import Course, Sake
-from sim.forecast import foretell
-from sim.kinds import Move, Outcome
-from sim.optimum.least import can_arrive, least_ticks
+from sim.episode_record import DetourReason, EpisodeRecord
+from sim.forecast import predict
+from sim.oracle.lower_bounds import can_arrive, least_ticks
 from sim.perceive import perceive
-from sim.run import Run
-from sim.search.reach import steps_left
+from sim.search.reachability import steps_left
 from sim.search.reactive import ImpatientError
+from sim.state import SimState
 from sim.transition import transition
+from sim.types import Move, Outcome
 from sim.world import Cause
 
 STATES: Final = 3_000
@@ -40,7 +40,7 @@ class Summary:
 
     outcome: Outcome
     ticks: int
-    sakes: tuple[tuple[Sake, int], ...]
+    sakes: tuple[tuple[DetourReason, int], ...]
     """detours by whose sake, in the order they first came"""
     best: int | None
     """least ticks from the beginning; None where there is no way, or where it is not certain, or not found"""
@@ -72,28 +72,28 @@ class Summary:
         return self.ticks - self.best
 
 
-def summary(run: Run) -> Summary:
+def summary(state: SimState) -> Summary:
     """How the episode went that has ended in this run. Raises `ValueError` while it goes on."""
-    world, course = run.world, run.course
+    world, course = state.world, state.record
     if world.outcome is Outcome.RUNNING:
         raise ValueError("the episode goes on")
     whole = course.start is not None and course.start.tick == world.episode_start
     certain = course.certain and whole and not course.changed
     free = open_before = best = open_until = None
     open_known = False
-    states = STATES if long_to_tell(run) else QUICK_STATES
+    states = STATES if long_to_tell(state) else QUICK_STATES
     if course.start is not None and certain:
         with suppress(ImpatientError):
-            best = least_ticks(_at_first(run, course), states)
+            best = least_ticks(_at_first(state, course), states)
     if world.outcome is Outcome.CRASH and course.last is not None:
-        before = replace(run, world=course.last, queue=())
-        free = any(foretell(perceive(before.world, run.config), 1).own_steps())
+        before = replace(state, world=course.last, queue=())
+        free = any(predict(perceive(before.world, state.config), 1).own_steps())
         with suppress(ImpatientError):
             open_before = can_arrive(before, states) if course.certain else None
     if world.outcome is Outcome.STUCK and certain:
         with suppress(ImpatientError):
             open_until = (
-                _open_until_reacting(run, course) if run.config.reacting else _open_until(run, course)
+                _open_until_reacting(state, course) if state.config.reacting else _open_until(state, course)
             )
             open_known = True
     ticks = (world.tick if world.ended is None else world.ended) - world.episode_start
@@ -107,34 +107,34 @@ def summary(run: Run) -> Summary:
         open_before=open_before,
         open_until=open_until,
         open_known=open_known,
-        repeated=world.outcome is Outcome.STUCK and ticks <= run.config.max_ticks,
+        repeated=world.outcome is Outcome.STUCK and ticks <= state.config.max_ticks,
         certain=certain,
     )
 
 
-def long_to_tell(run: Run) -> bool:
+def long_to_tell(state: SimState) -> bool:
     """Whether this is an end, and its summary takes longer than a tick of many sessions may."""
-    world = run.world
+    world = state.world
     if world.outcome is Outcome.RUNNING:
         return False
     return world.outcome is Outcome.STUCK or world.road.columns * world.road.rows > QUICK_CELLS
 
 
-def _at_first(run: Run, course: Course) -> Run:
+def _at_first(state: SimState, course: EpisodeRecord) -> SimState:
     """The run as the episode began, with the present configuration."""
     assert course.start is not None
-    return replace(run, world=course.start, queue=())
+    return replace(state, world=course.start, queue=())
 
 
-def _open_until(run: Run, course: Course) -> int | None:
+def _open_until(state: SimState, course: EpisodeRecord) -> int | None:
     """The last tick of the episode at which a way still led to the goal; None: at none.
 
     One sweep backwards: the cells from which row 0 can be met in the ticks that are left, until the
     vehicle's own is among them.
     """
-    world = _at_first(run, course).world
-    road, limit = world.road, steps_left(run.config, 0)
-    forecast = foretell(perceive(world, run.config), limit)
+    world = _at_first(state, course).world
+    road, limit = world.road, steps_left(state.config, 0)
+    forecast = predict(perceive(world, state.config), limit)
     cells = _cells(world.av, course.made(), road.columns)
     goal = road.row(0)
     reaching = goal
@@ -146,17 +146,17 @@ def _open_until(run: Run, course: Course) -> int | None:
     return None
 
 
-def _open_until_reacting(run: Run, course: Course) -> int | None:
+def _open_until_reacting(state: SimState, course: EpisodeRecord) -> int | None:
     """The same where movers react: a way that is open at a tick of a drive was open at those before.
 
     Raises `ImpatientError`.
     """
-    worlds = [_at_first(run, course).world]
+    worlds = [_at_first(state, course).world]
     for move in course.made():
-        worlds.append(transition(worlds[-1], move, run.config))
+        worlds.append(transition(worlds[-1], move, state.config))
     worlds.pop()  # nothing was decided in it
     first_closed = bisect_left(
-        worlds, True, key=lambda world: not can_arrive(replace(run, world=world, queue=()), STATES)
+        worlds, True, key=lambda world: not can_arrive(replace(state, world=world, queue=()), STATES)
     )
     return first_closed - 1 if first_closed else None
 

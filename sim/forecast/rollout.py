@@ -11,10 +11,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import overload
 
-from sim.moving import followed_table_once, move_movers_once
 from sim.perceive import Percept
-from sim.road import Board
-from sim.rules import Motion, brake, followed_board, move_movers, pedestrians_walk
+from sim.rules.traffic import Motion, brake, move_movers, pedestrians_walk, shift_board
+from sim.rules.traffic_cache import cached_move_movers, cached_shift_table
+from sim.world.grid import Board
 
 
 class RollOut(Sequence[Motion]):
@@ -75,7 +75,7 @@ class RollOut(Sequence[Motion]):
         """Who is expected in which cell, `ahead` + 1 ticks from now."""
         while len(self._tables) <= ahead:
             before = self._tables[-1] if self._tables else self._percept.movers
-            self._tables.append(followed_table_once(before, self[len(self._tables)]))
+            self._tables.append(cached_shift_table(before, self[len(self._tables)]))
         return self._tables[ahead]
 
     def pedestrians(self, ahead: int) -> Board:
@@ -97,7 +97,7 @@ class RollOut(Sequence[Motion]):
         road = percept.road
         walking = pedestrians_walk(percept.episode_tick + ahead)
         # Only the first tick is asked for again: when it comes.
-        move = move_movers if ahead else move_movers_once
+        move = move_movers if ahead else cached_move_movers
         motion = move(
             self._right,
             self._left,
@@ -112,6 +112,6 @@ class RollOut(Sequence[Motion]):
             motion = brake(motion, 1 << percept.ego, percept.attentive)
         self._right, self._left = motion.right, motion.left
         if self._pedestrians:
-            self._pedestrians = followed_board(self._pedestrians, motion)
+            self._pedestrians = shift_board(self._pedestrians, motion)
         self._walked.append(self._pedestrians)
         return motion

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from sim.road import Board, Road
+from sim.world.grid import Board, Road
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

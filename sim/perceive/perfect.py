@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from sim.changing import maker
 from sim.config import Config
-from sim.courtesy import attentive, yielding
-from sim.kinds import Kind
+from sim.fast_replace import fast_constructor
 from sim.perceive.percept import Percept
+from sim.rules.yielding import attentive_movers, yielding_movers
+from sim.types import Kind
 from sim.world import World
 
-_seen = maker(
+_seen = fast_constructor(
     Percept,
     "road",
     "tick",
@@ -43,8 +43,8 @@ def perceive(world: World, config: Config, av: int = 0) -> Percept:
         world.right,
         world.left,
         world.pedestrians,
-        yielding(world, config),
-        attentive(world, config),
+        yielding_movers(world, config),
+        attentive_movers(world, config),
         world.driven,
         config.collision == "swept",
         world.movers,

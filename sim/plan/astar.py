@@ -14,14 +14,14 @@ from __future__ import annotations
 
 from sim.config import Config
 from sim.forecast import Forecast
-from sim.kinds import Move
+from sim.plan.by_cost import decide_by_cost
 from sim.plan.decision import Decision, Measure
-from sim.plan.weighted import decided
-from sim.search.astar import Lessons, cheapest
+from sim.search.astar import AdaptiveHeuristic, cheapest
 from sim.search.costs import weights
-from sim.search.reach import MOVES, least_ticks_by_move, steps_left
-from sim.search.spacetime import SpaceTime
-from sim.search.standing import cost_of_staying
+from sim.search.reachability import MOVES, least_ticks_by_move, steps_left
+from sim.search.time_expanded import TimeExpandedGraph
+from sim.search.waiting_cost import cost_of_staying
+from sim.types import Move
 
 STAY = MOVES.index(Move.STAY)
 
@@ -38,9 +38,9 @@ class AStarPlanner:
     def decide(self, forecast: Forecast, config: Config) -> Decision:
         """The move, and what each of the six costs in all."""
         limit = steps_left(config, forecast.episode_tick)
-        terrain = SpaceTime(forecast, weights(config), limit)
+        terrain = TimeExpandedGraph(forecast, weights(config), limit)
         totals: list[int | None] = [None] * len(MOVES)
-        lessons = Lessons()
+        lessons = AdaptiveHeuristic()
         ticks = least_ticks_by_move(forecast, limit)
         for move, there, cost in terrain.steps(terrain.start):
             if ticks[move] is None:
@@ -50,4 +50,4 @@ class AStarPlanner:
                 totals[move] = cost + way.cost
         if totals[STAY] is None:
             totals[STAY] = cost_of_staying(forecast, terrain.weights, limit)
-        return decided(self.name, Measure.COST, forecast, totals, limit)
+        return decide_by_cost(self.name, Measure.COST, forecast, totals, limit)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
-from sim.forecast import Verdict
-from sim.kinds import Cell, Move
+from sim.forecast import StepVerdict
+from sim.types import Cell, Move
 
 
 @dataclass(frozen=True, slots=True)
@@ -16,7 +16,7 @@ class Option:
     move: Move
     cell: Cell | None
     """where it leads; None is off the road"""
-    reason: Verdict
+    reason: StepVerdict
     """what the step would meet"""
     cost: float | None
     """the lower the better, in the planner's own measure; None means not to be had, or for a free cell
@@ -35,7 +35,7 @@ class Option:
     @property
     def verdict(self) -> str:
         """`free`, `blocked` or `off_road`."""
-        if self.reason is Verdict.OFF_ROAD:
+        if self.reason is StepVerdict.OFF_ROAD:
             return "off_road"
         return "blocked" if self.reason.blocks else "free"
 

@@ -11,10 +11,10 @@ from __future__ import annotations
 
 from sim.config import Config
 from sim.forecast import Forecast
+from sim.plan.by_cost import decide_by_cost
 from sim.plan.decision import Decision, Measure
-from sim.plan.weighted import decided
 from sim.search.costs import weights
-from sim.search.reach import steps_left
+from sim.search.reachability import steps_left
 
 
 class DijkstraPlanner:
@@ -28,8 +28,8 @@ class DijkstraPlanner:
 
     def decide(self, forecast: Forecast, config: Config) -> Decision:
         """The move, and what each of the six costs in all."""
-        from sim.search.sweep import totals_by_move
+        from sim.search.backward_dp import totals_by_move
 
         limit = steps_left(config, forecast.episode_tick)
         totals = totals_by_move(forecast, weights(config), limit)
-        return decided(self.name, Measure.COST, forecast, totals, limit)
+        return decide_by_cost(self.name, Measure.COST, forecast, totals, limit)

@@ -14,12 +14,12 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import Final
 
-from sim.changing import maker
 from sim.config import Config
-from sim.forecast import Forecast, Verdict
-from sim.kinds import Move
+from sim.fast_replace import fast_constructor
+from sim.forecast import Forecast, StepVerdict
 from sim.plan.decision import Decision, Option
-from sim.road import Road
+from sim.types import Move
+from sim.world.grid import Road
 
 ORDER: Final = (
     Move.FORWARD,
@@ -30,8 +30,8 @@ ORDER: Final = (
     Move.STAY,
 )
 
-_decided = maker(Decision, "tick", "av", "planner", "move", "options")
-_option = maker(Option, "move", "cell", "reason", "cost", "causes")
+_decided = fast_constructor(Decision, "tick", "av", "planner", "move", "options")
+_option = fast_constructor(Option, "move", "cell", "reason", "cost", "causes")
 
 
 def options_in_order(forecast: Forecast) -> tuple[Option, ...]:
@@ -50,7 +50,7 @@ def options_in_order(forecast: Forecast) -> tuple[Option, ...]:
 def met_option(forecast: Forecast, free: Option) -> Option:
     """A move that is not free, with what it would meet; `free` says where it leads."""
     end = None if free.cell is None else forecast.road.index(free.cell)
-    reason, causes = forecast.expect(forecast.ego, end)
+    reason, causes = forecast.check_step(forecast.ego, end)
     return _option(free.move, free.cell, reason, None, causes)
 
 
@@ -63,7 +63,7 @@ def _free_options(columns: int, rows: int, index: int) -> tuple[Option, ...]:
     ends = [road.moved(index, move) for move in ORDER]
     cells = [None if end is None else road.cell(end) for end in ends]
     return tuple(
-        Option(move, cell, Verdict.FREE, float(rank), ())
+        Option(move, cell, StepVerdict.FREE, float(rank), ())
         for rank, (move, cell) in enumerate(zip(ORDER, cells, strict=True))
     )
 

@@ -7,7 +7,7 @@ from typing import Protocol
 from sim import planner_names
 from sim.config import Config
 from sim.forecast import Forecast
-from sim.plan import astar, dijkstra, exact, priority, rule_based
+from sim.plan import astar, bfs, dijkstra, priority, rule_based
 from sim.plan.decision import Decision
 
 
@@ -29,7 +29,7 @@ _planners: dict[str, Planner] = {}
 def register(planner: Planner) -> None:
     """Make a planner of this program available by its name. Raises `ValueError` if the name is taken.
 
-    It is called as it is; one that is not trusted belongs in a package of its own (`sim.plan.guard`).
+    It is called as it is; one that is not trusted belongs in a package of its own (`sim.plan.safe_planning`).
     """
     planner_names.claim(planner.name)
     _planners[planner.name] = planner
@@ -45,6 +45,6 @@ for planner in (
     rule_based.RulesPlanner(),
     astar.AStarPlanner(),
     dijkstra.DijkstraPlanner(),
-    exact.ExactPlanner(),
+    bfs.BfsPlanner(),
 ):
     register(planner)

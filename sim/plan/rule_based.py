@@ -1,8 +1,8 @@
 """`rules`: forward where a way leads on; else by a diagonal or aside to the nearest way on; else wait.
 
 Structure: every move is ranked by where it leads, as if its cell were free; the first that is free is made.
-Where it leads is looked up in the ways past all that never moves (`sim.search.ways`): potholes, barriers, and
-movers that are locked in between them. The ranking:
+Where it leads is looked up in the ways past all that never moves (`sim.search.passages`): potholes,
+barriers, and movers that are locked in between them. The ranking:
 
 1. forward, then a diagonal, into a cell that leads on;
 2. where neither of them leads on: left or right, toward the nearest way on;
@@ -29,14 +29,14 @@ from enum import StrEnum
 from functools import lru_cache
 from typing import Final, NamedTuple
 
-from sim.changing import maker
 from sim.config import Config
-from sim.forecast import Forecast, Verdict
-from sim.kinds import Move
+from sim.fast_replace import fast_constructor
+from sim.forecast import Forecast, StepVerdict
 from sim.plan.decision import Decision, Option
 from sim.plan.priority import ORDER, met_option
-from sim.road import Road
-from sim.search.ways import Ways, locked_in, ways_past
+from sim.search.passages import Ways, locked_in, ways_past
+from sim.types import Move
+from sim.world.grid import Road
 
 
 class Leads(StrEnum):
@@ -85,7 +85,7 @@ _FIRST, _FORWARD, _DIAGONAL, _ASIDE, _STAY, _DODGE, _CLOSED, _LAST = range(-_CLA
 """Ranks, the lowest first. `_FIRST` and those from `_LAST` on are dead ends: straight on, which is what would
 be done if there were a way; then staying; then all others."""
 
-_decided = maker(Decision, "tick", "av", "planner", "move", "options")
+_decided = fast_constructor(Decision, "tick", "av", "planner", "move", "options")
 
 
 class RulesPlanner:
@@ -227,5 +227,5 @@ def _ranked(
         end = road.moved(index, ORDER[place])
         cell = None if end is None else road.cell(end)
         on = _FIRST < ranks[place] < _LAST
-        options.append(Option(ORDER[place], cell, Verdict.FREE, float(cost) if on else None, ()))
+        options.append(Option(ORDER[place], cell, StepVerdict.FREE, float(cost) if on else None, ()))
     return tuple(places), tuple(options)

@@ -4,7 +4,8 @@ Structure: a heap ordered by cost so far + lower bound; a state is settled when 
 first time. Guarantee: the least cost, and among ways of that cost always the same one; with a bound
 of 0 this is Dijkstra's algorithm. Sources: Hart, Nilsson & Raphael, "A formal basis for the heuristic
 determination of minimum cost paths" (1968); Dijkstra, "A note on two problems in connexion with graphs"
-(1959); what settled states teach about the rest (`Lessons`): Koenig & Likhachev, "Adaptive A*" (2005).
+(1959); what settled states teach about the rest (`AdaptiveHeuristic`): Koenig & Likhachev, "Adaptive A*"
+(2005).
 """
 
 from __future__ import annotations
@@ -13,12 +14,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from heapq import heappop, heappush
 
-from sim.search.terrain import State, Terrain
+from sim.search.graph import SearchGraph, State
 
 
 @dataclass(frozen=True, slots=True)
-class Way:
-    """A cheapest way. It ends at a goal, or with `Lessons` where the rest was known already."""
+class Path:
+    """A cheapest way. It ends at a goal, or with `AdaptiveHeuristic` where the rest was known already."""
 
     cost: int
     """to the goal"""
@@ -31,35 +32,35 @@ class Way:
 
 
 @dataclass(slots=True)
-class Lessons:
+class AdaptiveHeuristic:
     """What searches on one terrain have shown: sharper bounds, and exact costs along the ways found."""
 
     bounds: dict[State, int] = field(default_factory=dict)
     exact: dict[State, int] = field(default_factory=dict)
-    hopeless: set[State] = field(default_factory=set)
+    dead_ends: set[State] = field(default_factory=set)
     """states from which no way leads to a goal"""
 
 
-def nothing_known(state: State) -> int:  # noqa: ARG001 - the same for every state
+def no_heuristic(state: State) -> int:  # noqa: ARG001 - the same for every state
     """The bound that makes a search Dijkstra's."""
     return 0
 
 
 def cheapest(
-    terrain: Terrain,
+    terrain: SearchGraph,
     start: State,
     *,
-    at_least: Callable[[State], int] | None = None,
-    lessons: Lessons | None = None,
-) -> Way | None:
+    heuristic: Callable[[State], int] | None = None,
+    lessons: AdaptiveHeuristic | None = None,
+) -> Path | None:
     """A cheapest way from `start` to a goal; None if there is none.
 
-    `at_least` replaces the terrain's own bound. `lessons` are used and added to; they must come from the
+    `heuristic` replaces the terrain's own bound. `lessons` are used and added to; they must come from the
     same terrain.
     """
-    bound = at_least or terrain.at_least
-    known = Lessons() if lessons is None else lessons
-    bounds, exact, hopeless = known.bounds, known.exact, known.hopeless
+    bound = heuristic or terrain.heuristic
+    known = AdaptiveHeuristic() if lessons is None else lessons
+    bounds, exact, dead_ends = known.bounds, known.exact, known.dead_ends
     cost_to: dict[State, int] = {start: 0}
     came_by: dict[State, tuple[State, int]] = {}
     settled: set[State] = set()
@@ -79,7 +80,7 @@ def cheapest(
         for move, there, cost in terrain.steps(state):
             total = so_far + cost
             before = cost_to.get(there)
-            if (before is None or total < before) and there not in hopeless:
+            if (before is None or total < before) and there not in dead_ends:
                 cost_to[there] = total
                 came_by[there] = (state, move)
                 number -= 1
@@ -90,20 +91,22 @@ def cheapest(
                         rest = bound(there)
                 # Of equal estimates the latest found first: that goes straight on.
                 heappush(heap, (total + rest, number, there))
-    known.hopeless |= settled
+    known.dead_ends |= settled
     return None
 
 
-def _way(state: State, came_by: dict[State, tuple[State, int]], cost: int, expanded: int) -> Way:
+def _way(state: State, came_by: dict[State, tuple[State, int]], cost: int, expanded: int) -> Path:
     states, moves = [state], []
     while state in came_by:
         state, move = came_by[state]
         states.append(state)
         moves.append(move)
-    return Way(cost, tuple(reversed(moves)), tuple(reversed(states)), expanded)
+    return Path(cost, tuple(reversed(moves)), tuple(reversed(states)), expanded)
 
 
-def _learn(known: Lessons, settled: set[State], cost_to: dict[State, int], total: int, way: Way) -> None:
+def _learn(
+    known: AdaptiveHeuristic, settled: set[State], cost_to: dict[State, int], total: int, way: Path
+) -> None:
     bounds = known.bounds
     for state in settled:
         rest = total - cost_to[state]

@@ -19,7 +19,7 @@ from typing import Final
 
 from sim.actions import Preference
 from sim.config import Config
-from sim.kinds import Move
+from sim.types import Move
 
 
 @dataclass(frozen=True, slots=True)

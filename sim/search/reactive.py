@@ -15,13 +15,13 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from sim.config import Config
-from sim.courtesy import attentive, yielding
 from sim.forecast import Forecast
-from sim.kinds import Move
-from sim.road import Board, bits
-from sim.rules import Motion, brake, followed_board, free_steps, move_movers, pedestrians_walk
-from sim.search.leading import leading_on
+from sim.rules.traffic import Motion, brake, free_steps, move_movers, pedestrians_walk, shift_board
+from sim.rules.yielding import attentive_movers, yielding_movers
+from sim.search.dead_ends import cells_that_may_arrive
+from sim.types import Move
 from sim.world import World
+from sim.world.grid import Board, bits
 
 _MOVES = tuple(Move)
 
@@ -90,7 +90,7 @@ class ReactiveSearch:
         if number == 0:
             return layers
         # Nearly all states are too late, or shut off whoever reacts.
-        hopeful = leading_on(self.forecast, limit)
+        hopeful = cells_that_may_arrive(self.forecast, limit)
         if not hopeful[0] >> world.av & 1:
             return None
         looked_at = 0
@@ -185,12 +185,12 @@ class ReactiveSearch:
             left=row.left << below,
         )
         return (
-            yielding(there, self.config) >> below & whole,
-            attentive(there, self.config) >> below & whole,
+            yielding_movers(there, self.config) >> below & whole,
+            attentive_movers(there, self.config) >> below & whole,
         )
 
     def _after(self, row: Row, motion: Motion) -> Row:
-        pedestrians = followed_board(row.pedestrians, motion) if row.pedestrians else 0
+        pedestrians = shift_board(row.pedestrians, motion) if row.pedestrians else 0
         return Row(row.number, motion.right, motion.left, pedestrians)
 
     def _entered(self, number: int, ahead: int) -> Row:

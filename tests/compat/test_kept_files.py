@@ -20,7 +20,7 @@ import pytest
 from service.api.views import PREFIX
 from service.app import create_app
 from service.settings import Settings
-from sim.timeline import Timeline
+from sim.session.timeline import Timeline
 from tests.compat.make import summed
 
 DATA = Path(__file__).parents[1] / "data" / "v1"

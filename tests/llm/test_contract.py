@@ -15,7 +15,7 @@ from service.llm.failure import ModelFailure, Reason
 from service.llm.prompts import load_prompt
 from service.llm.reading import MAX_ACTIONS, read
 from service.llm.schema import FORBIDDEN, MAY, schema
-from sim.settings import AS_IT_IS
+from sim.session.settings import AS_IT_IS
 
 DEFS: dict[str, Any] = ACTIONS.json_schema()["$defs"]
 FREE_TEXT = {("Where", "id"), ("Set", "value")}

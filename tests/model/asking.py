@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from service import actions as contract
-from sim.edit import apply
-from sim.edit_error import EditError
-from sim.kinds import Outcome
-from sim.run import Run, advance
+from sim.session.edits import apply
+from sim.session.errors import EditError
+from sim.state import SimState, step
+from sim.types import Outcome
 from tests.model.compare import holds, same
 from tests.model.plan import Json
 
@@ -105,10 +105,10 @@ async def otherwise(walker: Any, path: str, tick: int, actions: list[Json]) -> N
             same("what if and what would be", real["outcome"], told["changed"]["end"]["outcome"])
 
 
-def followed(run: Run) -> Run:
+def followed(run: SimState) -> SimState:
     """The end of an episode, where nothing more is said; a result that stands is waited out first."""
     while run.world.outcome is not Outcome.RUNNING:
-        run = advance(run).run
+        run = step(run).run
     while run.world.outcome is Outcome.RUNNING:
-        run = advance(run).run
+        run = step(run).run
     return run

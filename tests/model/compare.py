@@ -7,9 +7,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from service import actions as contract
-from sim.kinds import Move, Outcome
 from sim.plan import Decision
-from sim.run import Run
+from sim.state import SimState
+from sim.types import Move, Outcome
 from tests.model.plain import Line, Plain
 
 Json = dict[str, Any]
@@ -46,7 +46,7 @@ def _short(value: Any) -> str:
     return text if len(text) < 700 else f"{text[:700]}…"
 
 
-def state_of(plain: Plain, run: Run) -> Json:
+def state_of(plain: Plain, run: SimState) -> Json:
     """A state as it should be told, from the list of things on the road."""
     world, config = run.world, run.config
     things = list(world.things())
@@ -107,7 +107,7 @@ def _by_id(things: Sequence[Json]) -> list[Json]:
     return sorted(things, key=lambda each: each["id"])
 
 
-def compare_metrics(told: Json, plain: Plain, run: Run) -> None:
+def compare_metrics(told: Json, plain: Plain, run: SimState) -> None:
     """Figures add up among themselves, and to what was played."""
     same("moves add up", sum(told["moves"].values()), told["steps"])
     same("episodes add up", told["successes"] + told["crashes"] + told["stuck"], told["episodes"])

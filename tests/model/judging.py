@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from sim.kinds import Mode, Outcome
-from sim.run import Run, advance
+from sim.state import SimState, step
+from sim.types import Mode, Outcome
 from tests.model.compare import holds, same
 from tests.model.plain import Plain
 from tests.sim import twin
@@ -34,13 +34,13 @@ class Judge:
                 self._seen.add(key)
                 self._tick(run, plain.runs[: run.world.tick + 1])
 
-    def _tick(self, run: Run, runs: list[Run]) -> None:
+    def _tick(self, run: SimState, runs: list[SimState]) -> None:
         """One tick; `runs`: all states up to it."""
         self.ticks += 1
         now = twin.position(run.world)
         yielding, brakes, swept = courteous(run), braking(run), run.config.collision == "swept"
         later = twin.moved_bodies(now, yielding)
-        tick = advance(run)
+        tick = step(run)
         decision = tick.decision
         assert decision is not None
         free = {move: twin.outlook(now, move, later, brakes, swept=swept)[2] for move in twin.STEPS}
@@ -50,13 +50,13 @@ class Judge:
         if run.config.planner == "priority" and decision.asked is None:
             same(f"{where}, the rule", decision.move, twin.priority_move(now, later, brakes, swept=swept))
         _, after = twin.step(now, decision.move, yielding, brakes, swept=swept)
-        if tick.run.world.outcome is Outcome.STUCK and after.outcome is Outcome.RUNNING:
-            holds(f"{where}, STUCK though nothing repeats", repeated([*runs, tick.run]), after)
+        if tick.state.world.outcome is Outcome.STUCK and after.outcome is Outcome.RUNNING:
+            holds(f"{where}, STUCK though nothing repeats", repeated([*runs, tick.state]), after)
             after = replace(after, outcome=Outcome.STUCK)
-        same(f"{where}, the world after it", twin.position(tick.run.world), after)
+        same(f"{where}, the world after it", twin.position(tick.state.world), after)
 
 
-def repeated(runs: list[Run]) -> bool:
+def repeated(runs: list[SimState]) -> bool:
     """Whether the last state is like an earlier one of its road from which the rule alone led to it."""
     last = runs[-1]
     sought = situation(last)
@@ -77,7 +77,7 @@ def repeated(runs: list[Run]) -> bool:
     return False
 
 
-def situation(run: Run) -> tuple[object, ...]:
+def situation(run: SimState) -> tuple[object, ...]:
     """What has a part in what comes while the vehicle is in its row."""
     now = twin.position(run.world)
     near = frozenset(

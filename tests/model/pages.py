@@ -6,9 +6,9 @@ from typing import Any
 
 from service import actions as contract
 from sim.config import Config
-from sim.edit import apply
-from sim.kinds import Outcome
-from sim.run import Run, advance
+from sim.session.edits import apply
+from sim.state import SimState, step
+from sim.types import Outcome
 from tests.model.compare import (
     compare_changes,
     compare_decision,
@@ -63,7 +63,7 @@ async def sentence(walker: Any, path: str) -> None:
         return
     status, parsed = await walker.post("/api/v1/parse", {"text": told})
     same(f"whether {told!r} is understood, {parsed}", status, 200)
-    run = Run.start(Config())
+    run = SimState.start(Config())
     for action in contract.load(parsed["actions"]):
         run = apply(run, action).run
     same(f"what {told!r} makes", run.config, walker.sessions[path].run.config)
@@ -157,7 +157,7 @@ async def forecast(walker: Any, path: str, tick: int) -> None:
     for ahead in told["ahead"][: 3 if told["exact"] else 1]:
         if run.world.outcome is not Outcome.RUNNING:
             return
-        run = advance(run).run
+        run = step(run).run
         movers = {name: list(run.world.road.cell(cell)) for cell, name in run.world.movers.items()}
         same(f"movers foretold for {ahead['tick']}", ahead["movers"], movers)
 

@@ -2,7 +2,7 @@
 
 No snapshots, no shared logs, no steps that remember tails: every state is played from the very first tick
 by the rules of `sim`, and what can be undone is two whole logs side by side. It is slow, and read in one go.
-Whether a road has a way is asked of `sim.optimum.outlook`; when that is told is thought out here.
+Whether a road has a way is asked of `sim.oracle.outlook`; when that is told is thought out here.
 Left out: words, and what of a question can be answered.
 """
 
@@ -18,14 +18,14 @@ from service import actions as contract
 from service.actions import Action
 from sim.actions import Adjust, Scenario, Set
 from sim.config import Config
-from sim.edit import apply
-from sim.edit_error import EditError
-from sim.kinds import Outcome
-from sim.optimum.outlook import Outlook, outlook, quickly_open
+from sim.oracle.outlook import Outlook, outlook, quickly_open
 from sim.plan import Decision
-from sim.run import Run, advance, decide
-from sim.scenario import unavailable
-from sim.settings import offered
+from sim.session.edits import apply
+from sim.session.errors import EditError
+from sim.session.scenario import unavailable
+from sim.session.settings import offered
+from sim.state import SimState, decide, step
+from sim.types import Outcome
 
 MOST_STEPS = 1_000
 ROAD = frozenset(
@@ -97,33 +97,33 @@ class Line:
 
 
 @lru_cache(maxsize=64)
-def _played(config: Config, log: tuple[Said, ...]) -> list[Run]:
-    return [_at_its_tick(Run.start(config), log)]
+def _played(config: Config, log: tuple[Said, ...]) -> list[SimState]:
+    return [_at_its_tick(SimState.start(config), log)]
 
 
-def _at_its_tick(run: Run, log: tuple[Said, ...]) -> Run:
+def _at_its_tick(run: SimState, log: tuple[Said, ...]) -> SimState:
     for said in log:
         if said.tick == run.world.tick:
-            run = apply(run, said.action).run
+            run = apply(run, said.action).state
     return run
 
 
-def played(config: Config, stand: Stand) -> list[Run]:
+def played(config: Config, stand: Stand) -> list[SimState]:
     """Every state from the first tick to where it stands, after what was said at its tick."""
     runs = _played(config, stand.log)
     while len(runs) <= stand.tick:
-        runs.append(_at_its_tick(advance(runs[-1]).run, stand.log))
+        runs.append(_at_its_tick(step(runs[-1]).state, stand.log))
     return runs[: stand.tick + 1]
 
 
-def road_of(run: Run) -> tuple[object, ...]:
+def road_of(run: SimState) -> tuple[object, ...]:
     """Equal for states of one road between two changes that matter to the way."""
     world, config = run.world, run.config
     drawn = (*episode_of(run), run.edits, world.fixed)
     return *drawn, config.courtesy, config.attentive, config.collision
 
 
-def episode_of(run: Run) -> tuple[int, int]:
+def episode_of(run: SimState) -> tuple[int, int]:
     return run.world.episode, run.world.episode_start
 
 
@@ -158,11 +158,11 @@ class Plain:
         return self.stand.tick
 
     @property
-    def runs(self) -> list[Run]:
+    def runs(self) -> list[SimState]:
         return played(self.config, self.stand)
 
     @property
-    def run(self) -> Run:
+    def run(self) -> SimState:
         return self.runs[-1]
 
     def decision(self, tick: int) -> Decision | None:
@@ -177,7 +177,7 @@ class Plain:
     def pass_ticks(self, ticks: int) -> None:
         """Time runs on."""
         for _ in range(ticks):
-            tick = advance(self.run)
+            tick = step(self.run)
             self.stand = replace(self.stand, tick=self.tick + 1)
             self._write(tick.events)
 
@@ -205,7 +205,7 @@ class Plain:
 
     # The way to the goal
 
-    def look(self, begun: Run) -> Plain:
+    def look(self, begun: SimState) -> Plain:
         """A road has begun by itself: that no way leads through it is told, if it is still the road."""
         if quickly_open(begun):
             self.way = episode_of(begun), outlook(begun)
@@ -364,7 +364,7 @@ class _Doing:
             return
         now = self.now
         try:
-            applied = apply(now.run, action)
+            applied = apply(now.state, action)
         except EditError as error:
             raise RefusedError(error.message) from error
         now.stand = replace(now.stand, log=(*now.stand.log, Said(now.sequence, now.tick, action)))

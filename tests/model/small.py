@@ -14,10 +14,10 @@ MOST_NAMES = 2
 def limits() -> Iterator[None]:
     """Few states kept on the way, few moves in time and names, work beside the loop, thinned snapshots."""
     few = {
-        "sim.timeline.SNAPSHOT_TICKS": 6,
-        "sim.timeline.MAX_SNAPSHOTS": 6,
-        "sim.timeline.RECENT_RUNS": 2,
-        "sim.timeline.RECENT_CHANGES": 1,
+        "sim.session.timeline.SNAPSHOT_TICKS": 6,
+        "sim.session.timeline.MAX_SNAPSHOTS": 6,
+        "sim.session.timeline.RECENT_RUNS": 2,
+        "sim.session.timeline.RECENT_CHANGES": 1,
         "service.sessions.history.MOST_JUMPS": MOST_JUMPS,
         "service.sessions.draft.MOST_NAMES": MOST_NAMES,
         "service.sessions.session.THREAD_TICKS": 4,

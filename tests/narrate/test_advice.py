@@ -9,10 +9,10 @@ import pytest
 from service.narrate.advice import Advices
 from service.narrate.sayings import Sayings
 from service.sessions.facts import Advised
-from sim.advice import advise
-from sim.advice.parameters import FRICTION
-from sim.kinds import Kind
-from tests.sim.advice.calibration import questions
+from sim.hazard_advice import advise
+from sim.hazard_advice.parameters import FRICTION
+from sim.types import Kind
+from tests.sim.hazard_advice.calibration import questions
 
 ADVICES = Advices(Sayings.load())
 NUMBER = re.compile(r"\d+(?:\.\d+)?")

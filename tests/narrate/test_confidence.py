@@ -17,10 +17,10 @@ from service.sessions.facts import Asked
 from sim import planner_names
 from sim.config import Config
 from sim.explain.confidence import Confidence, Method
-from sim.kinds import Mode, Outcome
 from sim.metrics import Metrics
-from sim.run import Run
-from sim.timeline import Timeline
+from sim.session.timeline import Timeline
+from sim.state import SimState
+from sim.types import Mode, Outcome
 from tests.narrate.test_narrator import ID, looks_like_sentences
 from tests.sim.explain.calibration import drawn_config
 from tests.sim.roads import road, run_on
@@ -30,9 +30,9 @@ SURE = Confidences(SAYINGS)
 OPEN = run_on(road("........", "........", "........", "...A...."))
 
 
-def answer(run: Run) -> dict[str, Any]:
+def answer(run: SimState) -> dict[str, Any]:
     timeline = Timeline(run.config)
-    timeline.run = run
+    timeline.state = run
     return SURE.answer(Asked(Ask(about="confidence"), timeline))
 
 
@@ -71,7 +71,7 @@ def found(**parts: Any) -> Confidence:
         ),
     ],
 )
-def test_what_is_sure_is_said_to_be(run: Run, text: str) -> None:
+def test_what_is_sure_is_said_to_be(run: SimState, text: str) -> None:
     assert answer(run)["text"] == text
 
 
@@ -122,7 +122,7 @@ def test_every_answer_reads_like_sentences_and_has_its_figures() -> None:
         told = SURE.answer(Asked(Ask(about="confidence"), timeline))
         assert looks_like_sentences(told["text"]), told["text"]
         assert not ID.search(told["text"])
-        ended = timeline.run.world.outcome is not Outcome.RUNNING
+        ended = timeline.state.world.outcome is not Outcome.RUNNING
         assert ("confidence" in told) != ended
         if not ended:
             assert sum(told["ends"].values()) == pytest.approx(1.0)
@@ -138,7 +138,7 @@ def test_a_planner_that_fails_leaves_nothing_to_be_sure_of(monkeypatch: pytest.M
 
 def worn(metrics: Metrics) -> dict[str, Any]:
     timeline = Timeline(Config())
-    timeline.run = replace(timeline.run, metrics=metrics)
+    timeline.state = replace(timeline.state, metrics=metrics)
     return Maintenance(SAYINGS).answer(Asked(Ask(about="maintenance"), timeline))
 
 

@@ -9,8 +9,8 @@ from service.narrate import Narrator
 from service.sessions.facts import Asked
 from sim.actions import Add, SetMode, Where
 from sim.config import Config
-from sim.kinds import Mode, Move, Outcome
-from sim.timeline import Timeline
+from sim.session.timeline import Timeline
+from sim.types import Mode, Move, Outcome
 from tests.narrate.test_narrator import ids_in, looks_like_sentences
 
 NARRATOR = Narrator.load()
@@ -19,9 +19,9 @@ NARRATOR = Narrator.load()
 def crashed(seed: int = 11, **config: object) -> Timeline:
     parts = {"planner": "priority", "attentive": 0.0, "collision": "cell", **config}
     timeline = Timeline(Config(seed=seed, potholes=30, vehicles=25).with_parts(**parts))
-    while timeline.run.world.outcome is Outcome.RUNNING:
+    while timeline.state.world.outcome is Outcome.RUNNING:
         timeline.advance()
-    assert timeline.run.world.outcome is Outcome.CRASH
+    assert timeline.state.world.outcome is Outcome.CRASH
     return timeline
 
 
@@ -63,9 +63,9 @@ def test_whatever_the_crash_the_words_are_sentences_about_what_is_in_the_facts()
         timeline = Timeline(config)
         for _ in range(80):
             timeline.advance()
-            if timeline.run.world.outcome is Outcome.CRASH:
+            if timeline.state.world.outcome is Outcome.CRASH:
                 break
-        if timeline.run.world.outcome is Outcome.CRASH:
+        if timeline.state.world.outcome is Outcome.CRASH:
             found += 1
             told = answer(timeline, None)
             text = str(told.pop("text"))
@@ -109,9 +109,9 @@ def test_that_there_was_no_crash_is_an_answer(ticks: int, tick: int | None, text
 def test_who_drove_is_told() -> None:
     timeline = Timeline(Config(seed=3, potholes=0, vehicles=0, attentive=0.0))
     timeline.apply(1, [SetMode(mode=Mode.MANUAL)])
-    column, row = timeline.run.world.road.cell(timeline.run.world.av)
+    column, row = timeline.state.world.road.cell(timeline.state.world.av)
     timeline.apply(2, [Add(kind="vehicle", count=1, where=Where(cell=(column - 2, row)))])
-    while timeline.run.world.outcome is Outcome.RUNNING:
+    while timeline.state.world.outcome is Outcome.RUNNING:
         timeline.advance()
     text = str(answer(timeline)["text"])
     assert "You were driving." in text

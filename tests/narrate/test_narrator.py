@@ -11,9 +11,9 @@ from service.narrate import Narrator
 from service.sessions.facts import Asked
 from sim.actions import Add, Drive, Prefer, Remove, Reset, Scenario, SetCount, SetMode, Where, WorldAction
 from sim.config import Config
-from sim.kinds import Mode, Move
-from sim.run import Run, advance
-from sim.timeline import Timeline
+from sim.session.timeline import Timeline
+from sim.state import SimState, step
+from sim.types import Mode, Move
 from tests.sim.explain.moments import moments
 from tests.sim.roads import road, run_on
 
@@ -33,9 +33,9 @@ def answer(timeline: Timeline, **ask: object) -> dict[str, object]:
     return NARRATOR.answer(Asked(Ask(**ask), timeline))  # type: ignore[arg-type]
 
 
-def replied(run: Run, action: WorldAction) -> str:
+def replied(run: SimState, action: WorldAction) -> str:
     timeline = Timeline(run.config)
-    timeline.run = run
+    timeline.state = run
     return NARRATOR.done(tuple(timeline.apply(1, [action])))
 
 
@@ -57,7 +57,7 @@ def test_wishes_of_one_utterance_are_told_once() -> None:
 
 def test_a_why_names_its_causes_and_the_flip() -> None:
     timeline = Timeline(run_on(road("........", "........", "...o....", "...A....")).config)
-    timeline.run = run_on(road("........", "........", "...o....", "...A...."))
+    timeline.state = run_on(road("........", "........", "...o....", "...A...."))
     timeline.advance()
     told = answer(timeline, about="why")
     assert told["text"] == (
@@ -121,18 +121,18 @@ def test_a_reply_says_what_was_done(action: WorldAction, words: str) -> None:
 
 
 def test_every_decision_and_event_reads_like_a_sentence() -> None:
-    run = Run.start(Config(seed=9, potholes=30, pedestrians=3))
+    run = SimState.start(Config(seed=9, potholes=30, pedestrians=3))
     for _ in range(600):
-        moved = advance(run)
+        moved = step(run)
         if moved.decision is not None:
             assert looks_like_sentences(NARRATOR.decision(moved.decision, run))
         for event in moved.events:
-            assert looks_like_sentences(NARRATOR.event(event, moved.run)), event
-        run = moved.run
+            assert looks_like_sentences(NARRATOR.event(event, moved.state)), event
+        run = moved.state
 
 
 def test_things_taken_away_one_after_another_are_told_at_once() -> None:
     timeline = Timeline(Config(seed=4, barriers=3))
-    ids = [name for name in timeline.run.world.hazards.values() if name.startswith("barrier-")]
+    ids = [name for name in timeline.state.world.hazards.values() if name.startswith("barrier-")]
     removals = [Remove(kind="barrier", count=1, where=Where(id=name)) for name in ids]
     assert NARRATOR.done(tuple(timeline.apply(1, removals))) == "Removed 3 barriers: barriers 3 → 0."

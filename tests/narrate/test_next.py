@@ -11,21 +11,21 @@ from service.actions import Ask
 from service.narrate import Narrator
 from service.sessions.facts import Asked
 from sim.config import Config
-from sim.kinds import Mode, Move, Outcome
 from sim.metrics import Metrics
-from sim.run import Run, advance
-from sim.timeline import Timeline
+from sim.session.timeline import Timeline
+from sim.state import SimState, step
+from sim.types import Mode, Move, Outcome
 from tests.narrate.test_narrator import ids_in, looks_like_sentences
-from tests.sim.explain.check_whatif import sessions
+from tests.sim.explain.check_what_if import sessions
 from tests.sim.roads import road, run_on
 
 NARRATOR = Narrator.load()
 HOLE = run_on(road(*["........"] * 7, "...o....", "........", "...A...."))
 
 
-def told(run: Run, about: Any, metric: Any = None) -> str:
+def told(run: SimState, about: Any, metric: Any = None) -> str:
     timeline = Timeline(run.config)
-    timeline.run = run
+    timeline.state = run
     return str(NARRATOR.answer(Asked(Ask(about=about, metric=metric), timeline))["text"])
 
 
@@ -104,10 +104,10 @@ def test_every_end_is_summed_up() -> None:
     said = set()
     for seed in range(40):
         config = Config(seed=seed, rows=10, potholes=(None, 14, 25)[seed % 3], planner="priority")
-        run = Run.start(config.with_parts(attentive=float(seed % 2), repetition=seed % 4 < 2))
+        run = SimState.start(config.with_parts(attentive=float(seed % 2), repetition=seed % 4 < 2))
         while run.world.outcome is Outcome.RUNNING:
-            moved = advance(run)
-            run = moved.run
+            moved = step(run)
+            run = moved.state
         text = NARRATOR.event(moved.events[-1], run)
         assert looks_like_sentences(text), text
         assert text.startswith(ENDS)
@@ -131,6 +131,6 @@ def test_every_end_is_summed_up() -> None:
 def test_an_arrival_read_aloud(rows: list[str], words: str) -> None:
     run = run_on(road(*rows))
     while run.world.outcome is Outcome.RUNNING:
-        moved = advance(run)
-        run = moved.run
+        moved = step(run)
+        run = moved.state
     assert NARRATOR.event(moved.events[-1], run) == words

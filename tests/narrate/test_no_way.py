@@ -12,15 +12,15 @@ from service.narrate.naming import Naming
 from service.narrate.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.config import Config
-from sim.course import Course
+from sim.episode_record import EpisodeRecord
 from sim.events import Event, EventType
 from sim.explain.summary import summary
-from sim.kinds import Mode, Move, Outcome
-from sim.optimum.least import can_arrive
-from sim.run import Run, advance, decide
-from sim.timeline import Timeline
+from sim.oracle.lower_bounds import can_arrive
+from sim.render.hud import _told
+from sim.session.timeline import Timeline
+from sim.state import SimState, decide, step
 from sim.transition import transition
-from sim.view.hud import _told
+from sim.types import Mode, Move, Outcome
 from tests.narrate.test_narrator import looks_like_sentences
 from tests.sim.roads import road, run_on
 
@@ -29,16 +29,16 @@ SAYINGS = Sayings.load()
 CLOSED = road("........", "########", "........", "........", "...A....")
 
 
-def said(run: Run) -> str:
+def said(run: SimState) -> str:
     decision = decide(run)
     assert decision is not None
     return NARRATOR.decision(decision, run)
 
 
-def driven(run: Run) -> list[Run]:
+def driven(run: SimState) -> list[SimState]:
     runs = [run]
     while runs[-1].world.outcome is Outcome.RUNNING:
-        runs.append(advance(runs[-1]).run)
+        runs.append(step(runs[-1]).state)
     return runs
 
 
@@ -123,7 +123,7 @@ def test_a_mover_that_cuts_across_is_told_in_the_decision_and_in_the_crash() -> 
     )
     assert NARRATOR.event(held.events[0], run).startswith("You asked for diagonally left, but the car")
     crossed = transition(run.world, Move.FORWARD_LEFT, run.config)
-    course = Course().after(
+    course = EpisodeRecord().after(
         run.world,
         crossed,
         Move.FORWARD_LEFT,
@@ -146,7 +146,7 @@ def test_every_end_by_repetition_says_so_and_until_when_a_way_was_open() -> None
     told = set()
     for seed in range(60):
         config = Config(seed=seed, rows=10, columns=5, potholes=16, vehicles=5, planner="priority")
-        runs = driven(Run.start(config))
+        runs = driven(SimState.start(config))
         end = runs[-1]
         found = summary(end)
         if end.world.outcome is not Outcome.STUCK:
@@ -174,9 +174,9 @@ def test_the_end_of_a_repetition_is_told_before_it_comes() -> None:
     assert _told(last) == "41 ticks, 20.5 s"
 
 
-def _timeline(run: Run) -> Timeline:
+def _timeline(run: SimState) -> Timeline:
     timeline = Timeline(run.config)
-    timeline.run = run
+    timeline.state = run
     return timeline
 
 

@@ -7,10 +7,10 @@ import pytest
 from service.narrate import Narrator
 from service.narrate.explained import Explained
 from service.narrate.sayings import Sayings
-from sim.explain.causes import explain_why
-from sim.explain.contrast import explain_why_not
-from sim.kinds import Move
-from sim.run import Run, decide
+from sim.explain.why_causes import explain_why
+from sim.explain.why_not import explain_why_not
+from sim.state import SimState, decide
+from sim.types import Move
 from tests.sim.roads import road, run_on
 
 EXPLAINED = Explained(Sayings.load())
@@ -23,7 +23,7 @@ EVEN = (".......", "o.ooo.o", "...A...", ".......")
 WALLED = (".......", "ooooooo", ".......", "...A...", ".......")
 
 
-def moment(rows: tuple[str, ...]) -> Run:
+def moment(rows: tuple[str, ...]) -> SimState:
     return run_on(road(*rows), planner="rules")
 
 
@@ -87,7 +87,7 @@ def test_what_shuts_a_way_is_told_and_its_removal_makes_the_move() -> None:
     explanation = explain_why_not(moment(DEAD_END), decision, Move.FORWARD)
     (flip,) = explanation.counterfactuals
     after = moment(DEAD_END)
-    without = decide(Run(after.config, after.world.without(frozenset(flip.removed))))
+    without = decide(SimState(after.config, after.world.without(frozenset(flip.removed))))
     assert without is not None
     assert without.move is Move.FORWARD
     assert explanation.verified.sufficient

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from service.narrate.sayings import Sayings
-from sim.forecast import Verdict
-from sim.kinds import Kind, Move, Outcome
+from sim.forecast import StepVerdict
+from sim.types import Kind, Move, Outcome
 
 SAYINGS = Sayings.load()
 
@@ -19,9 +19,9 @@ def test_every_move_has_every_form(move: Move, form: str) -> None:
     assert SAYINGS.move(move, form)
 
 
-@pytest.mark.parametrize("verdict", Verdict)
+@pytest.mark.parametrize("verdict", StepVerdict)
 @pytest.mark.parametrize("tense", ["now", "then"])
-def test_every_verdict_can_be_told(verdict: Verdict, tense: str) -> None:
+def test_every_verdict_can_be_told(verdict: StepVerdict, tense: str) -> None:
     assert "X" in SAYINGS.say("words", "reasons", verdict, tense, who="W", a="A", place="X")
 
 

@@ -11,11 +11,11 @@ from service.actions import Ask
 from service.narrate.sayings import Sayings
 from service.narrate.scene import Scenes
 from service.sessions.facts import Asked
-from sim.explain.scene import look
-from sim.kinds import PLACEABLE, Kind, Outcome
+from sim.explain.scene import describe_percept
 from sim.perceive import perceive
-from sim.run import Run, advance
-from sim.timeline import Timeline
+from sim.session.timeline import Timeline
+from sim.state import SimState, step
+from sim.types import PLACEABLE, Kind, Outcome
 from tests.narrate.test_narrator import ID, looks_like_sentences
 from tests.sim.explain.moments import moments
 from tests.sim.roads import road, run_on
@@ -23,9 +23,9 @@ from tests.sim.roads import road, run_on
 SCENES = Scenes(Sayings.load())
 
 
-def answer(run: Run, kind: Any = None) -> dict[str, Any]:
+def answer(run: SimState, kind: Any = None) -> dict[str, Any]:
     timeline = Timeline(run.config)
-    timeline.run = run
+    timeline.state = run
     return SCENES.answer(Asked(Ask(about="scene", kind=kind), timeline))
 
 
@@ -93,7 +93,7 @@ def test_a_scene_is_told(rows: tuple[str, ...], kind: str | None, text: str) -> 
 
 def test_the_data_have_all_that_words_leave_out() -> None:
     for timeline in moments(80, seed=8):
-        run = timeline.run
+        run = timeline.state
         for kind in (None, *PLACEABLE):
             told = answer(run, kind)
             assert looks_like_sentences(told["text"]), told["text"]
@@ -120,7 +120,9 @@ def test_seconds_and_metres_are_those_of_the_session() -> None:
 
 def test_what_sensors_are_not_sure_of_is_said_with_how_sure_they_are() -> None:
     run = run_on(road("........", "...o....", "...#....", "...A...."))
-    scene = look(perceive(run.world, run.config), run.config, {"pothole-1": 0.7, "barrier-1": 0.9999})
+    scene = describe_percept(
+        perceive(run.world, run.config), run.config, {"pothole-1": 0.7, "barrier-1": 0.9999}
+    )
     assert SCENES.text(scene, run, Kind.POTHOLE).startswith("Yes, one 10 m ahead (70 % sure).")
     assert "a barrier in 0.5 s (right ahead, 99 % sure)" in SCENES.text(scene, run, None)
 
@@ -128,7 +130,7 @@ def test_what_sensors_are_not_sure_of_is_said_with_how_sure_they_are() -> None:
 def test_after_the_end_what_is_seen_is_told_without_a_way_on() -> None:
     run = run_on(road("........", "o.......", "........", "...A...."))
     while run.world.outcome is Outcome.RUNNING:
-        run = advance(run).run
+        run = step(run).run
     told = answer(run)["text"]
     assert (
         told == "The episode has ended (arrived). I see one thing: a pothole 5 m behind in the "

@@ -13,11 +13,11 @@ from service.narrate import Narrator
 from service.sessions.facts import Asked
 from sim.actions import Set
 from sim.config import Config
-from sim.kinds import Mode, Outcome
-from sim.run import Run
-from sim.timeline import Timeline
+from sim.session.timeline import Timeline
+from sim.state import SimState
+from sim.types import Mode, Outcome
 from tests.narrate.test_narrator import ids_in, looks_like_sentences
-from tests.sim.explain.check_whatif import a_change, sessions
+from tests.sim.explain.check_what_if import a_change, sessions
 from tests.sim.roads import road, run_on
 
 NARRATOR = Narrator.load()
@@ -25,9 +25,9 @@ HOLE = run_on(road("........", "........", "........", "...o....", "...A...."))
 REMOVE = {"do": "remove", "kind": "pothole", "count": 1, "where": {"nearest": True}}
 
 
-def asked(run: Run, *change: dict[str, Any]) -> dict[str, Any]:
+def asked(run: SimState, *change: dict[str, Any]) -> dict[str, Any]:
     timeline = Timeline(run.config)
-    timeline.run = run
+    timeline.state = run
     return NARRATOR.answer(Asked(Ask(about="what_if", change=contract.load(list(change))), timeline))
 
 
@@ -95,7 +95,7 @@ def test_driven_by_hand() -> None:
 
 def test_after_the_end_the_next_road_is_meant() -> None:
     timeline = Timeline(Config(seed=2, vehicles=0))
-    while timeline.run.world.outcome is Outcome.RUNNING:
+    while timeline.state.world.outcome is Outcome.RUNNING:
         timeline.advance()
     change = (Set(parameter="planner", value="exact"),)
     told = NARRATOR.answer(Asked(Ask(about="what_if", change=change), timeline))

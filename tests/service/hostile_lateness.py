@@ -21,9 +21,9 @@ from service.store import MemoryStore
 from sim import planner_names
 from sim.actions import SetMode
 from sim.config import Config
-from sim.kinds import Mode
-from tests.sim import faulty_planners
-from tests.sim.hostile_planners import HOSTILE
+from sim.types import Mode
+from tests.sim.plan import faulty_planners
+from tests.sim.plan.hostile_planners import HOSTILE
 
 
 class _Counting(WheelClock):

@@ -11,7 +11,7 @@ from service.sessions.utterance import Utterance
 from service.settings import Settings
 from service.store import EntryRecord, MemoryStore
 from sim.config import Config
-from sim.kinds import Kind
+from sim.types import Kind
 from tests.service.fakes import HandClock
 
 WORDS = Narrator.load()

@@ -14,7 +14,7 @@ from service.sessions.availability import refusal
 from service.sessions.draft import Draft
 from service.sessions.history import History
 from sim.config import Config
-from sim.timeline import Timeline
+from sim.session.timeline import Timeline
 
 OFFERED: list[dict[str, Any]] = [
     {"do": "add", "kind": "pothole", "count": 1},
@@ -109,11 +109,11 @@ def test_units_are_said_as_people_say_them() -> None:
 @pytest.mark.parametrize("action", REFUSED, ids=str)
 def test_what_is_not_offered_says_so(action: dict[str, Any]) -> None:
     draft = Draft(Timeline(Config(seed=2)), False, History())
-    before = draft.timeline.run
+    before = draft.timeline.state
     with pytest.raises(NotAvailable, match=r"^[A-Z].* not available yet.*\.$") as raised:
         draft.perform(1, contract.load([action]))
     assert raised.value.errors[0].field.startswith("actions.0")
-    assert draft.timeline.run == before
+    assert draft.timeline.state == before
 
 
 def test_nothing_is_suggested_that_is_not_offered() -> None:

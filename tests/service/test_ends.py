@@ -17,8 +17,8 @@ from service.sessions.utterance import Utterance
 from service.settings import Settings
 from service.store import MemoryStore
 from sim.config import Config
-from sim.kinds import Outcome
-from sim.timeline import Timeline
+from sim.session.timeline import Timeline
+from sim.types import Outcome
 from tests.service.fakes import HandClock
 
 WORDS = Narrator.load()

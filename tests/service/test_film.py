@@ -10,22 +10,22 @@ import av
 import pytest
 from PIL import Image, ImageSequence
 
-from service.api import film as route
+from service.api import render_video as route
 from service.api.patience import PatientProtocol
 from service.app import create_app
 from service.settings import Settings
 from service.store import MemoryStore
 from sim.config import Config
-from sim.run import Run
-from sim.timeline import Timeline
-from sim.view import film as films
-from sim.view.film import VideoMissingError, film, frames_in, shots
+from sim.render import render_video as films
+from sim.render.video import VideoMissingError, frames_in, render_video, video_shots
+from sim.session.timeline import Timeline
+from sim.state import SimState
 from tests.service.conftest import Service
 from tests.service.fakes import FewSentences, HandClock
 from tests.service.live import running
 
 
-def stretch(ticks: int, **parts: Any) -> list[Run]:
+def stretch(ticks: int, **parts: Any) -> list[SimState]:
     timeline = Timeline(Config(seed=4, potholes=12, **parts))
     for _ in range(ticks):
         timeline.advance()
@@ -46,7 +46,7 @@ def gif(data: bytes) -> tuple[list[Image.Image], int]:
 @pytest.mark.parametrize(("fps", "step_seconds"), [(10, 0.5), (1, 0.3), (7, 0.1), (50, 1.0), (3, 0.5)])
 def test_frames_are_evenly_spaced(fps: int, step_seconds: float) -> None:
     runs = stretch(8, step_seconds=step_seconds)
-    found = list(shots(runs, fps))
+    found = list(video_shots(runs, fps))
     assert len(found) == frames_in(runs, fps) == int(8 * step_seconds * fps + 1e-6) + 1
     times = [(shot.before.world.tick + shot.phase) * step_seconds for shot in found[1:]]
     assert times == pytest.approx([(number + 1) / fps for number in range(len(times))])
@@ -56,23 +56,23 @@ def test_frames_are_evenly_spaced(fps: int, step_seconds: float) -> None:
 
 def test_a_gif_lasts_as_long_as_what_it_shows_and_loops() -> None:
     runs = stretch(6)
-    data = film("road", runs, "gif", fps=30, size=(160, 160))
+    data = render_video("road", runs, "gif", fps=30, size=(160, 160))
     frames, lasts_ms = gif(data)
     assert abs(lasts_ms - 1000 * 91 / 30) <= 5
     assert len(frames) > 60
     assert data.count(b"NETSCAPE2.0") == 1
-    assert film("road", runs, "gif", fps=30, size=(160, 160)) == data, "the same each time"
+    assert render_video("road", runs, "gif", fps=30, size=(160, 160)) == data, "the same each time"
 
 
 def test_a_road_of_another_shape_is_fitted_into_the_first() -> None:
     runs = [*stretch(2), *stretch(2, columns=4, rows=12)]
-    frames, _ = gif(film("schematic", runs, "gif", fps=4, size=(120, 120)))
+    frames, _ = gif(render_video("schematic", runs, "gif", fps=4, size=(120, 120)))
     assert len({frame.size for frame in frames}) == 1
 
 
 def test_an_mp4_has_all_frames() -> None:
     runs = stretch(4)
-    data = film("road", runs, "mp4", fps=25, size=(201, 201))
+    data = render_video("road", runs, "mp4", fps=25, size=(201, 201))
     with av.open(BytesIO(data)) as container:
         (stream,) = container.streams.video
         assert sum(1 for _ in container.decode(stream)) == frames_in(runs, 25) == 51
@@ -81,7 +81,7 @@ def test_an_mp4_has_all_frames() -> None:
 
 def test_what_is_no_film() -> None:
     with pytest.raises(ValueError, match="gif and mp4, not as 'avi'"):
-        film("road", stretch(1), "avi", fps=5, size=(100, 100))
+        render_video("road", stretch(1), "avi", fps=5, size=(100, 100))
 
 
 async def test_from_here_to_there(service: Service) -> None:
@@ -162,14 +162,14 @@ async def test_mp4_without_its_extra_is_refused_with_what_to_do(
     assert answer.json()["type"] == "/problems/not-available"
     assert "pip install 'roadtalk[video]'" in answer.json()["detail"]
     with pytest.raises(VideoMissingError):
-        film("road", stretch(1), "mp4", fps=5, size=(100, 100))
+        render_video("road", stretch(1), "mp4", fps=5, size=(100, 100))
 
 
 async def test_a_film_ends_when_whoever_asked_has_gone(monkeypatch: pytest.MonkeyPatch) -> None:
     ended, begun = asyncio.Event(), asyncio.Event()
     loop, frames = asyncio.get_running_loop(), []
 
-    def watched(view: str, runs: list[Run], form: str, *, turn: films.Turn, **more: Any) -> bytes:
+    def watched(view: str, runs: list[SimState], form: str, *, turn: films.Turn, **more: Any) -> bytes:
         def counted() -> Any:
             frames.append(1)
             loop.call_soon_threadsafe(begun.set)
@@ -180,7 +180,7 @@ async def test_a_film_ends_when_whoever_asked_has_gone(monkeypatch: pytest.Monke
             return turn()
 
         try:
-            return film(view, runs, form, turn=counted, **more)
+            return render_video(view, runs, form, turn=counted, **more)
         finally:
             loop.call_soon_threadsafe(ended.set)
 

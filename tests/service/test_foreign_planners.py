@@ -13,7 +13,7 @@ import pytest
 from sim import planner_names
 from sim.plan import remembered, worker
 from tests.service.conftest import Service
-from tests.sim import faulty_planners
+from tests.sim.plan import faulty_planners
 
 MADE = "/api/v1/sessions"
 PATIENCE_S = 120.0

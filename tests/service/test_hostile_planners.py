@@ -15,8 +15,8 @@ import pytest
 from sim import planner_names
 from sim.plan import remembered, worker
 from tests.service.conftest import Service
-from tests.sim import faulty_planners
-from tests.sim.hostile_planners import HOSTILE, POSING, payload_path
+from tests.sim.plan import faulty_planners
+from tests.sim.plan.hostile_planners import HOSTILE, POSING, payload_path
 
 MADE = "/api/v1/sessions"
 ENOUGH_TICKS = 3
@@ -134,10 +134,10 @@ async def _nothing_of_theirs(service: Service, planner: str, path: str) -> None:
 
 
 def _forecast(run: Any) -> Any:
-    from sim.forecast import foretell
+    from sim.forecast import predict
     from sim.perceive import perceive
 
-    return foretell(perceive(run.world, run.config), 1)
+    return predict(perceive(run.world, run.config), 1)
 
 
 async def test_a_question_is_not_waited_for_on_the_event_loop(service: Service) -> None:

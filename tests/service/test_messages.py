@@ -9,14 +9,14 @@ import orjson
 from service.sessions.messages import changed_message, motion_json
 from service.wire.state import Standing
 from sim.config import Config
-from sim.run import Run, advance
+from sim.state import SimState, step
 
 
 def test_what_moved_does_not_hang_on_the_order_in_which_things_are_kept() -> None:
-    run = Run.start(Config(seed=3, vehicles=12))
+    run = SimState.start(Config(seed=3, vehicles=12))
     told = 0
     for _ in range(12):
-        after = advance(run).run
+        after = step(run).run
         mixed = replace(after.world, movers=dict(reversed(after.world.movers.items())))
         found = motion_json(run.world, after.world)
         assert found == motion_json(run.world, mixed)
@@ -28,7 +28,7 @@ def test_what_moved_does_not_hang_on_the_order_in_which_things_are_kept() -> Non
 
 
 def test_what_has_come_has_moved_and_turned_nowhere() -> None:
-    run = Run.start(Config(seed=3, vehicles=12))
+    run = SimState.start(Config(seed=3, vehicles=12))
     world = run.world
     first = next(iter(world.movers))
     without = world.without({world.movers[first]})
@@ -38,7 +38,7 @@ def test_what_has_come_has_moved_and_turned_nowhere() -> None:
 
 
 def test_the_type_stands_first_whatever_else_is_told() -> None:
-    run = Run.start(Config(seed=3))
+    run = SimState.start(Config(seed=3))
     told = changed_message(Standing("s", False, 1), run, None, "Done.", (), (), {"road": True})
     assert told.startswith(b'{"type":"changed",')
     assert orjson.loads(told)["views"] == {"road": True}

@@ -15,8 +15,8 @@ from service.sessions.utterance import Outcome, Utterance
 from service.settings import Settings
 from service.store import MemoryStore
 from sim.config import Config
-from sim.kinds import Outcome as End
-from sim.timeline import Timeline
+from sim.session.timeline import Timeline
+from sim.types import Outcome as End
 from tests.service.conftest import Service
 from tests.service.fakes import HandClock
 

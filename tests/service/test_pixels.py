@@ -84,7 +84,7 @@ async def test_a_change_is_drawn_and_going_back_is_a_cut(session: Session) -> No
     for _ in range(3):
         session.tick()
     await reel.look(1.0)
-    session.timeline.run = session.timeline.at(1)
+    session.timeline.state = session.timeline.at(1)
     await reel.look(1.1)
     assert read(await slot.next())[:2] == (1, 1.0)
 

@@ -13,8 +13,8 @@ from service.sessions.recording import recording_json
 from service.sessions.rewinding import to_tick
 from service.sessions.session import Session
 from service.store import EntryRecord
-from sim.run import Run
-from sim.timeline import Timeline
+from sim.session.timeline import Timeline
+from sim.state import SimState
 from tests.service.conftest import Service as Http
 from tests.service.talking import ADD, ADD_CARS, PAUSE, REDO, UNDO, Service, do, potholes, recorded
 
@@ -23,7 +23,7 @@ def rewind(ticks: int) -> dict[str, object]:
     return {"do": "rewind", "ticks": ticks}
 
 
-def anew(session: Session) -> Run:
+def anew(session: Session) -> SimState:
     """The state that the present log leads to when it is played from the beginning."""
     timeline = Timeline(session.timeline.config)
     entries = list(session.timeline.entries)
@@ -33,7 +33,7 @@ def anew(session: Session) -> Run:
             timeline.apply(entry.sequence, [entry.action])
         if timeline.tick == session.timeline.tick:
             assert not entries, "nothing stands in the log that is still to come"
-            return timeline.run
+            return timeline.state
         timeline.advance()
 
 

@@ -17,7 +17,7 @@ from service.problems import (
     ProblemError,
 )
 from service.store import EntryRecord, KeptAnswer, MemoryStore, StoreError
-from sim.kinds import Kind
+from sim.types import Kind
 from tests.service.talking import (
     ADD,
     ADD_CARS,

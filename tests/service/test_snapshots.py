@@ -42,10 +42,10 @@ def all_of(session: Session) -> dict[str, Any]:
         "ground": (session.history.ground, session.history.ground_steps, session.history.ground_paused),
         "past": list(session.timeline.between(0, session.timeline.tick)),
         "moments": [
-            (name, each.timeline.run, list(each.timeline.entries))
+            (name, each.timeline.state, list(each.timeline.entries))
             for name, each in session.history.saved.items()
         ],
-        "jumps": [(one.run, other.run, [*one.entries], [*other.entries]) for one, other in jumps],
+        "jumps": [(one.state, other.state, [*one.entries], [*other.entries]) for one, other in jumps],
         "standing": session.standing,
         "state": session.state(),
         "talk": session.conversation.values(),
@@ -351,7 +351,7 @@ async def test_the_sources_of_the_rules_make_the_version() -> None:
 async def test_states_on_the_way_are_fewer_where_there_would_be_too_many(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("sim.timeline.SNAPSHOT_TICKS", 8)
+    monkeypatch.setattr("sim.session.timeline.SNAPSHOT_TICKS", 8)
     service = Service(snapshot_work=10**6)
     session = await service.session(Config(seed=5, potholes=3, vehicles=5), paused=True)
     for number in range(12):

@@ -15,7 +15,7 @@ from service.sessions.watchers import Notice, Watchers
 from service.settings import Settings
 from service.store import MemoryStore, SessionRecord
 from sim.config import Config
-from sim.timeline import Timeline
+from sim.session.timeline import Timeline
 from tests.service.fakes import HandClock
 from tests.service.test_clock import Time
 

@@ -8,7 +8,7 @@ from service.narrate import Narrator
 from service.narrate.sayings import Sayings
 from service.sessions.messages import motion_json
 from sim.config import Config
-from sim.run import Run, advance, decide
+from sim.state import SimState, decide, step
 from sim.world import World
 
 TICKS = 60
@@ -36,10 +36,10 @@ def looked_at(before: World, after: World) -> dict[str, object]:
     "config", roads(), ids=lambda config: f"{config.columns}x{config.rows} {config.seed}"
 )
 def test_what_moved_and_turned_is_what_a_look_at_every_thing_gives(config: Config) -> None:
-    run = Run.start(config)
+    run = SimState.start(config)
     moves = 0
     for _ in range(TICKS):
-        after = advance(run).run
+        after = step(run).run
         if after.world.episode == run.world.episode:
             told = motion_json(run.world, after.world)
             expected = looked_at(run.world, after.world)
@@ -56,7 +56,7 @@ def test_what_moved_and_turned_is_what_a_look_at_every_thing_gives(config: Confi
 def test_what_is_said_from_memory_is_what_would_be_said_anew(config: Config) -> None:
     sayings = Sayings.load()
     remembering, told = Narrator(sayings), set()
-    run = Run.start(config)
+    run = SimState.start(config)
     for _ in range(TICKS):
         decision = decide(run)
         if decision is not None:
@@ -64,5 +64,5 @@ def test_what_is_said_from_memory_is_what_would_be_said_anew(config: Config) -> 
             said = remembering.decision(decision, run)
             assert said == remembering.decision(decision, run) == anew.decision(decision, run)
             told.add(said)
-        run = advance(run).run
+        run = step(run).run
     assert len(told) >= 2

@@ -9,7 +9,7 @@ import pytest
 from service.sessions.messages import tick_message
 from service.wire.state import Standing
 from sim.config import Config
-from sim.run import Run, advance
+from sim.state import SimState, step
 from tests.service.test_tick_message import TICKS, roads
 
 SENT = {1: "45287be357b9314cdd82bdff1d2bebf9", 2: "c93cb4d0551258ed8c4e9ddb214ee01c"}
@@ -20,13 +20,13 @@ NOWHERE = Standing("s", paused=False, sequence=0)
 
 def sent(config: Config) -> list[bytes]:
     """What is told of every tick but those that begin a road: that is a state, which may come to say more."""
-    run, told = Run.start(config), []
+    run, told = SimState.start(config), []
     for sequence in range(TICKS):
-        tick = advance(run)
-        if tick.run.world.episode == run.world.episode:
+        tick = step(run)
+        if tick.state.world.episode == run.world.episode:
             words = None if tick.decision is None else f"{tick.decision.move}."
-            told.append(tick_message(sequence, lambda: NOWHERE, run, tick.run, tick.decision, words, ()))
-        run = tick.run
+            told.append(tick_message(sequence, lambda: NOWHERE, run, tick.state, tick.decision, words, ()))
+        run = tick.state
     return told
 
 

@@ -8,13 +8,13 @@ from pathlib import Path
 environ["SDL_VIDEODRIVER"] = "dummy"
 
 import pygame
+from sim.rules.bodies import SIZES
 
-from sim.bodies import SIZES
-from sim.kinds import Kind, Move
-from sim.view import theme
-from sim.view.motion import Pose, poses
-from sim.view.sprites import av_sprite, barrier_sprite, pedestrian_sprite, pothole_sprite, vehicle_sprite
-from sim.view.text import written
+from sim.render import theme
+from sim.render.motion import Pose, poses
+from sim.render.sprites import av_sprite, barrier_sprite, pedestrian_sprite, pothole_sprite, vehicle_sprite
+from sim.render.text import written
+from sim.types import Kind, Move
 from tests.sim.contacts import MIDDLE, Case, worlds
 
 PX = 96

@@ -2,7 +2,7 @@
 
     python -m tests.sim.drawn_overlaps --episodes 200
 
-The poses are those the window draws (`sim.view.motion.poses`), at 30 steps a tick. What is seen is what is
+The poses are those the window draws (`sim.render.motion.poses`), at 30 steps a tick. What is seen is what is
 judged exactly when there is no such frame.
 """
 
@@ -13,10 +13,10 @@ from collections import Counter
 from dataclasses import dataclass, field
 
 from sim.config import Config
-from sim.kinds import Move, Outcome
 from sim.planner_names import names
-from sim.run import Run, advance
-from sim.view.motion import STEP_FRAMES, Box, Scene, poses
+from sim.render.motion import STEP_FRAMES, Box, Scene, poses
+from sim.state import SimState, step
+from sim.types import Move, Outcome
 
 TOUCHING = 1e-9
 """sides that meet, within rounding"""
@@ -52,18 +52,18 @@ def overlaps(seen: Scene) -> list[int]:
 
 def watch(config: Config, found: Found) -> None:
     """One episode, looked at frame by frame."""
-    run = Run.start(config)
-    while run.world.outcome is Outcome.RUNNING:
-        tick = advance(run)
-        before, run = run.world, tick.run
+    state = SimState.start(config)
+    while state.world.outcome is Outcome.RUNNING:
+        tick = step(state)
+        before, state = state.world, tick.state
         assert tick.decision is not None
-        crashed = run.world.outcome is Outcome.CRASH
+        crashed = state.world.outcome is Outcome.CRASH
         found.crashes += crashed
         found.ticks += not crashed
         cells = {thing.id: thing.cell for thing in before.things()}
         seen_any = False
         for frame in range(STEP_FRAMES + 1):
-            seen = poses(before, run.world, frame / STEP_FRAMES)
+            seen = poses(before, state.world, frame / STEP_FRAMES)
             over = overlaps(seen)
             if crashed:
                 found.in_crashes += bool(over)

@@ -10,11 +10,11 @@ from sim.actions import (
     PlaceableKind,
     WorldAction,
 )
-from sim.edit import Applied, EditError, apply
-from sim.kinds import Kind
-from sim.road import bits
-from sim.run import Run
+from sim.session.edits import Applied, EditError, apply
+from sim.state import SimState
+from sim.types import Kind
 from sim.world import World
+from sim.world.grid import bits
 from tests.sim.roads import road, run_on
 
 EMPTY = run_on(
@@ -40,25 +40,25 @@ FULL = run_on(
 KINDS: list[PlaceableKind] = ["pothole", "barrier", "vehicle", "pedestrian"]
 
 
-def refusal(run: Run, action: WorldAction) -> EditError:
+def refusal(state: SimState, action: WorldAction) -> EditError:
     """The error of an action; its message is a sentence and the run is as it was."""
-    before = replace(run)
+    before = replace(state)
     with pytest.raises(EditError) as refused:
-        apply(run, action)
+        apply(state, action)
     error = refused.value
-    assert run == before
+    assert state == before
     assert str(error) == error.message
     assert error.message[0].isalnum()
     assert error.message.endswith(".")
     return error
 
 
-def tried(run: Run, action: WorldAction) -> Applied | None:
+def tried(state: SimState, action: WorldAction) -> Applied | None:
     """What an action has done, or None if it was refused in a sentence."""
     try:
-        return apply(run, action)
+        return apply(state, action)
     except EditError:
-        refusal(run, action)
+        refusal(state, action)
         return None
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from sim.actions import Add, Drive, Remove, Reset, Scenario, SetCount, SetMode, Where, WorldAction
 from sim.config import Config
-from sim.kinds import Mode, Move
-from sim.timeline import Timeline
+from sim.session.timeline import Timeline
+from sim.types import Mode, Move
 
 TICKS = 500
 CONFIG = Config(seed=123456789, potholes=12, pedestrians=3, barriers=2, courtesy=0.3)
@@ -39,7 +39,7 @@ def digests() -> list[str]:
     told = []
     for tick in range(TICKS):
         timeline.apply(tick, SCRIPT.get(tick, ()))
-        world = timeline.run.world
+        world = timeline.state.world
         ids = ",".join(f"{cell}:{name}" for cell, name in sorted({**world.movers, **world.hazards}.items()))
         told.append(f"{tick} {world.digest()} {world.episode} {world.outcome} {ids}")
         timeline.advance()

@@ -7,12 +7,11 @@ from typing import Any
 
 from hypothesis import strategies as st
 
-from sim import notation
 from sim.config import Config
-from sim.kinds import Kind
-from sim.road import Road, board_of
-from sim.run import Run
-from sim.world import World
+from sim.state import SimState
+from sim.types import Kind
+from sim.world import World, notation
+from sim.world.grid import Road, board_of
 
 
 def road(*rows: str, tick: int = 0, lines: tuple[str, ...] = ()) -> World:
@@ -21,7 +20,7 @@ def road(*rows: str, tick: int = 0, lines: tuple[str, ...] = ()) -> World:
     return notation.read("\n".join((head, *rows, *lines)))
 
 
-def run_on(world: World, **parts: Any) -> Run:
+def run_on(world: World, **parts: Any) -> SimState:
     """A run on a given road, with a configuration of its size.
 
     Unless a test says otherwise the rule of the source study drives, and nobody brakes.
@@ -34,7 +33,7 @@ def run_on(world: World, **parts: Any) -> Run:
         planner="priority",
         attentive=0.0,
     )
-    return Run(config.with_parts(**parts), world)
+    return SimState(config.with_parts(**parts), world)
 
 
 def grid(world: World) -> list[str]:

@@ -1,14 +1,15 @@
 """Searches that are slow and plain, over the twin of the rules: the oracle for what claims an optimum.
 
-Sets and dictionaries, one state at a time; nothing of `sim.rules`, `sim.forecast` or `sim.search` is used.
+Sets and dictionaries, one state at a time; nothing of `sim.rules.traffic`, `sim.forecast` or `sim.search` is
+used.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-from sim.kinds import Cell, Move
 from sim.search.costs import Weights
+from sim.types import Cell, Move
 from tests.sim.twin import STEPS, Body, Position, braked_bodies, moved_bodies, will_be_free
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from sim.config import Config
-from sim.kinds import Kind, Mode, Move, Outcome
-from sim.run import Run, repeated
-from sim.view.motion import STEP_FRAMES, leading, poses
+from sim.render.motion import STEP_FRAMES, leading, poses
+from sim.state import SimState, apply_move
+from sim.types import Kind, Mode, Move, Outcome
 from sim.world import World
 from tests.sim.contacts import Case, cases, worlds
 from tests.sim.drawn_overlaps import Found, overlaps, watch
@@ -36,10 +36,10 @@ def test_an_episode_is_watched_tick_by_tick() -> None:
     assert (found.ticks, found.crashes, found.frames, found.overlapping) == (7, 0, 7 * (STEP_FRAMES + 1), 0)
 
 
-def crashed() -> tuple[Run, Run]:
+def crashed() -> tuple[SimState, SimState]:
     """A run and its crash, into a pothole straight ahead."""
-    run = replace(run_on(road("........", "...o....", "...A....", "........")), mode=Mode.MANUAL)
-    return run, repeated(run, Move.FORWARD, by_person=True)
+    state = replace(run_on(road("........", "...o....", "...A....", "........")), mode=Mode.MANUAL)
+    return state, apply_move(state, Move.FORWARD, by_person=True)
 
 
 def test_what_crashed_stays_where_it_touched_while_the_result_stands() -> None:
@@ -60,6 +60,6 @@ def test_a_crash_is_approached() -> None:
     assert early.av.row > late.av.row
 
 
-def _way(run: Run, before: Run | None, phase: float) -> tuple[World, World, float]:
-    start, gone = leading(run, before.world if before else None, phase)
-    return start, run.world, gone
+def _way(state: SimState, before: SimState | None, phase: float) -> tuple[World, World, float]:
+    start, gone = leading(state, before.world if before else None, phase)
+    return start, state.world, gone

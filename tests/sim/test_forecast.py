@@ -6,26 +6,26 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from sim.forecast import Verdict, foretell
-from sim.kinds import Move
+from sim.forecast import StepVerdict, predict
 from sim.perceive import perceive
-from sim.road import bits
-from sim.run import commit
+from sim.state import commit
+from sim.types import Move
 from sim.world import World
+from sim.world.grid import bits
 from tests.sim import twin
 from tests.sim.roads import road, run_on, worlds
 
 
-def expected(world: World, move: Move, horizon: int = 1) -> tuple[Verdict, tuple[str, ...]]:
-    forecast = foretell(perceive(world, run_on(world).config), horizon)
-    return forecast.expect(world.av, world.road.moved(world.av, move))
+def expected(world: World, move: Move, horizon: int = 1) -> tuple[StepVerdict, tuple[str, ...]]:
+    forecast = predict(perceive(world, run_on(world).config), horizon)
+    return forecast.check_step(world.av, world.road.moved(world.av, move))
 
 
 @settings(max_examples=80, deadline=None)
 @given(worlds())
 def test_movers_are_foreseen_where_they_will_be(world: World) -> None:
     horizon = 12
-    forecast = foretell(perceive(world, run_on(world).config), horizon)
+    forecast = predict(perceive(world, run_on(world).config), horizon)
     later = world
     for ahead in range(horizon):
         later = commit(later, Move.STAY, run_on(world).config)
@@ -38,7 +38,7 @@ def test_movers_are_foreseen_where_they_will_be(world: World) -> None:
 @given(worlds())
 def test_courtesy_is_known_for_the_coming_tick(world: World) -> None:
     config = run_on(world, courtesy=0.5, seed=8).config
-    forecast = foretell(perceive(world, config), 1)
+    forecast = predict(perceive(world, config), 1)
     assert forecast.slices.movers(0) == commit(world, Move.STAY, config).movers
 
 
@@ -46,7 +46,7 @@ def test_courtesy_is_known_for_the_coming_tick(world: World) -> None:
 @given(worlds(), st.booleans())
 def test_will_be_free_is_what_the_twin_says(world: World, attentive: bool) -> None:
     """Also of staying, before movers who brake for it."""
-    forecast = foretell(perceive(world, run_on(world, attentive=float(attentive)).config), 1)
+    forecast = predict(perceive(world, run_on(world, attentive=float(attentive)).config), 1)
     now = twin.position(world)
     later = twin.moved_bodies(now)
     for move in Move:
@@ -58,26 +58,26 @@ def test_will_be_free_is_what_the_twin_says(world: World, attentive: bool) -> No
 @pytest.mark.parametrize(
     ("rows", "move", "verdict", "causes"),
     [
-        (("...", "...", ".A.", "..."), Move.FORWARD, Verdict.FREE, ()),
-        (("...", "...", "A..", "..."), Move.LEFT, Verdict.OFF_ROAD, ()),
-        (("...", "...", "..A", "..."), Move.FORWARD_RIGHT, Verdict.OFF_ROAD, ()),
-        (("...", ".o.", ".A.", "..."), Move.FORWARD, Verdict.POTHOLE, ("pothole-1",)),
-        (("...", "..#", ".A.", "..."), Move.FORWARD_RIGHT, Verdict.BARRIER, ("barrier-1",)),
-        (("...", ">..", ".A.", "..."), Move.FORWARD, Verdict.MOVER_ENTERS, ("vehicle-1",)),
-        (("...", "o<o", ".A.", "..."), Move.FORWARD, Verdict.MOVER_STAYS, ("vehicle-1",)),
-        (("...", ".).", ".A.", "..."), Move.FORWARD, Verdict.MOVER_STAYS, ("pedestrian-1",)),
-        (("...", "...", ">A.", "..."), Move.LEFT, Verdict.MOVER_SWAPS, ("vehicle-1",)),
-        (("...", "...", ".A<", "..."), Move.RIGHT, Verdict.MOVER_SWAPS, ("vehicle-1",)),
-        (("...", "...", ">A.", "..."), Move.STAY, Verdict.MOVER_ENTERS, ("vehicle-1",)),
-        (("...", ".}.", ".A.", "..."), Move.FORWARD, Verdict.DISABLED_MOVER, ("pothole-1", "vehicle-1")),
-        (("....", "....", ".A<o", "...."), Move.RIGHT, Verdict.MOVER_SWAPS, ("vehicle-1",)),
+        (("...", "...", ".A.", "..."), Move.FORWARD, StepVerdict.FREE, ()),
+        (("...", "...", "A..", "..."), Move.LEFT, StepVerdict.OFF_ROAD, ()),
+        (("...", "...", "..A", "..."), Move.FORWARD_RIGHT, StepVerdict.OFF_ROAD, ()),
+        (("...", ".o.", ".A.", "..."), Move.FORWARD, StepVerdict.POTHOLE, ("pothole-1",)),
+        (("...", "..#", ".A.", "..."), Move.FORWARD_RIGHT, StepVerdict.BARRIER, ("barrier-1",)),
+        (("...", ">..", ".A.", "..."), Move.FORWARD, StepVerdict.MOVER_ENTERS, ("vehicle-1",)),
+        (("...", "o<o", ".A.", "..."), Move.FORWARD, StepVerdict.MOVER_STAYS, ("vehicle-1",)),
+        (("...", ".).", ".A.", "..."), Move.FORWARD, StepVerdict.MOVER_STAYS, ("pedestrian-1",)),
+        (("...", "...", ">A.", "..."), Move.LEFT, StepVerdict.MOVER_SWAPS, ("vehicle-1",)),
+        (("...", "...", ".A<", "..."), Move.RIGHT, StepVerdict.MOVER_SWAPS, ("vehicle-1",)),
+        (("...", "...", ">A.", "..."), Move.STAY, StepVerdict.MOVER_ENTERS, ("vehicle-1",)),
+        (("...", ".}.", ".A.", "..."), Move.FORWARD, StepVerdict.DISABLED_MOVER, ("pothole-1", "vehicle-1")),
+        (("....", "....", ".A<o", "...."), Move.RIGHT, StepVerdict.MOVER_SWAPS, ("vehicle-1",)),
         # A mover that leaves frees its cell for a vehicle that comes from another row.
-        ((".....", "..>..", "..A..", "....."), Move.FORWARD, Verdict.FREE, ()),
-        ((".....", ".....", ".A>..", "....."), Move.RIGHT, Verdict.FREE, ()),
+        ((".....", "..>..", "..A..", "....."), Move.FORWARD, StepVerdict.FREE, ()),
+        ((".....", ".....", ".A>..", "....."), Move.RIGHT, StepVerdict.FREE, ()),
     ],
 )
 def test_what_a_step_meets(
-    rows: tuple[str, ...], move: Move, verdict: Verdict, causes: tuple[str, ...]
+    rows: tuple[str, ...], move: Move, verdict: StepVerdict, causes: tuple[str, ...]
 ) -> None:
     assert expected(road(*rows), move) == (verdict, causes)
 
@@ -85,14 +85,14 @@ def test_what_a_step_meets(
 def test_nobody_follows_into_a_cell_that_is_left_in_the_same_tick() -> None:
     """So only the one who leaves it is met on the way into it."""
     world = road("....", "....", "A<<.", "....")
-    assert expected(world, Move.RIGHT) == (Verdict.MOVER_SWAPS, ("vehicle-1",))
+    assert expected(world, Move.RIGHT) == (StepVerdict.MOVER_SWAPS, ("vehicle-1",))
 
 
 def test_pedestrians_are_foreseen_in_step() -> None:
     world = road("....", ")...", "..A.", "....")
-    slices = foretell(perceive(world, run_on(world).config), 4).slices
+    slices = predict(perceive(world, run_on(world).config), 4).slices
     assert [min(slices.movers(ahead)) - 4 for ahead in range(4)] == [0, 1, 1, 2]
 
 
 def test_only_free_does_not_block() -> None:
-    assert [verdict for verdict in Verdict if not verdict.blocks] == [Verdict.FREE]
+    assert [verdict for verdict in StepVerdict if not verdict.blocks] == [StepVerdict.FREE]

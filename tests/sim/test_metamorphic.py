@@ -9,14 +9,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from sim.config import Config
-from sim.forecast import foretell
-from sim.kinds import Kind, Move, Outcome
-from sim.optimum import least_ticks
+from sim.forecast import predict
+from sim.oracle import least_ticks
 from sim.perceive import perceive
 from sim.plan import Decision, planner_named
-from sim.road import Board, Road, bits, board_of
-from sim.run import Run, advance, commit, decide
+from sim.state import SimState, commit, decide, step
+from sim.types import Kind, Move, Outcome
 from sim.world import World
+from sim.world.grid import Board, Road, bits, board_of
 from tests.sim import slow_search
 from tests.sim.roads import road, run_on, worlds
 from tests.sim.twin import position
@@ -54,10 +54,12 @@ def mirror(world: World) -> World:
     )
 
 
-def decision(run: Run, planner: str) -> Decision:
+def decision(state: SimState, planner: str) -> Decision:
     found = planner_named(planner)
     assert found is not None
-    return found.decide(foretell(perceive(run.world, run.config), found.horizon(run.config)), run.config)
+    return found.decide(
+        predict(perceive(state.world, state.config), found.horizon(state.config)), state.config
+    )
 
 
 @settings(max_examples=200)
@@ -74,15 +76,15 @@ def test_a_mirrored_road_runs_as_the_mirror_image(world: World, moves: list[Move
 @settings(max_examples=80)
 @given(worlds())
 def test_a_mirrored_decision_weighs_the_same(world: World) -> None:
-    run, image = run_on(world), run_on(mirror(world))
+    state, image = run_on(world), run_on(mirror(world))
     for planner in ("priority", "astar", "exact"):
-        here, there = decision(run, planner), decision(image, planner)
+        here, there = decision(state, planner), decision(image, planner)
         for move in Move:
             option, other = here.option(move), there.option(MIRRORED.get(move, move))
             assert (option.reason, set(option.causes)) == (other.reason, set(other.causes))
             if planner != "priority":  # the rule prefers left, so its ranks are not mirrored
                 assert option.cost == other.cost
-    assert least_ticks(run) == least_ticks(image)
+    assert least_ticks(state) == least_ticks(image)
 
 
 @settings(max_examples=120)
@@ -116,7 +118,7 @@ def test_another_hazard_that_turns_no_mover_never_helps(world: World, data: st.D
     _never_better(run_on(world), run_on(harder))
 
 
-def _never_better(easier: Run, harder: Run) -> None:
+def _never_better(easier: SimState, harder: SimState) -> None:
     before, after = least_ticks(easier), least_ticks(harder)
     assert after is None or (before is not None and after >= before)
 
@@ -125,13 +127,13 @@ def test_a_hazard_that_turns_a_mover_can_open_a_road() -> None:
     """Why the rule above needs its condition: the vehicle that would sweep the only way is held off it."""
     opened = 0
     for seed in range(100):
-        run = Run.start(Config(columns=4, rows=6, seed=seed, vehicles=6, potholes=4, attentive=0.0))
-        before = least_ticks(run)
-        for cell in bits(run.world.road.between & ~run.world.occupied):
-            world = run.world
+        state = SimState.start(Config(columns=4, rows=6, seed=seed, vehicles=6, potholes=4, attentive=0.0))
+        before = least_ticks(state)
+        for cell in bits(state.world.road.between & ~state.world.occupied):
+            world = state.world
             hazards = {**world.hazards, cell: "barrier-99"}
             harder = replace(world, barriers=world.barriers | 1 << cell, hazards=hazards)
-            after = least_ticks(replace(run, world=harder))
+            after = least_ticks(replace(state, world=harder))
             if after is not None and (before is None or after < before):
                 assert slow_search.least_ticks(position(harder)) == after
                 assert slow_search.least_ticks(position(world)) == before
@@ -150,16 +152,16 @@ def test_what_is_behind_changes_nothing(world: World) -> None:
     names = [
         name for table in (world.movers, world.hazards) for cell, name in table.items() if behind >> cell & 1
     ]
-    run, without = run_on(world), run_on(world.without(frozenset(names)))
-    assert least_ticks(run) == least_ticks(without)
+    state, without = run_on(world), run_on(world.without(frozenset(names)))
+    assert least_ticks(state) == least_ticks(without)
     for planner in ("priority", "exact"):
-        here, there = decision(run, planner), decision(without, planner)
+        here, there = decision(state, planner), decision(without, planner)
         assert here == there
     for _ in range(6):
-        run, without = advance(run).run, advance(without).run
-        assert run.world.av == without.world.av
-        assert run.world.outcome is without.world.outcome
-        assert run.world.moving & ~behind == without.world.moving & ~behind
+        state, without = step(state).state, step(without).state
+        assert state.world.av == without.world.av
+        assert state.world.outcome is without.world.outcome
+        assert state.world.moving & ~behind == without.world.moving & ~behind
 
 
 @settings(max_examples=100)
@@ -203,7 +205,7 @@ def test_movers_are_kept_each_in_its_row(world: World) -> None:
 
 @pytest.mark.parametrize("seed", range(5))
 def test_other_numbers_leave_what_is_drawn_elsewhere(seed: int) -> None:
-    few, many = Run.start(Config(seed=seed, potholes=3)), Run.start(Config(seed=seed, potholes=30))
+    few, many = SimState.start(Config(seed=seed, potholes=3)), SimState.start(Config(seed=seed, potholes=30))
     assert few.world.movers == many.world.movers
     assert few.world.potholes & ~many.world.potholes == 0
     assert few.world.count(Kind.POTHOLE) == 3
@@ -218,5 +220,5 @@ def test_ids_do_not_matter() -> None:
     )
     one, other = run_on(world), run_on(renamed)
     while one.world.outcome is Outcome.RUNNING:
-        one, other = advance(one).run, advance(other).run
+        one, other = step(one).state, step(other).state
         assert one.world.digest() == other.world.digest()

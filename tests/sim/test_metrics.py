@@ -10,9 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sim.config import Config
-from sim.kinds import Move, Outcome
 from sim.metrics import Metrics
-from sim.run import Run, advance
+from sim.state import SimState, step
+from sim.types import Move, Outcome
 
 ENDS = [Outcome.SUCCESS, Outcome.CRASH, Outcome.STUCK]
 
@@ -54,20 +54,20 @@ def test_episodes_are_counted_by_their_end(ends: list[tuple[Outcome, int]]) -> N
 def test_a_session_is_counted_as_it_goes(seed: int) -> None:
     # The rule of the source study among drivers who never brake ends in more ways than one.
     config = Config(columns=6, rows=8, seed=seed, potholes=9, cell_m=4.0, planner="priority", attentive=0.0)
-    run = Run.start(config)
+    state = SimState.start(config)
     ends: list[Outcome] = []
     moves: list[Move] = []
     for _ in range(400):
-        was = run.world.outcome
-        tick = advance(run)
-        run = tick.run
+        was = state.world.outcome
+        tick = step(state)
+        state = tick.state
         if tick.decision is not None:
             moves.append(tick.decision.move)
-        if was is Outcome.RUNNING and run.world.outcome is not was:
-            ends.append(run.world.outcome)
-            assert run.metrics.last_episode_ticks == run.world.episode_tick
+        if was is Outcome.RUNNING and state.world.outcome is not was:
+            ends.append(state.world.outcome)
+            assert state.metrics.last_episode_ticks == state.world.episode_tick
     assert len(set(ends)) > 1
-    assert run.metrics.episodes == len(ends)
-    assert run.metrics.successes == ends.count(Outcome.SUCCESS)
-    assert run.metrics.steps == len(moves), "no step is counted while a result stands"
-    assert isclose(run.metrics.distance_m, sum(4.0 * hypot(*move.offset) for move in moves))
+    assert state.metrics.episodes == len(ends)
+    assert state.metrics.successes == ends.count(Outcome.SUCCESS)
+    assert state.metrics.steps == len(moves), "no step is counted while a result stands"
+    assert isclose(state.metrics.distance_m, sum(4.0 * hypot(*move.offset) for move in moves))

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sim.randomness import MAX_SEED, Stream, mix
-from sim.road import bits, cells_of
+from sim.world.grid import bits, cells_of
 
 PURPOSES = ("spawn vehicle", "spawn pothole", "heading", "courtesy", "edit")
 

@@ -12,9 +12,9 @@ from math import sqrt
 import pytest
 
 from sim.config import Config
-from sim.kinds import Outcome
 from sim.metrics import Metrics
-from sim.run import Run, advance
+from sim.state import SimState, step
+from sim.types import Outcome
 
 SOURCE = Config(planner="priority", collision="cell", attentive=0.0, repetition=False)
 """The rules that the sketch goes by: those of the source study."""
@@ -23,12 +23,12 @@ SKETCH_WORLDS = 2000
 ROUNDING = 0.01
 
 
-def driven(seed: int, potholes: int | None) -> Run:
+def driven(seed: int, potholes: int | None) -> SimState:
     """The first episode of a seed, to its end."""
-    run = Run.start(SOURCE.with_parts(seed=seed, potholes=potholes))
-    while run.world.outcome is Outcome.RUNNING:
-        run = advance(run).run
-    return run
+    state = SimState.start(SOURCE.with_parts(seed=seed, potholes=potholes))
+    while state.world.outcome is Outcome.RUNNING:
+        state = step(state).state
+    return state
 
 
 @pytest.mark.parametrize(
@@ -37,21 +37,21 @@ def driven(seed: int, potholes: int | None) -> Run:
 )
 def test_how_often_the_rule_planner_arrives(potholes: int | None, measured: float, worlds: int) -> None:
     runs = [driven(seed, potholes) for seed in range(worlds)]
-    share = sum(run.metrics.successes for run in runs) / worlds
+    share = sum(state.metrics.successes for state in runs) / worlds
     error = sqrt(measured * (1 - measured) * (1 / worlds + 1 / SKETCH_WORLDS))
     assert abs(share - measured) < 3.3 * error + ROUNDING
 
 
 def test_the_drive_takes_about_35_ticks_and_goes_forward_most_of_the_time() -> None:
     runs = [driven(seed, None) for seed in range(1000, 1100)]
-    arrived = [run.world.episode_tick for run in runs if run.world.outcome is Outcome.SUCCESS]
+    arrived = [state.world.episode_tick for state in runs if state.world.outcome is Outcome.SUCCESS]
     assert min(arrived) >= 29, "29 rows, one a tick"
     assert 33.0 < sum(arrived) / len(arrived) < 38.0
     total = Metrics(
-        forward=sum(run.metrics.forward for run in runs),
-        lateral=sum(run.metrics.lateral for run in runs),
-        diagonal=sum(run.metrics.diagonal for run in runs),
-        stay=sum(run.metrics.stay for run in runs),
+        forward=sum(state.metrics.forward for state in runs),
+        lateral=sum(state.metrics.lateral for state in runs),
+        diagonal=sum(state.metrics.diagonal for state in runs),
+        stay=sum(state.metrics.stay for state in runs),
     )
     assert total.forward / total.steps > 0.6
     assert total.forward > total.lateral > total.diagonal > total.stay

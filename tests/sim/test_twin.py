@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from sim.config import Collision
-from sim.kinds import Kind, Mode, Move, Outcome
-from sim.run import Run, advance
+from sim.state import SimState, step
+from sim.types import Kind, Mode, Move, Outcome
 from sim.world import World
 from tests.sim import twin
 from tests.sim.roads import run_on, worlds
@@ -41,16 +41,18 @@ def test_same_state_on_any_crowded_road(
 @settings(max_examples=150, deadline=None)
 @given(worlds(), st.lists(st.sampled_from(list(Move)), min_size=1, max_size=25))
 def test_a_persons_moves_lead_to_the_same_states_and_ends(world: World, moves: list[Move]) -> None:
-    run = Run(run_on(world).config, world, mode=Mode.MANUAL, queue=tuple(moves))
+    state = SimState(run_on(world).config, world, mode=Mode.MANUAL, queue=tuple(moves))
     slow = twin.position(world)
     for asked in moves:
-        tick = advance(run)
+        tick = step(state)
         assert tick.decision is not None
-        granted = asked if twin.outlook(slow, asked, twin.moved_bodies(slow), braking(run))[2] else Move.STAY
+        granted = (
+            asked if twin.outlook(slow, asked, twin.moved_bodies(slow), braking(state))[2] else Move.STAY
+        )
         assert tick.decision.move is granted
-        _, slow = twin.step(slow, granted, (), braking(run))
-        run = tick.run
-        assert twin.position(run.world) == slow
+        _, slow = twin.step(slow, granted, (), braking(state))
+        state = tick.state
+        assert twin.position(state.world) == slow
         if slow.outcome is not Outcome.RUNNING:
             return
 
@@ -59,20 +61,20 @@ def test_a_persons_moves_lead_to_the_same_states_and_ends(world: World, moves: l
 def test_the_result_of_an_episode_stands_still(part: int) -> None:
     random = Random(f"standing {part}")
     for _ in range(15):
-        run = random_run(random)
-        while run.world.outcome is Outcome.RUNNING:
-            run = advance(run).run
-        ended = twin.position(run.world)
-        for later in range(1, run.config.reset_delay_ticks):
-            tick = advance(run)
-            run = tick.run
+        state = random_run(random)
+        while state.world.outcome is Outcome.RUNNING:
+            state = step(state).state
+        ended = twin.position(state.world)
+        for later in range(1, state.config.reset_delay_ticks):
+            tick = step(state)
+            state = tick.state
             assert tick.decision is None
-            assert twin.position(run.world).bodies == ended.bodies
-            assert twin.position(run.world).av == ended.av
-            assert run.world.tick == ended.tick + later
-        run = advance(run).run
-        assert (run.world.episode, run.world.episode_tick) == (2, 0)
-        assert run.world.count(Kind.AV) == 1
+            assert twin.position(state.world).bodies == ended.bodies
+            assert twin.position(state.world).av == ended.av
+            assert state.world.tick == ended.tick + later
+        state = step(state).state
+        assert (state.world.episode, state.world.episode_tick) == (2, 0)
+        assert state.world.count(Kind.AV) == 1
 
 
 def test_all_that_is_to_be_compared_happens() -> None:

@@ -13,7 +13,7 @@ from collections.abc import Collection, Hashable
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
-from sim.kinds import Cell, Kind, Move, Outcome
+from sim.types import Cell, Kind, Move, Outcome
 from sim.world import World
 
 SIDE = {"left": -1, "right": 1}

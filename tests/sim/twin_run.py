@@ -13,54 +13,55 @@ from collections import Counter
 from dataclasses import replace
 from random import Random
 
+from sim.rules.yielding import attentive_movers, yielding_movers
+
 from sim.actions import Add, Where
 from sim.config import Config
-from sim.courtesy import attentive, yielding
-from sim.edit import apply
-from sim.kinds import Cell, Outcome
-from sim.road import Board, bits
-from sim.run import Run, advance
+from sim.session.edits import apply
+from sim.state import SimState, step
+from sim.types import Cell, Outcome
+from sim.world.grid import Board, bits
 from tests.sim import twin
 
 
-def cells(run: Run, board: Board) -> set[Cell]:
+def cells(state: SimState, board: Board) -> set[Cell]:
     """The cells of a board."""
-    return {run.world.road.cell(cell) for cell in bits(board)}
+    return {state.world.road.cell(cell) for cell in bits(board)}
 
 
-def courteous(run: Run) -> set[Cell]:
+def courteous(state: SimState) -> set[Cell]:
     """The draw the twin cannot make: which movers give way this tick."""
-    return cells(run, yielding(run.world, run.config))
+    return cells(state, yielding_movers(state.world, state.config))
 
 
-def braking(run: Run) -> set[Cell]:
+def braking(state: SimState) -> set[Cell]:
     """The other one: which movers brake for the vehicle if it stays in this tick."""
-    return cells(run, attentive(run.world, run.config))
+    return cells(state, attentive_movers(state.world, state.config))
 
 
-def drive_both(run: Run, ticks: int) -> Counter[str]:
+def drive_both(state: SimState, ticks: int) -> Counter[str]:
     """Advance both until the episode ends, comparing everything there is to compare.
 
     Returns how many ticks there were (`ticks`) and what happened in them.
     """
-    slow, memory, counted = twin.position(run.world), twin.Memory(), Counter[str]()
-    config = run.config
+    slow, memory, counted = twin.position(state.world), twin.Memory(), Counter[str]()
+    config = state.config
     remembers = config.repetition and config.courtesy == 0 and config.attentive in (0, 1)
     for _ in range(ticks):
-        gives_way, brakes, swept = courteous(run), braking(run), config.collision == "swept"
+        gives_way, brakes, swept = courteous(state), braking(state), config.collision == "swept"
         before, moved = slow, twin.moved_bodies(slow, gives_way)
         move, slow = twin.step(before, None, gives_way, brakes, swept=swept)
         repeats = slow.outcome is Outcome.RUNNING and remembers and memory.noticed(slow)
         if repeats:
             slow = replace(slow, outcome=Outcome.STUCK)
-        tick = advance(run)
-        run = tick.run
+        tick = step(state)
+        state = tick.state
         assert tick.decision is not None
-        assert tick.decision.move is move, (run, move)
+        assert tick.decision.move is move, (state, move)
         for option in tick.decision.options:
             free = twin.outlook(before, option.move, moved, brakes, swept=swept)[2]
-            assert free is (not option.reason.blocks), (run, option)
-        assert twin.position(run.world) == slow, (run, slow)
+            assert free is (not option.reason.blocks), (state, option)
+        assert twin.position(state.world) == slow, (state, slow)
         counted["ticks"] += 1
         counted["braked"] += slow.bodies != moved
         if slow.outcome is not Outcome.RUNNING:
@@ -69,7 +70,7 @@ def drive_both(run: Run, ticks: int) -> Counter[str]:
     return counted
 
 
-def random_run(random: Random) -> Run:
+def random_run(random: Random) -> SimState:
     """A run on a road of any size and density, by any of the rules, some movers held by potholes."""
     columns, rows = random.randint(3, 12), random.randint(4, 40)
     room = columns * (rows - 2)
@@ -88,15 +89,15 @@ def random_run(random: Random) -> Run:
         barriers=some(0.1),
         pedestrians=some(0.3),
         courtesy=random.choice((0.0, 0.0, 0.5, 1.0)),
-        attentive=random.choice((1.0, 1.0, 0.5, 0.0)),
+        attentive_movers=random.choice((1.0, 1.0, 0.5, 0.0)),
         collision=random.choice(("swept", "swept", "cell")),
         repetition=random.random() < 0.8,
     )
-    run = Run.start(config)
-    for thing in list(run.world.things()):
+    state = SimState.start(config)
+    for thing in list(state.world.things()):
         if thing.kind.moves and random.random() < 0.1:
-            run = apply(run, Add(kind="pothole", count=1, where=Where(cell=thing.cell))).run
-    return run
+            state = apply(state, Add(kind="pothole", count=1, where=Where(cell=thing.cell))).state
+    return state
 
 
 def main() -> int:

@@ -8,8 +8,8 @@ import pytest
 from service.window.layout import body_of
 from service.window.look import CARD, GROUND
 from sim.config import Config
-from sim.kinds import Kind, Outcome
-from sim.view import theme
+from sim.render import theme
+from sim.types import Kind, Outcome
 from tests.window.conftest import Open
 from tests.window.driver import CARELESS, Driver
 

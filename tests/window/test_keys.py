@@ -10,7 +10,7 @@ import pytest
 from service.window.keys import KEYS
 from service.window.panels import PANELS
 from sim.config import Config
-from sim.kinds import Mode
+from sim.types import Mode
 from tests.window.conftest import Open
 from tests.window.driver import Driver
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pygame
 
 from service.window.look import ACCENT
-from sim.kinds import Kind
-from sim.run import Run
-from sim.view.theme import REFUSED
+from sim.render.theme import REFUSED
+from sim.state import SimState
+from sim.types import Kind
 from tests.window.conftest import Open
 
 
@@ -35,7 +35,7 @@ def test_the_road_behind_is_the_one_that_is_driven(window: Open) -> None:
     driver.type("17")
     shown = driver.window.start._tick
     assert shown is not None
-    first = Run.start(shown.run.config).world.digest()
+    first = SimState.start(shown.run.config).world.digest()
     driver.press(pygame.K_RETURN)
     assert driver.game.session.run.world.digest() == first
 

@@ -8,7 +8,7 @@ import pytest
 from service.window.exchange import Exchange
 from service.window.keys import EXAMPLES
 from service.window.look import ACCENT
-from sim.kinds import Kind, Outcome
+from sim.types import Kind, Outcome
 from tests.window.conftest import Open
 from tests.window.driver import CARELESS, Driver
 

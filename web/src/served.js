@@ -1,6 +1,6 @@
 // @ts-check
 /**
- * Where cells are on a picture that the service has drawn (`sim/view/camera.py`), so that it can be pointed at and
+ * Where cells are on a picture that the service has drawn (`sim/render/camera.py`), so that it can be pointed at and
  * touched like the page's own. Pure.
  */
 

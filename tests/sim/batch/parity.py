@@ -15,9 +15,9 @@ from dataclasses import dataclass
 
 from sim.batch import Batch
 from sim.config import Config, ConfigError
-from sim.generate import GenerationError
+from sim.generation import GenerationError
 from sim.metrics import Metrics
-from sim.run import Run, advance
+from sim.state import SimState, step
 
 LANES_OF_A_SIZE = 10
 
@@ -76,14 +76,14 @@ def difference(configs: list[Config], ticks: int) -> Difference | None:
     configs = [config for config in configs if _has_a_road(config)]
     if not configs:
         return None
-    batch, runs = Batch(configs), [Run.start(config) for config in configs]
+    batch, runs = Batch(configs), [SimState.start(config) for config in configs]
     for tick in range(ticks + 1):
         for lane, run in enumerate(runs):
             if batch.digest(lane) != run.world.digest():
                 return Difference(run.config, tick, "state")
         if tick < ticks:
             batch.run(1)
-            runs = [advance(run).run for run in runs]
+            runs = [step(run).state for run in runs]
     totals = batch.totals()
     for lane, run in enumerate(runs):
         if any(getattr(run.metrics, name) != getattr(totals, name)[lane] for name in COUNTED):
@@ -94,7 +94,7 @@ def difference(configs: list[Config], ticks: int) -> Difference | None:
 def _has_a_road(config: Config) -> bool:
     """Whether a road can be drawn; both engines must say the same."""
     try:
-        Run.start(config)
+        SimState.start(config)
     except GenerationError:
         try:
             Batch([config])

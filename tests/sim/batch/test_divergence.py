@@ -8,8 +8,8 @@ import pytest
 
 from sim.batch import first_divergence
 from sim.config import Config
-from sim.kinds import Outcome
-from sim.run import Run, advance
+from sim.state import SimState, step
+from sim.types import Outcome
 
 # What they use is compiled at first use, once in every worker that has one of them.
 pytestmark = pytest.mark.xdist_group("compiled")
@@ -17,10 +17,10 @@ pytestmark = pytest.mark.xdist_group("compiled")
 
 def parting(config: Config) -> int:
     """The tick at which the rule and the exact planner first differ, one world at a time; −1: never."""
-    one, other = Run.start(config), Run.start(replace(config, planner="exact"))
+    one, other = SimState.start(config), SimState.start(replace(config, planner="exact"))
     while one.world.outcome is other.world.outcome is Outcome.RUNNING:
         tick = one.world.tick
-        one, other = advance(one).run, advance(other).run
+        one, other = step(one).state, step(other).state
         if one.world.av != other.world.av:
             return tick
     return -1

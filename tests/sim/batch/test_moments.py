@@ -7,7 +7,7 @@ import pytest
 
 from sim.batch import Batch
 from sim.config import Config
-from sim.run import Run, next_episode
+from sim.state import SimState, next_episode
 
 pytestmark = pytest.mark.xdist_group("compiled")
 
@@ -49,7 +49,7 @@ def test_a_renewed_lane_is_the_next_episode_and_the_others_stand() -> None:
     batch.renew(chosen)
     for lane in range(len(batch)):
         if chosen[lane]:
-            expected = next_episode(Run.start(CONFIGS[lane]))[0].world
+            expected = next_episode(SimState.start(CONFIGS[lane]))[0].world
             found = batch.world(lane)
             assert (found.episode, found.episode_tick, found.ended) == (2, 0, None)
             assert (found.right, found.left, found.fixed) == (expected.right, expected.left, expected.fixed)
@@ -64,7 +64,7 @@ def test_a_lane_renewed_with_a_seed_is_the_first_episode_of_it() -> None:
     batch.renew(chosen, [None, None, 5, 500, *[None] * 66])
     assert batch.seeds[:5].tolist() == [0, 1, 2, 500, 4]
     assert batch.configs[3].seed == 500
-    expected, found = Run.start(batch.configs[3]).world, batch.world(3)
+    expected, found = SimState.start(batch.configs[3]).world, batch.world(3)
     assert (found.episode, found.right, found.left) == (1, expected.right, expected.left)
 
 

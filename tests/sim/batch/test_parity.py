@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 
 from sim.batch import Batch, BatchPlanner
 from sim.config import Config
-from sim.kinds import Kind, Mode, Move, Outcome
-from sim.run import Run, Tick, advance, decide
+from sim.state import SimState, StepResult, decide, step
 from sim.transition import transition
+from sim.types import Kind, Mode, Move, Outcome
 from sim.world import World
 from tests.sim.batch.parity import difference, mixed_configs
 from tests.sim.roads import road, run_on, worlds
@@ -58,7 +58,7 @@ def test_any_moment_goes_on_the_same_way(world: World, rules: dict[str, Any]) ->
     for _ in range(12):
         assert batch.digest(0) == run.world.digest()
         batch.run(1)
-        run = advance(run).run
+        run = step(run).state
 
 
 @settings(max_examples=150)
@@ -109,7 +109,7 @@ def test_a_mover_brakes_for_a_vehicle_that_stays() -> None:
         run = run_on(walled, planner=planner, attentive=1.0, repetition=False)
         batch = Batch.of([run])
         batch.run(1, name)
-        run = advance(run).run
+        run = step(run).state
         assert run.world.outcome is Outcome.RUNNING
         assert batch.digest(0) == run.world.digest()
     asleep = Batch.of([run_on(walled, attentive=0.0)])
@@ -124,7 +124,7 @@ def test_a_situation_that_repeats_is_stuck_at_the_same_tick() -> None:
     run = run_on(CAGE)
     batch = Batch.of([run], after="stop")
     while run.world.outcome is Outcome.RUNNING:
-        run = advance(run).run
+        run = step(run).state
         batch.run(1)
         assert batch.digest(0) == run.world.digest()
     assert run.world.outcome is Outcome.STUCK
@@ -136,33 +136,33 @@ def test_a_batch_takes_over_what_a_run_has_watched() -> None:
     """From any moment on, a batch notices a repeated situation when the run does."""
     dense = Config(columns=6, rows=12, potholes=16, barriers=6, planner="priority")
     for config in (replace(dense, seed=seed) for seed in range(40)):
-        run = Run.start(config)
+        run = SimState.start(config)
         for _ in range(300):
             if run.world.outcome is not Outcome.RUNNING:
                 break
             batch, after = Batch.of([run], after="stop"), run
             for _ in range(3):
-                after = advance(after).run
+                after = step(after).state
                 batch.run(1)
                 if after.world.outcome is Outcome.RUNNING:
                     assert batch.outcomes[0] == 0
                 else:
                     assert batch.outcomes[0] == list(Outcome).index(after.world.outcome)
                     break
-            run = advance(run).run
+            run = step(run).state
 
 
 def test_moves_handed_in_are_never_repetitions_and_are_forgotten() -> None:
-    run = Run(run_on(CAGE).config, CAGE, mode=Mode.MANUAL)
+    run = SimState(run_on(CAGE).config, CAGE, mode=Mode.MANUAL)
     batch = Batch.of([run], after="stop")
     stay = np.array([MOVES.index(Move.STAY)], np.uint8)
     for _ in range(12):
-        run = advance(run).run
+        run = step(run).state
         batch.step(stay)
         assert batch.digest(0) == run.world.digest()
     run = replace(run, mode=Mode.AUTO)
     for _ in range(3):
-        run = advance(run).run
+        run = step(run).state
         batch.run(1)
         assert batch.digest(0) == run.world.digest()
     assert batch.outcomes[0] == 0
@@ -172,7 +172,7 @@ def test_an_episode_begun_again_has_watched_nothing() -> None:
     batch = Batch.of([run_on(CAGE)], after="restart")
     run, ticks = run_on(CAGE), 0
     while run.world.outcome is Outcome.RUNNING:
-        run, ticks = advance(run).run, ticks + 1
+        run, ticks = step(run).state, ticks + 1
     for episodes in range(1, 5):
         batch.run(ticks)
         assert batch.totals().stuck[0] == episodes
@@ -241,9 +241,9 @@ def test_a_restarting_lane_begins_its_first_road_at_once() -> None:
     config = Config(seed=4, planner="priority")
     batch = Batch([config], after="restart")
     first = batch.world(0)
-    run, ticks = Run.start(config), 0
+    run, ticks = SimState.start(config), 0
     while run.world.outcome is Outcome.RUNNING:
-        run, ticks = advance(run).run, ticks + 1
+        run, ticks = step(run).state, ticks + 1
     batch.run(ticks)
     begun = batch.world(0)
     assert (begun.av, begun.right, begun.left) == (first.av, first.right, first.left)
@@ -259,9 +259,9 @@ def test_a_stopping_batch_plays_one_episode_each() -> None:
     totals = batch.totals()
     assert ((totals.successes + totals.crashes + totals.stuck) == 1).all()
     for lane in range(0, 300, 29):
-        run = Run.start(configs[lane])
+        run = SimState.start(configs[lane])
         while run.world.outcome is Outcome.RUNNING:
-            run = advance(run).run
+            run = step(run).state
         assert batch.outcomes[lane] == list(Outcome).index(run.world.outcome)
         assert totals.forward[lane] == run.metrics.forward
         if run.world.outcome is Outcome.SUCCESS:
@@ -287,8 +287,8 @@ def test_a_lane_can_be_looked_at_as_a_world() -> None:
     counts = {kind: world.count(kind) for kind in (Kind.PEDESTRIAN, Kind.BARRIER)}
     assert counts == {Kind.PEDESTRIAN: 2, Kind.BARRIER: 2}
     assert len({thing.id for thing in world.things()}) == sum(world.counts().values())
-    tick = advance(Run(Config(seed=3, pedestrians=2, barriers=2), world))
-    assert isinstance(tick, Tick)
+    tick = step(SimState(Config(seed=3, pedestrians=2, barriers=2), world))
+    assert isinstance(tick, StepResult)
 
 
 @pytest.mark.parametrize("planner", ["banana", "manual", "Priority", ""])
@@ -320,9 +320,9 @@ def test_planners_that_weigh_costs_go_by_their_own_names(name: BatchPlanner) -> 
     assert (batch.least(name) == batch.least("weighted")).all()
     assert (batch.least(name) != batch.least("exact")).any()
     batch.run_to_end(name)
-    run = Run.start(replace(configs[3], planner=name))
+    run = SimState.start(replace(configs[3], planner=name))
     while run.world.outcome is Outcome.RUNNING:
-        run = advance(run).run
+        run = step(run).state
     assert batch.digest(3) == replace(run.world, tick=int(batch.world(3).tick)).digest()
 
 
@@ -348,4 +348,4 @@ def test_threads_ticks_and_what_follows_an_end_are_checked() -> None:
     with pytest.raises(ValueError, match="next, restart or stop"):
         Batch([Config()], after=wrong)
     with pytest.raises(ValueError, match="next, restart or stop"):
-        Batch.of([Run.start(Config())], after=wrong)
+        Batch.of([SimState.start(Config())], after=wrong)

@@ -11,7 +11,7 @@ import pytest
 
 from sim.config import ConfigError
 from sim.env import RoadEnv, RoadVectorEnv
-from sim.generate import GenerationError
+from sim.generation import GenerationError
 from sim.randomness import MAX_SEED
 
 pytestmark = pytest.mark.xdist_group("compiled")

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from sim.defects import state_defects
 from sim.env import RoadEnv
-from sim.kinds import Outcome
-from sim.packing import Unpacker
+from sim.session.serialization import Unpacker
+from sim.types import Outcome
+from sim.validation import validate_world
 
 
 def test_every_state_of_an_episode_is_without_defects() -> None:
@@ -19,7 +19,7 @@ def test_every_state_of_an_episode_is_without_defects() -> None:
             _, _, terminated, truncated, info = env.step(int(action))
             state = env.get_state()
             world = Unpacker(state).runs[state["run"]].world
-            assert state_defects(world) == ()
+            assert validate_world(world) == ()
             assert (world.ended == world.tick) is (terminated or truncated)
             if terminated or truncated:
                 assert info["is_success"] is (world.outcome is Outcome.SUCCESS)

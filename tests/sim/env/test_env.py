@@ -16,8 +16,8 @@ from gymnasium.vector import AutoresetMode, SyncVectorEnv
 import sim.env
 from sim.config import Config
 from sim.env import RoadEnv, RoadVectorEnv
-from sim.kinds import Move, Outcome
-from sim.run import Run, advance
+from sim.state import SimState, step
+from sim.types import Move, Outcome
 
 # What they use is compiled at first use, once in every worker that has one of them.
 pytestmark = pytest.mark.xdist_group("compiled")
@@ -119,18 +119,18 @@ def test_episodes_are_reproducible_by_seed() -> None:
 
 def test_it_is_the_world_that_the_planners_drive_in() -> None:
     config = Config(seed=7, potholes=12)
-    env, run = RoadEnv({"potholes": 12}), Run.start(config)
+    env, state = RoadEnv({"potholes": 12}), SimState.start(config)
     env.reset(seed=7)
     total = 0.0
-    while run.world.outcome is Outcome.RUNNING:
-        tick = advance(run)
+    while state.world.outcome is Outcome.RUNNING:
+        tick = step(state)
         assert tick.decision is not None
         _, reward, ended, _, _ = env.step(list(Move).index(tick.decision.move))
         total += reward
-        run = tick.run
-    assert ended == (run.world.outcome is not Outcome.STUCK)
-    if run.world.outcome is Outcome.SUCCESS:
-        assert total == pytest.approx(2 - 2 * run.world.episode_tick / config.max_ticks)
+        state = tick.state
+    assert ended == (state.world.outcome is not Outcome.STUCK)
+    if state.world.outcome is Outcome.SUCCESS:
+        assert total == pytest.approx(2 - 2 * state.world.episode_tick / config.max_ticks)
 
 
 def test_what_cannot_be_is_said() -> None:

@@ -9,7 +9,7 @@ import pytest
 
 from sim.env import RoadEnv, RoadVectorEnv
 from sim.env.observation import VEHICLE
-from sim.kinds import Move
+from sim.types import Move
 
 pytestmark = pytest.mark.xdist_group("compiled")
 

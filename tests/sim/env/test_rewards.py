@@ -13,26 +13,26 @@ import pytest
 from sim.config import Config
 from sim.env import RoadEnv
 from sim.env.observation import VEHICLE
-from sim.kinds import Move
 from sim.perceive import perceive
-from sim.plan.guard import planned
-from sim.run import Run, repeated
+from sim.plan.safe_planning import plan_safely
+from sim.state import SimState, apply_move
+from sim.types import Move
 
 MOVES = tuple(Move)
 SEEDS = range(25)
-Policy = Callable[[Run, Any], int]
+Policy = Callable[[SimState, Any], int]
 
 
 def played(env: RoadEnv, seed: int, policy: Policy) -> tuple[list[float], list[int], str]:
     """Rewards, rows before each step and after the last, and the outcome."""
     observation, info = env.reset(seed=seed)
-    run, paid, ended = Run.start(env.config.with_parts(seed=seed)), [], False
+    state, paid, ended = SimState.start(env.config.with_parts(seed=seed)), [], False
     rows = [int(np.argwhere(observation[VEHICLE])[0][0])]
     while not ended:
-        action = policy(run, info)
-        road = run.world.road
-        move = MOVES[action] if road.moved(run.world.av, MOVES[action]) is not None else Move.STAY
-        run = repeated(run, move, by_person=False)
+        action = policy(state, info)
+        road = state.world.road
+        move = MOVES[action] if road.moved(state.world.av, MOVES[action]) is not None else Move.STAY
+        state = apply_move(state, move, by_person=False)
         observation, reward, terminated, truncated, info = env.step(action)
         paid.append(float(reward))
         rows.append(int(np.argwhere(observation[VEHICLE])[0][0]))
@@ -41,22 +41,22 @@ def played(env: RoadEnv, seed: int, policy: Policy) -> tuple[list[float], list[i
 
 
 def by_planner(name: str) -> Policy:
-    def policy(run: Run, _: Any) -> int:
-        config = run.config.with_parts(planner=name)
-        return MOVES.index(planned(perceive(run.world, config), config).move)
+    def policy(state: SimState, _: Any) -> int:
+        config = state.config.with_parts(planner=name)
+        return MOVES.index(plan_safely(perceive(state.world, config), config).move)
 
     return policy
 
 
-def stays(_: Run, __: Any) -> int:
+def stays(_: SimState, __: Any) -> int:
     return MOVES.index(Move.STAY)
 
 
 def at_random(only_free: bool) -> Policy:
     draw = np.random.default_rng(0)
 
-    def policy(run: Run, info: Any) -> int:
-        on_road = [run.world.road.moved(run.world.av, move) is not None for move in MOVES]
+    def policy(state: SimState, info: Any) -> int:
+        on_road = [state.world.road.moved(state.world.av, move) is not None for move in MOVES]
         return int(draw.choice(np.flatnonzero(info["action_mask"] if only_free else on_road)))
 
     return policy

@@ -16,9 +16,9 @@ from dataclasses import dataclass
 
 from sim.config import Config
 from sim.explain.confidence import Confidence, Method, confidence
-from sim.kinds import Outcome
-from sim.run import Run, advance
-from sim.timeline import Timeline
+from sim.session.timeline import Timeline
+from sim.state import SimState, step
+from sim.types import Outcome
 
 PLANNERS = ("priority",) * 8 + ("exact", "astar")
 
@@ -39,9 +39,9 @@ def cases(count: int, seed: int = 0) -> Iterator[Case]:
         timeline = Timeline(drawn_config(draw))
         for _ in range(draw.randrange(timeline.config.rows)):
             timeline.advance()
-        if timeline.run.world.outcome is Outcome.RUNNING:
+        if timeline.state.world.outcome is Outcome.RUNNING:
             found = confidence(timeline)
-            yield Case(found.stated, end_of(timeline.run) is Outcome.SUCCESS, found)
+            yield Case(found.stated, end_of(timeline.state) is Outcome.SUCCESS, found)
             count -= 1
 
 
@@ -62,11 +62,11 @@ def drawn_config(draw: random.Random) -> Config:
     )
 
 
-def end_of(run: Run) -> Outcome:
+def end_of(state: SimState) -> Outcome:
     """How the episode ends when it is run on."""
-    while run.world.outcome is Outcome.RUNNING:
-        run = advance(run).run
-    return run.world.outcome
+    while state.world.outcome is Outcome.RUNNING:
+        state = step(state).state
+    return state.world.outcome
 
 
 def bins(found: Sequence[Case]) -> dict[str, list[Case]]:

@@ -7,10 +7,10 @@ from collections.abc import Iterator
 
 from sim.actions import Remove, Where, WorldAction
 from sim.config import Config
-from sim.edit import apply
-from sim.kinds import Move, Outcome, kind_of
-from sim.run import Run, advance
-from sim.timeline import Timeline
+from sim.session.edits import apply
+from sim.session.timeline import Timeline
+from sim.state import SimState, step
+from sim.types import Move, Outcome, kind_of
 
 
 def moments(count: int, seed: int = 0, planner: str = "priority") -> Iterator[Timeline]:
@@ -44,17 +44,19 @@ def moments(count: int, seed: int = 0, planner: str = "priority") -> Iterator[Ti
             yield timeline
 
 
-def move_after(run: Run, *, removed: tuple[str, ...] = (), change: tuple[WorldAction, ...] = ()) -> Move:
+def move_after(
+    state: SimState, *, removed: tuple[str, ...] = (), change: tuple[WorldAction, ...] = ()
+) -> Move:
     """The move a run makes after a person has taken things away or made other changes."""
     for name in removed:
-        run = apply(run, Remove(kind=kind_of(name).value, count=1, where=Where(id=name))).run
+        state = apply(state, Remove(kind=kind_of(name).value, count=1, where=Where(id=name))).state
     for action in change:
-        run = apply(run, action).run
-    decision = advance(run).decision
+        state = apply(state, action).state
+    decision = step(state).decision
     assert decision is not None
     return decision.move
 
 
-def all_ids(run: Run) -> set[str]:
+def all_ids(state: SimState) -> set[str]:
     """Everything on the road."""
-    return {thing.id for thing in run.world.things()}
+    return {thing.id for thing in state.world.things()}

@@ -16,7 +16,7 @@ from typing import Any
 from service.actions import load
 from service.wire.explanation import explanation_json
 from sim.explain import why
-from sim.kinds import Move
+from sim.types import Move
 from tests.sim.explain.judge import move_after, taking
 from tests.sim.explain.moments import moments
 
@@ -44,19 +44,20 @@ def main() -> None:
     counts: Counter[str] = Counter()
     for timeline in moments(cases, seed=11):
         explanation = why(timeline)
-        run, answer = explanation.moment, explanation_json(explanation)
+        state, answer = explanation.moment, explanation_json(explanation)
         for flip in answer["evidence"]["counterfactuals"]:
             counts["stated"] += 1
-            counts["stated, right"] += move_after(run, load(flip["change"])) == Move(flip["decision"])
+            counts["stated, right"] += move_after(state, load(flip["change"])) == Move(flip["decision"])
         near = sorted(
-            run.world.things(), key=lambda thing: abs(thing.cell[1] - run.world.road.cell(run.world.av)[1])
+            state.world.things(),
+            key=lambda thing: abs(thing.cell[1] - state.world.road.cell(state.world.av)[1]),
         )
         if near:
             gone = [draw.choice(near[: draw.choice([3, 8, 40])]).id]
             said = predicted(answer, gone)
             counts["perturbed"] += 1
             counts["not said"] += said is None
-            counts["perturbed, right"] += said == move_after(run, taking(gone, run.config))
+            counts["perturbed, right"] += said == move_after(state, taking(gone, state.config))
     said = counts["perturbed"] - counts["not said"]
     print(f"stated changes   {counts['stated']:>7}, right {counts['stated, right'] / counts['stated']:.4%}")
     right = counts["perturbed, right"] / said

@@ -12,40 +12,40 @@ from sim.config import Config
 from sim.explain import QuestionError
 from sim.explain import confidence as module
 from sim.explain.confidence import Confidence, Method, confidence
-from sim.intervals import wilson
-from sim.kinds import Mode, Move, Outcome
-from sim.run import Run, advance
-from sim.timeline import Timeline
+from sim.session.timeline import Timeline
+from sim.state import SimState, step
+from sim.statistics import wilson
+from sim.types import Mode, Move, Outcome
 from tests.sim.explain import calibration
 from tests.sim.explain.moments import moments
 from tests.sim.roads import road, run_on
 
 
-def of(run: Run) -> Confidence:
-    timeline = Timeline(run.config)
-    timeline.run = run
+def of(state: SimState) -> Confidence:
+    timeline = Timeline(state.config)
+    timeline.state = state
     return confidence(timeline)
 
 
-def ends_under_other_seeds(run: Run, seeds: int) -> list[tuple[Outcome, int]]:
+def ends_under_other_seeds(state: SimState, seeds: int) -> list[tuple[Outcome, int]]:
     """Ends by the session's own ticks: the coming tick as it is drawn, later ones by other seeds."""
     ends = []
     for seed in range(1, seeds + 1):
-        future = advance(run).run
-        future = replace(future, config=run.config.with_parts(seed=seed))
+        future = step(state).state
+        future = replace(future, config=state.config.with_parts(seed=seed))
         while future.world.outcome is Outcome.RUNNING:
-            future = advance(future).run
-        ends.append((future.world.outcome, future.world.tick - run.world.tick))
+            future = step(future).state
+        ends.append((future.world.outcome, future.world.tick - state.world.tick))
     return ends
 
 
 def test_with_nothing_left_to_chance_the_one_future_is_told() -> None:
     for timeline in moments(60, seed=1):
-        run = timeline.run
-        if run.config.courtesy or run.world.outcome is not Outcome.RUNNING:
+        state = timeline.state
+        if state.config.courtesy or state.world.outcome is not Outcome.RUNNING:
             continue
         found = confidence(timeline)
-        ((outcome, ticks),) = set(ends_under_other_seeds(run, 1))
+        ((outcome, ticks),) = set(ends_under_other_seeds(state, 1))
         assert found.method is Method.ONE_RUN
         assert not found.chance
         assert found.arrives == found.low == found.high == float(outcome is Outcome.SUCCESS)
@@ -69,7 +69,7 @@ def test_a_share_agrees_with_futures_run_under_other_seeds(planner: str) -> None
         if found.method is Method.ONE_RUN:
             continue
         looked_at += 1
-        ends = ends_under_other_seeds(timeline.run, 40)
+        ends = ends_under_other_seeds(timeline.state, 40)
         share = sum(outcome is Outcome.SUCCESS for outcome, _ in ends) / len(ends)
         if found.method is Method.ALL_FUTURES and found.arrives in (0.0, 1.0):
             assert share == found.arrives
@@ -121,10 +121,10 @@ def test_seen_courtesy_of_the_coming_tick_is_no_chance() -> None:
     """The sensors see who gives way before the vehicle decides; only what comes after is drawn."""
     world = road("........", "........", "........", "..>A<...")
     for seed in range(20):
-        run = run_on(world, courtesy=0.5, seed=seed)
-        after = advance(run)
-        if after.run.world.outcome is Outcome.CRASH:
-            assert of(run).crashes == 1.0
+        state = run_on(world, courtesy=0.5, seed=seed)
+        after = step(state)
+        if after.state.world.outcome is Outcome.CRASH:
+            assert of(state).crashes == 1.0
 
 
 def test_a_way_shut_by_hazards_is_not_run_to_its_end() -> None:
@@ -146,22 +146,22 @@ def test_what_is_proved_hopeless_never_arrives() -> None:
         found = confidence(timeline)
         if found.shut_off == 1.0:
             proved += 1
-            ends = ends_under_other_seeds(timeline.run, 3)
+            ends = ends_under_other_seeds(timeline.state, 3)
             assert all(outcome is not Outcome.SUCCESS for outcome, _ in ends)
 
 
 def test_a_person_who_drives_is_told_how_it_goes_without_them() -> None:
-    run = run_on(road("........", "........", "........", "...A...."))
-    by_hand = of(replace(run, mode=Mode.MANUAL))
+    state = run_on(road("........", "........", "........", "...A...."))
+    by_hand = of(replace(state, mode=Mode.MANUAL))
     assert by_hand.by_hand
-    assert by_hand.arrival_ticks == of(run).arrival_ticks == (3, 3)
-    waited = of(replace(run, mode=Mode.MANUAL, queue=(Move.STAY, Move.STAY)))
+    assert by_hand.arrival_ticks == of(state).arrival_ticks == (3, 3)
+    waited = of(replace(state, mode=Mode.MANUAL, queue=(Move.STAY, Move.STAY)))
     assert waited.arrival_ticks == (5, 5), "moves that were asked for are made first"
 
 
 def test_after_the_end_there_is_nothing_to_be_sure_of() -> None:
     timeline = Timeline(Config(vehicles=0, potholes=0))
-    while timeline.run.world.outcome is Outcome.RUNNING:
+    while timeline.state.world.outcome is Outcome.RUNNING:
         timeline.advance()
     with pytest.raises(QuestionError) as caught:
         confidence(timeline)

@@ -9,19 +9,19 @@ import pytest
 
 from sim.actions import Add, Drive, Reset, SetMode, Where
 from sim.config import Config
-from sim.edit import apply
 from sim.explain import QuestionError
+from sim.explain.alternatives import after_move
 from sim.explain.crash import Crash, led_to_crash, why_crashed
-from sim.explain.stakes import after_move
-from sim.kinds import Mode, Move, Outcome
-from sim.run import Run, advance
-from sim.timeline import Timeline
+from sim.session.edits import apply
+from sim.session.timeline import Timeline
+from sim.state import SimState, step
+from sim.types import Mode, Move, Outcome
 
 
 def driven(config: Config) -> Timeline:
     """A timeline at the end of its first episode."""
     timeline = Timeline(config)
-    while timeline.run.world.outcome is Outcome.RUNNING:
+    while timeline.state.world.outcome is Outcome.RUNNING:
         timeline.advance()
     return timeline
 
@@ -35,13 +35,13 @@ def crashes(count: int, **config: object) -> Iterator[tuple[Timeline, Crash]]:
     while count:
         timeline = driven(CARELESS.with_parts(seed=seed, **config))
         seed += 1
-        if timeline.run.world.outcome is Outcome.CRASH:
+        if timeline.state.world.outcome is Outcome.CRASH:
             count -= 1
             yield timeline, why_crashed(timeline)
 
 
-def outcome_after(run: Run) -> Outcome:
-    return advance(run).run.world.outcome
+def outcome_after(state: SimState) -> Outcome:
+    return step(state).state.world.outcome
 
 
 def test_what_a_crash_hung_on_is_enough_for_it_and_cannot_be_spared() -> None:
@@ -49,7 +49,7 @@ def test_what_a_crash_hung_on_is_enough_for_it_and_cannot_be_spared() -> None:
         explained = crash.explanation
         moment = timeline.at(crash.end - 1)
         assert outcome_after(moment) is Outcome.CRASH
-        assert crash.cause == timeline.run.world.cause
+        assert crash.cause == timeline.state.world.cause
         assert explained.causes
         names = [cause.id for cause in explained.causes]
         alone = replace(moment, world=moment.world.keeping(names))
@@ -57,9 +57,9 @@ def test_what_a_crash_hung_on_is_enough_for_it_and_cannot_be_spared() -> None:
         for flip in explained.counterfactuals:
             changed = moment
             for action in flip.change:
-                changed = apply(changed, action).run
-            tick = advance(changed)
-            assert tick.run.world.outcome is not Outcome.CRASH
+                changed = apply(changed, action).state
+            tick = step(changed)
+            assert tick.state.world.outcome is not Outcome.CRASH
             assert tick.decision is not None
             assert tick.decision.move is flip.move
 
@@ -73,26 +73,26 @@ def test_the_move_that_would_have_saved_it_does_when_the_quickest_way_is_taken_f
         saved += 1
         moment = timeline.at(saving.tick)
         assert timeline.decision(saving.tick).move is saving.made  # type: ignore[union-attr]
-        run = after_move(moment, saving.instead)
-        run = replace(run, config=run.config.with_parts(planner="exact"))
-        while run.world.outcome is Outcome.RUNNING:
-            run = advance(run).run
-        assert run.world.outcome is Outcome.SUCCESS
-        assert run.world.episode_tick == saving.ticks
+        state = after_move(moment, saving.instead)
+        state = replace(state, config=state.config.with_parts(planner="exact"))
+        while state.world.outcome is Outcome.RUNNING:
+            state = step(state).state
+        assert state.world.outcome is Outcome.SUCCESS
+        assert state.world.episode_tick == saving.ticks
         for tick in range(saving.tick + 1, crash.end):
             lost = timeline.at(tick)
             lost = replace(lost, config=lost.config.with_parts(planner="exact"))
             while lost.world.outcome is Outcome.RUNNING:
-                lost = advance(lost).run
+                lost = step(lost).state
             assert lost.world.outcome is not Outcome.SUCCESS
     assert saved > 15
 
 
 def test_the_latest_crash_is_found_after_the_next_road_has_begun() -> None:
     timeline, crash = next(crashes(1))
-    for _ in range(timeline.run.config.reset_delay_ticks + 3):
+    for _ in range(timeline.state.config.reset_delay_ticks + 3):
         timeline.advance()
-    assert timeline.run.world.episode == 2
+    assert timeline.state.world.episode == 2
     again = why_crashed(timeline)
     assert (again.end, again.cause) == (crash.end, crash.cause)
     assert why_crashed(timeline, crash.end).end == why_crashed(timeline, crash.end - 1).end == crash.end
@@ -130,9 +130,9 @@ def test_nothing_is_claimed_of_the_ticks_before_where_somebody_may_give_way() ->
 def test_a_person_who_stands_still_is_told_which_moves_were_free() -> None:
     timeline = Timeline(Config(seed=3, potholes=0, vehicles=0, attentive=0.0))
     timeline.apply(1, [SetMode(mode=Mode.MANUAL)])
-    column, row = timeline.run.world.road.cell(timeline.run.world.av)
+    column, row = timeline.state.world.road.cell(timeline.state.world.av)
     timeline.apply(2, [Add(kind="vehicle", count=1, where=Where(cell=(column - 2, row)))])
-    while timeline.run.world.outcome is Outcome.RUNNING and timeline.tick < 20:
+    while timeline.state.world.outcome is Outcome.RUNNING and timeline.tick < 20:
         timeline.advance()
     crash = why_crashed(timeline)
     assert crash.explanation.decision.asked is Move.STAY
@@ -148,14 +148,14 @@ def test_an_edit_on_the_way_ends_what_is_known_of_the_ticks_before() -> None:
     timeline.apply(1, [Drive(move=Move.LEFT)])
     timeline.advance()
     timeline.apply(2, [SetMode(mode=Mode.MANUAL)])
-    column, row = timeline.run.world.road.cell(timeline.run.world.av)
+    column, row = timeline.state.world.road.cell(timeline.state.world.av)
     walls = [(column + x, row - y) for x in (-1, 0, 1) for y in (0, 1) if (x, y) != (0, 0) and x != -1]
     walls += [(column - 1, row - 1), (column - 2, row)]
     for place in walls:
         timeline.apply(3, [Add(kind="barrier", count=1, where=Where(cell=place))])
     timeline.apply(4, [Add(kind="vehicle", count=1, where=Where(cell=(column - 1, row)))])
-    while timeline.run.world.outcome is Outcome.RUNNING and timeline.tick < 20:
+    while timeline.state.world.outcome is Outcome.RUNNING and timeline.tick < 20:
         timeline.advance()
-    assert timeline.run.world.outcome is Outcome.CRASH
+    assert timeline.state.world.outcome is Outcome.CRASH
     crash = why_crashed(timeline)
     assert (crash.saving, crash.whole, crash.looked_back, crash.free) == (None, False, 1, ())

@@ -6,8 +6,8 @@ import pytest
 
 from sim.config import Config
 from sim.explain import QuestionError, why, why_not
-from sim.kinds import Move
-from sim.timeline import Timeline
+from sim.session.timeline import Timeline
+from sim.types import Move
 
 pytestmark = pytest.mark.xdist_group("a run of 400 ticks")
 

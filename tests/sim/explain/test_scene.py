@@ -8,26 +8,26 @@ import pytest
 from hypothesis import given
 
 from sim.config import Config
-from sim.explain.scene import Scene, look
+from sim.explain.scene import Scene, describe_percept
 from sim.judge import collisions
-from sim.kinds import Kind, Move
 from sim.perceive import perceive
-from sim.run import Run, commit
+from sim.state import SimState, commit
+from sim.types import Kind, Move
 from sim.world import World
 from tests.sim.roads import road, run_on, worlds
 
 
-def scene(run: Run) -> Scene:
-    return look(perceive(run.world, run.config), run.config)
+def scene(state: SimState) -> Scene:
+    return describe_percept(perceive(state.world, state.config), state.config)
 
 
-def met_by_driving(run: Run, reach: int) -> dict[str, int]:
+def met_by_driving(state: SimState, reach: int) -> dict[str, int]:
     """In how many ticks each thing is hit by a vehicle that drives on through everything."""
     met: dict[str, int] = {}
-    world = run.world
+    world = state.world
     for tick in range(1, reach + 1):
-        after = commit(world, Move.FORWARD, run.config)
-        for cause in collisions(world, after, run.config.collision):
+        after = commit(world, Move.FORWARD, state.config)
+        for cause in collisions(world, after, state.config.collision):
             for name in cause.ids:
                 met.setdefault(name, tick)
         world = after
@@ -36,10 +36,10 @@ def met_by_driving(run: Run, reach: int) -> dict[str, int]:
 
 @given(worlds())
 def test_what_is_met_straight_on_is_what_driving_straight_on_hits(world: World) -> None:
-    run = run_on(world)
-    seen = scene(run)
-    assert seen.reach == min(world.road.cell(world.av)[1], run.config.visible_rows)
-    assert {thing.id: thing.ticks for thing in seen.threats} == met_by_driving(run, seen.reach)
+    state = run_on(world)
+    seen = scene(state)
+    assert seen.reach == min(world.road.cell(world.av)[1], state.config.visible_rows)
+    assert {thing.id: thing.ticks for thing in seen.threats} == met_by_driving(state, seen.reach)
 
 
 @given(worlds())
@@ -55,8 +55,8 @@ def test_everything_is_seen_once_where_it_is(world: World) -> None:
 
 
 def test_what_is_met_comes_first_then_what_is_near() -> None:
-    run = run_on(road("...o....", "...o....", "........", "o......o", "..oA...."))
-    assert [(thing.cell, thing.ticks) for thing in scene(run).seen] == [
+    state = run_on(road("...o....", "...o....", "........", "o......o", "..oA...."))
+    assert [(thing.cell, thing.ticks) for thing in scene(state).seen] == [
         ((3, 1), 3),
         ((3, 0), 4),
         ((2, 4), None),
@@ -66,28 +66,28 @@ def test_what_is_met_comes_first_then_what_is_near() -> None:
 
 
 def test_a_mover_is_met_where_it_will_be() -> None:
-    run = run_on(road("........", "........", ".>......", "........", "...A...."))
-    (car,) = scene(run).seen
+    state = run_on(road("........", "........", ".>......", "........", "...A...."))
+    (car,) = scene(state).seen
     assert (car.ticks, car.lanes, car.rows, car.heading) == (2, -2, 2, "right")
 
 
 def test_no_further_than_the_next_rows_is_looked_for_what_would_be_met() -> None:
     rows = ["...o...."] + ["........"] * 10 + ["...A...."]
-    run = run_on(road(*rows))
-    assert [thing.ticks for thing in scene(run).seen] == [None]
-    assert [thing.ticks for thing in scene(replace(run, config=Config(rows=12, visible_rows=11))).seen] == [
+    state = run_on(road(*rows))
+    assert [thing.ticks for thing in scene(state).seen] == [None]
+    assert [thing.ticks for thing in scene(replace(state, config=Config(rows=12, visible_rows=11))).seen] == [
         11
     ]
 
 
 def test_what_the_sensors_miss_is_not_seen_and_what_they_imagine_is() -> None:
-    run = run_on(road("........", "...o....", "........", "...A...."))
-    percept = perceive(run.world, run.config)
+    state = run_on(road("........", "...o....", "........", "...A...."))
+    percept = perceive(state.world, state.config)
     blind = replace(percept, potholes=0, hazards={})
-    assert look(blind, run.config).seen == ()
-    index = run.world.road.index((3, 2))
+    assert describe_percept(blind, state.config).seen == ()
+    index = state.world.road.index((3, 2))
     ghost = replace(blind, barriers=1 << index, hazards={index: "barrier-9"})
-    (thing,) = look(ghost, run.config, {"barrier-9": 0.7}).seen
+    (thing,) = describe_percept(ghost, state.config, {"barrier-9": 0.7}).seen
     assert (thing.id, thing.kind, thing.likelihood, thing.ticks) == ("barrier-9", Kind.BARRIER, 0.7, 1)
 
 

@@ -9,11 +9,11 @@ from service.actions import Ask
 from service.narrate import Narrator
 from service.sessions.facts import Asked
 from sim.actions import Add, Remove, Where, WorldAction
-from sim.edit import apply
-from sim.edit_error import EditError
-from sim.kinds import Kind, Move
-from sim.run import Run, advance
-from sim.timeline import Timeline
+from sim.session.edits import apply
+from sim.session.errors import EditError
+from sim.session.timeline import Timeline
+from sim.state import SimState, step
+from sim.types import Kind, Move
 from tests.sim.explain.moments import moments
 
 NARRATOR = Narrator.load()
@@ -21,19 +21,19 @@ FAR_ROWS = 5
 """Rows from the vehicle beyond which nothing can matter to a planner that looks one tick ahead."""
 
 
-def told(run: Run, ask: Ask) -> str:
+def told(state: SimState, ask: Ask) -> str:
     """The answer about the decision that is taken in this state."""
-    timeline = Timeline(run.config)
-    timeline.run = run
-    timeline._recent.append(run)
-    timeline.run = advance(run).run
+    timeline = Timeline(state.config)
+    timeline.state = state
+    timeline._recent.append(state)
+    timeline.state = step(state).state
     return str(NARRATOR.answer(Asked(ask, timeline))["text"])
 
 
-def changed(run: Run, rows: Iterable[int], draw: random.Random) -> Run:
+def changed(state: SimState, rows: Iterable[int], draw: random.Random) -> SimState:
     """The run with some things added to these rows, or taken from them."""
     rows = list(rows)
-    there = [thing for thing in run.world.things() if thing.cell[1] in rows]
+    there = [thing for thing in state.world.things() if thing.cell[1] in rows]
     actions: list[WorldAction] = [
         Remove(kind=thing.kind.value, count=1, where=Where(id=thing.id))
         for thing in there
@@ -41,36 +41,36 @@ def changed(run: Run, rows: Iterable[int], draw: random.Random) -> Run:
     ]
     for _ in range(3 if rows else 0):
         kind = draw.choice([Kind.POTHOLE, Kind.VEHICLE, Kind.BARRIER, Kind.PEDESTRIAN])
-        cell = (draw.randrange(run.world.road.columns), draw.choice(rows))
+        cell = (draw.randrange(state.world.road.columns), draw.choice(rows))
         actions.append(Add(kind=kind.value, count=1, where=Where(cell=cell)))
     for action in actions:
         try:
-            run = apply(run, action).run
+            state = apply(state, action).state
         except EditError:
             continue  # no room there
-    return run
+    return state
 
 
 def test_what_is_far_changes_no_word_of_a_why() -> None:
     draw, compared = random.Random(3), 0
     for timeline in moments(300, seed=6):
-        run = timeline.at(timeline.tick - 1)
-        row = run.world.road.cell(run.world.av)[1]
-        far = [r for r in range(1, run.world.road.rows - 1) if abs(r - row) >= FAR_ROWS]
-        other = changed(run, far, draw)
-        compared += other.world != run.world
-        assert told(other, Ask(about="why")) == told(run, Ask(about="why"))
+        state = timeline.at(timeline.tick - 1)
+        row = state.world.road.cell(state.world.av)[1]
+        far = [r for r in range(1, state.world.road.rows - 1) if abs(r - row) >= FAR_ROWS]
+        other = changed(state, far, draw)
+        compared += other.world != state.world
+        assert told(other, Ask(about="why")) == told(state, Ask(about="why"))
     assert compared > 200
 
 
 def test_what_is_behind_changes_no_word_of_any_explanation() -> None:
     draw, compared = random.Random(4), 0
     for timeline in moments(150, seed=7):
-        run = timeline.at(timeline.tick - 1)
-        row = run.world.road.cell(run.world.av)[1]
-        behind = list(range(row + 2, run.world.road.rows - 1))
-        other = changed(run, behind, draw)
-        compared += other.world != run.world
+        state = timeline.at(timeline.tick - 1)
+        row = state.world.road.cell(state.world.av)[1]
+        behind = list(range(row + 2, state.world.road.rows - 1))
+        other = changed(state, behind, draw)
+        compared += other.world != state.world
         for ask in (Ask(about="why"), *(Ask(about="why_not", move=move) for move in Move)):
-            assert told(other, ask) == told(run, ask)
+            assert told(other, ask) == told(state, ask)
     assert compared > 60

@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from sim.search.astar import cheapest, nothing_known
-from sim.search.moves import FOUR, WAIT, MoveSet, eight
-from sim.search.terrain import Grid
+from sim.search.astar import cheapest, no_heuristic
+from sim.search.graph import Grid
+from sim.search.step_costs import FOUR, WAIT, MoveSet, eight
 
 MAPS = st.integers(2, 9).flatmap(
     lambda width: st.lists(
@@ -53,7 +53,7 @@ def test_costs_are_those_of_another_library(
     assert found.states[0] == start
     assert found.states[-1] == goal
     assert sum(moves[move].cost for move in found.moves) == found.cost
-    blind = cheapest(terrain, start, at_least=nothing_known)
+    blind = cheapest(terrain, start, at_least=no_heuristic)
     assert blind is not None
     assert blind.cost == found.cost
     assert blind.expanded >= found.expanded

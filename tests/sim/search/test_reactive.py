@@ -7,24 +7,24 @@ from dataclasses import replace
 import pytest
 
 from sim.config import Config
-from sim.kinds import Move, Outcome
-from sim.optimum import Blocked, Drivable, certify, least_ticks
-from sim.run import Run
+from sim.oracle import Blocked, Drivable, certify, least_ticks
+from sim.state import SimState
 from sim.transition import transition
+from sim.types import Move, Outcome
 
 REACTIONS = [(courtesy, attentive) for courtesy in (0.0, 0.5, 1.0) for attentive in (0.0, 0.5, 1.0)]
 
 
-def slowest(run: Run, limit: int) -> int | None:
+def slowest(state: SimState, limit: int) -> int | None:
     """Least ticks by making every move in every world, one tick after the other."""
-    layer = {run.world.digest(): run.world}
+    layer = {state.world.digest(): state.world}
     for ticks in range(1, limit + 1):
         after = {}
         for world in layer.values():
             for move in Move:
                 if world.road.moved(world.av, move) is None:
                     continue
-                there = transition(world, move, run.config)
+                there = transition(world, move, state.config)
                 if there.outcome is Outcome.SUCCESS:
                     return ticks
                 if there.outcome is Outcome.RUNNING:
@@ -47,14 +47,14 @@ def test_least_ticks_are_those_of_an_exhaustive_search(courtesy: float, attentiv
             attentive=attentive,
             seed=seed,
         )
-        run = Run.start(config)
-        found = least_ticks(run)
-        truth = slowest(run, 16)
+        state = SimState.start(config)
+        found = least_ticks(state)
+        truth = slowest(state, 16)
         assert found == truth if truth is not None else found is None or found > 16
         blocked += truth is None
-        unreacting = least_ticks(replace(run, config=config.with_parts(courtesy=0.0, attentive=0.0)))
+        unreacting = least_ticks(replace(state, config=config.with_parts(courtesy=0.0, attentive=0.0)))
         quicker += found != unreacting
-        match certify(run):
+        match certify(state):
             case Drivable(plan):
                 assert len(plan) == found
             case Blocked():

@@ -14,7 +14,7 @@ from PIL import Image
 
 from service.window.loading import Loaded, load
 from sim.config import Config
-from sim.kinds import Outcome
+from sim.types import Outcome
 from tests.window.driver import Driver
 
 PLAY = Path(__file__).with_name("play.png")

@@ -1,0 +1,259 @@
+"""The least cost to the goal, in compiled words: what `astar` and `dijkstra` decide, for thousands of worlds.
+
+Structure: the exact search (`sim.batch.reachability`) gives one way; its cost bounds how long a cheaper way
+can be, so that a backward sweep over (tick, row, column) within that horizon is exact (dynamic programming in
+topological order; every step goes one tick on). Rows the vehicle cannot have reached yet are left out.
+The charges are those of `sim.search.costs`, in whole numbers. Guarantees and simplifications as there.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from sim.batch.compiled import beside, compiled
+from sim.batch.layout import CELL, EPISODE_TICK, LANES, OUTCOME, SWEPT
+from sim.batch.reachability import (
+    ALL_FIXED,
+    BLOCKED,
+    BOARDS,
+    CAME_LEFT,
+    CAME_RIGHT,
+    FIELDS,
+    MOVERS,
+    STAY,
+    crossings,
+    keep_shortest,
+    longest_survival,
+    one_row_back,
+    one_row_on,
+    prepare,
+    roll,
+    search,
+    someone_brakes,
+    step_from,
+    steps_left,
+)
+
+TICK, SIDEWAYS, DIAGONAL, WAITING, NEAR_FIXED, NEAR_MOVER, BUFFER = range(7)
+"""Columns of a batch's table of charges (int64), as in `sim.search.costs.Weights`."""
+
+_ZERO: Final = np.uint64(0)
+_ONE: Final = np.uint64(1)
+FAR: Final = np.int32(1 << 29)
+"""More than any way costs; two of them still fit."""
+
+
+@compiled
+def _around(board, around, last, columns, left_edge, right_edge):
+    """A board (words 0 to `last`) with the eight neighbours of its cells."""
+    for w in range(last + 1):
+        tall = board[w] | one_row_on(board, w, last, columns) | one_row_back(board, w, columns)
+        around[w] = beside(tall, left_edge, right_edge)
+
+
+@compiled
+def _charges(into, near, layers, ahead, last, weights, first_row, last_row, columns, left_edge, right_edge):
+    """What entering each cell after the step costs beside the move (shape of `into`: rows, columns + 2)."""
+    rows_per_word = 64 // columns
+    buffer = weights[BUFFER]
+    for w in range(last + 1):
+        near[1, w] = layers[ahead, MOVERS, w]
+    for distance in range(buffer):
+        _around(near[1 + distance], near[2 + distance], last, columns, left_edge, right_edge)
+    near_fixed, near_mover = np.int32(weights[NEAR_FIXED]), np.int32(weights[NEAR_MOVER])
+    for row in range(first_row, last_row + 1):
+        w, shift = row // rows_per_word, np.uint64(row % rows_per_word * columns)
+        line = into[row]
+        fixed, blocked = near[0, w] >> shift, layers[ahead, BLOCKED, w] >> shift
+        for column in range(columns):
+            at = np.uint64(column)
+            charge = near_fixed if fixed >> at & _ONE else np.int32(0)
+            line[column + 1] = FAR if blocked >> at & _ONE else charge
+        for distance in range(buffer):
+            close = near[2 + distance, w] >> shift
+            for column in range(columns):
+                line[column + 1] += near_mover if close >> np.uint64(column) & _ONE else np.int32(0)
+
+
+@compiled
+def _cost_of_way(layers, near, ticks, cell, last, weights, columns, left_edge, right_edge):
+    """What the exact search's way costs (an upper bound for the least)."""
+    rows_per_word = 64 // columns
+    total = 0
+    for ahead in range(ticks):
+        move, cell = step_from(layers, ahead, cell, columns)
+        total += weights[TICK]
+        total += weights[SIDEWAYS] if move == 1 or move == 2 else 0
+        total += weights[DIAGONAL] if move == 3 or move == 4 else 0
+        total += weights[WAITING] if move == STAY else 0
+        row = cell // columns
+        w, shift = row // rows_per_word, np.uint64(row % rows_per_word * columns + cell % columns)
+        total += weights[NEAR_FIXED] if near[0, w] >> shift & _ONE else 0
+        for word in range(last + 1):
+            near[1, word] = layers[ahead, MOVERS, word]
+        for distance in range(weights[BUFFER]):
+            _around(near[1 + distance], near[2 + distance], last, columns, left_edge, right_edge)
+            total += weights[NEAR_MOVER] if near[2 + distance, w] >> shift & _ONE else 0
+    return total
+
+
+@compiled
+def _sweep(
+    value, entering, near, layers, horizon, cell, last, weights, columns, left_edge, right_edge, totals
+):
+    """Cost-to-go backwards from `horizon` ticks ahead; writes the totals of the six moves now."""
+    rows_per_word = 64 // columns
+    start_row, start_column = cell // columns, cell % columns
+    tick, side = np.int32(weights[TICK]), np.int32(weights[TICK] + weights[SIDEWAYS])
+    slant, wait = np.int32(weights[TICK] + weights[DIAGONAL]), np.int32(weights[TICK] + weights[WAITING])
+    value[: start_row + 1] = FAR
+    value[0, 1 : columns + 1] = 0
+    for ahead in range(horizon - 1, -1, -1):
+        first = max(0, start_row - ahead - 1)
+        _charges(
+            entering, near, layers, ahead, last, weights, first, start_row, columns, left_edge, right_edge
+        )
+        for row in range(first, start_row + 1):
+            for column in range(1, columns + 1):
+                entering[row, column] = min(entering[row, column] + value[row, column], FAR)
+        if ahead == 0:
+            break
+        for row in range(max(1, start_row - ahead), start_row + 1):
+            w, shift = row // rows_per_word, np.uint64(row % rows_per_word * columns)
+            met_left = layers[ahead, CAME_RIGHT, w] >> shift
+            met_right = layers[ahead, CAME_LEFT, w] >> shift
+            cut_left, cut_right = crossings(layers, ahead, row, columns)
+            here, on, into = entering[row], entering[row - 1], value[row]
+            for column in range(1, columns + 1):
+                at = np.uint64(column - 1)
+                to_left = FAR if met_left >> at & _ONE else here[column - 1]
+                to_right = FAR if met_right >> at & _ONE else here[column + 1]
+                best = min(on[column] + tick, min(to_left, to_right) + side)
+                to_left = FAR if cut_left >> at & _ONE else on[column - 1]
+                to_right = FAR if cut_right >> at & _ONE else on[column + 1]
+                best = min(best, min(to_left, to_right) + slant)
+                into[column] = min(min(best, here[column] + wait), FAR)
+    w = start_row // rows_per_word
+    at = np.uint64(start_row % rows_per_word * columns + start_column)
+    cut_left, cut_right = crossings(layers, 0, start_row, columns)
+    aslant = np.uint64(start_column)
+    here, on, column = entering[start_row], entering[start_row - 1], start_column + 1
+    totals[0] = on[column] + tick
+    totals[1] = FAR if layers[0, CAME_RIGHT, w] >> at & _ONE else here[column - 1] + side
+    totals[2] = FAR if layers[0, CAME_LEFT, w] >> at & _ONE else here[column + 1] + side
+    totals[3] = FAR if cut_left >> aslant & _ONE else on[column - 1] + slant
+    totals[4] = FAR if cut_right >> aslant & _ONE else on[column + 1] + slant
+    totals[5] = here[column] + wait
+
+
+@compiled
+def _totals_of_way(
+    value,
+    entering,
+    near,
+    now,
+    layers,
+    ticks,
+    rolled,
+    cell,
+    last,
+    weights,
+    episode_tick,
+    limit,
+    columns,
+    left_edge,
+    right_edge,
+    swept,
+    totals,
+):
+    """The totals of the six moves now, of a search that has met the goal after `ticks`."""
+    keep_shortest(layers, ticks, cell // columns, last, columns, left_edge, right_edge)
+    _around(now[ALL_FIXED], near[0], last, columns, left_edge, right_edge)
+    bound = _cost_of_way(layers, near, ticks, cell, last, weights, columns, left_edge, right_edge)
+    horizon = min(bound // weights[TICK], limit)
+    for ahead in range(rolled, horizon):
+        roll(now, layers, ahead, last, episode_tick, columns, left_edge, right_edge, swept, False)
+    _sweep(
+        value,
+        entering,
+        near,
+        layers,
+        horizon,
+        cell,
+        last,
+        weights,
+        columns,
+        left_edge,
+        right_edge,
+        totals,
+    )
+
+
+@compiled
+def weighted_moves(state, lanes, shares, charges, columns, rows, left_edge, right_edge, count, moves, costs):
+    """For every lane the move of least cost to the goal and that cost (−1: no way)."""
+    words = -(-rows // (64 // columns))
+    now = np.empty((BOARDS, words), np.uint64)
+    layers = np.empty((10 * rows + 3, FIELDS, words), np.uint64)
+    near = np.empty((2 + charges[:, BUFFER].max(), words), np.uint64)
+    value = np.full((rows, columns + 2), FAR, np.int32)
+    entering = np.full((rows, columns + 2), FAR, np.int32)
+    totals = np.empty(6, np.int32)
+    for lane in range(count):
+        block, inner = state[lane // LANES], lane % LANES
+        lane_block = lanes[lane // LANES]
+        moves[lane], costs[lane] = STAY, 0
+        if lane_block[OUTCOME * LANES + inner]:
+            continue
+        weights = charges[lane]
+        behind = max(1, weights[BUFFER])
+        last = prepare(now, block, lane_block, inner, columns, rows, shares[lane], behind)
+        episode_tick = np.int64(lane_block[EPISODE_TICK * LANES + inner])
+        limit = steps_left(lane_block, inner, rows)
+        swept = lane_block[SWEPT * LANES + inner]
+        cell = np.int64(lane_block[CELL * LANES + inner])
+        row = cell // columns
+        least, lasted = FAR, 0
+        move = np.intp(STAY)
+        # Once for every move; where a mover brakes for a vehicle that stays, once more for staying.
+        for stands in (False, True):
+            if stands:
+                if not someone_brakes(now, layers, last):
+                    break
+                prepare(now, block, lane_block, inner, columns, rows, shares[lane], behind)
+            ticks, rolled, kept_clear = search(
+                now, layers, row, last, episode_tick, limit, columns, left_edge, right_edge, swept, stands
+            )
+            if ticks >= 0:
+                _totals_of_way(
+                    value,
+                    entering,
+                    near,
+                    now,
+                    layers,
+                    ticks,
+                    rolled,
+                    cell,
+                    last,
+                    weights,
+                    episode_tick,
+                    limit,
+                    columns,
+                    left_edge,
+                    right_edge,
+                    swept,
+                    totals,
+                )
+                if stands:
+                    totals[:STAY] = FAR
+                if totals.min() < least:
+                    move = np.argmin(totals)
+                    least = totals[move]
+            elif least == FAR and not stands:
+                move, lasted = longest_survival(now, layers, rolled, last, columns, left_edge, right_edge)
+            elif least == FAR and kept_clear > lasted:
+                move = np.intp(STAY)
+        moves[lane] = move
+        costs[lane] = least if least < FAR else -1

@@ -1,0 +1,157 @@
+"""States of environments as JSON values and back, exactly: the same continuation, action for action.
+
+What is saved: the worlds, how far their streams are, and the environment's own random generator, which draws
+seeds that nobody gave. What is not: the action space's generator, and how worlds are shown and paid. A state
+is taken by an environment of the same form (one or many), number and configuration, and by no other.
+"""
+
+from __future__ import annotations
+
+import base64
+import zlib
+from collections.abc import Mapping
+from dataclasses import fields
+from hashlib import blake2b
+from typing import Any, Final, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.batch import Batch
+from sim.config import Config
+from sim.env.seeds import read, written
+from sim.session.serialization import Packer, Unpacker
+from sim.state import SimState
+
+ONE: Final = "roadtalk env 1"
+MANY: Final = "roadtalk vector env 1"
+
+
+class Seeded(Protocol):
+    """What both environments have."""
+
+    config: Config
+    _np_random_seed: int | None
+
+    @property
+    def np_random(self) -> np.random.Generator:
+        """Draws the seeds that nobody gave."""
+
+    @np_random.setter
+    def np_random(self, value: np.random.Generator) -> None: ...
+
+
+def of_run(state: SimState, env: Seeded) -> dict[str, Any]:
+    """The state of one world."""
+    packer = Packer()
+    number = packer.run(state)
+    return {"format": ONE, "run": number, **_plain(packer), **_random_of(env)}
+
+
+def to_run(saved: Mapping[str, Any], env: Seeded) -> SimState:
+    """The run of such a state; the environment's generator is set. Raises `ValueError`."""
+    _check_format(saved, ONE)
+    try:
+        state: SimState = Unpacker(saved).runs[saved["run"]]
+        random, seed = read(saved["random"]), int(saved["random_seed"])
+    except (TypeError, LookupError, ValueError) as error:
+        raise _unreadable(error) from error
+    _check_config(state.config, env.config)
+    env.np_random, env._np_random_seed = random, seed
+    return state
+
+
+def of_batch(batch: Batch, env: Seeded) -> dict[str, Any]:
+    """The state of many worlds."""
+    packer = Packer()
+    packer.config(env.config)
+    arrays = batch.saved()
+    return {
+        "format": MANY,
+        "lanes": len(batch),
+        "configs": _plain(packer)["configs"],
+        "arrays": {name: _packed(array) for name, array in arrays.items()},
+        "digest": _digest(arrays),
+        **_random_of(env),
+    }
+
+
+def to_batch(state: Mapping[str, Any], env: Seeded, lanes: int) -> Batch:
+    """The batch of such a state; the environment's generator is set. Raises `ValueError`."""
+    _check_format(state, MANY)
+    try:
+        (config,) = Unpacker({**Packer().packed(), "configs": state["configs"]}).configs
+        arrays = {name: _unpacked(array) for name, array in state["arrays"].items()}
+        random, seed, count = read(state["random"]), int(state["random_seed"]), state["lanes"]
+        if _digest(arrays) != state["digest"]:
+            raise ValueError("the worlds are not those that were written")
+    except (TypeError, LookupError, ValueError, zlib.error) as error:
+        raise _unreadable(error) from error
+    if count != lanes:
+        raise ValueError(f"the state is of {count} environments, and here are {lanes}")
+    _check_config(config, env.config)
+    batch = Batch([env.config] * lanes, after="stop")
+    batch.restore(arrays)
+    env.np_random, env._np_random_seed = random, seed
+    return batch
+
+
+def _plain(packer: Packer) -> dict[str, Any]:
+    """What was packed, with the lists that a JSON reader makes of tuples."""
+    packed = packer.packed()
+    configs = [
+        {name: list(value) if isinstance(value, tuple) else value for name, value in config.items()}
+        for config in packed["configs"]
+    ]
+    return {**packed, "configs": configs}
+
+
+def _check_format(state: Mapping[str, Any], form: str) -> None:
+    found = state.get("format") if isinstance(state, Mapping) else None
+    if found == form:
+        return
+    other = {ONE: "one environment", MANY: "a vector environment"}
+    if found in other:
+        raise ValueError(f"the state is of {other[found]}; here is {other[form]}")
+    raise ValueError("this is not a state that get_state made")
+
+
+def _check_config(theirs: Config, mine: Config) -> None:
+    """Raise `ValueError` that names every setting that differs, the seed aside."""
+    differing = [
+        f"{field.name} is {getattr(theirs, field.name)!r} there and {getattr(mine, field.name)!r} here"
+        for field in fields(Config)
+        if field.name != "seed" and getattr(theirs, field.name) != getattr(mine, field.name)
+    ]
+    if differing:
+        raise ValueError(f"the state is of another configuration: {'; '.join(differing)}")
+
+
+def _unreadable(error: Exception) -> ValueError:
+    return ValueError(f"the state cannot be read: {error}")
+
+
+def _random_of(env: Seeded) -> dict[str, Any]:
+    random = env.np_random
+    return {"random": written(random), "random_seed": str(env._np_random_seed)}
+
+
+def _packed(array: NDArray[Any]) -> dict[str, Any]:
+    little = array.astype(array.dtype.newbyteorder("<"))
+    data = base64.b64encode(zlib.compress(little.tobytes(), 1)).decode()
+    return {"type": little.dtype.str, "shape": list(array.shape), "data": data}
+
+
+def _unpacked(parts: Mapping[str, Any]) -> NDArray[Any]:
+    data = zlib.decompress(base64.b64decode(parts["data"], validate=True))
+    stored = np.frombuffer(data, np.dtype(parts["type"]).newbyteorder("<")).reshape(parts["shape"])
+    return stored.astype(stored.dtype.newbyteorder("="))
+
+
+def _digest(arrays: Mapping[str, NDArray[Any]]) -> str:
+    found = blake2b(digest_size=16)
+    for name in sorted(arrays):
+        array = arrays[name]
+        found.update(f"{name} {array.shape} {array.dtype.str}".encode())
+        found.update(np.ascontiguousarray(array.astype(array.dtype.newbyteorder("<"))).tobytes())
+    return found.hexdigest()

@@ -1,0 +1,93 @@
+"""What was at stake: where the other move would have led, run to the end, beside where this one leads.
+
+After its first move each future goes on as it would: the planner decides, nobody speaks. Ticks lost
+are those of the best way on after each move (`sim.oracle`), whatever the planner makes of it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from sim.explain.rollout import rollout
+from sim.oracle.lower_bounds import PATIENCE, least_ticks
+from sim.plan import Decision
+from sim.planner_names import LOCAL
+from sim.repetition import NOTHING_KEPT, Situation, situation
+from sim.search.reactive import ImpatientError
+from sim.state import SimState
+from sim.transition import transition
+from sim.types import Mode, Move, Outcome
+
+
+@dataclass(frozen=True, slots=True)
+class Future:
+    """How an episode ends after a move."""
+
+    outcome: Outcome
+    ticks: int
+    """from the episode's start to its end"""
+    ids: tuple[str, ...] = ()
+    """what was crashed with"""
+
+
+@dataclass(frozen=True, slots=True)
+class Alternatives:
+    """A move that was not made, beside the one that was."""
+
+    foil: Move
+    would: Future | None
+    """how it would have ended; None where a person drives and has not said on"""
+    real: Future | None
+    """how it ends after the move that was made, left to itself"""
+    ticks_lost: int | None
+    """how much longer the best way on is after the foil; None where there is none after either of them, and
+    where that is not known within `sim.oracle.lower_bounds.PATIENCE`"""
+    dead_end: bool
+    """whether after the foil no way leads on, and after the move made one does"""
+
+
+def stakes(state: SimState, decision: Decision, foil: Move) -> Alternatives | None:
+    """What `foil` would have meant instead of the move of `decision`; None if it leads off the road."""
+    if decision.option(foil).cell is None or foil is decision.move:
+        return None
+    other, real = after_move(state, foil), after_move(state, decision.move)
+    ticks_lost, dead_end = _compared(other, real)
+    return Alternatives(foil, _end(other), _end(real), ticks_lost, dead_end)
+
+
+def _compared(other: SimState, real: SimState) -> tuple[int | None, bool]:
+    """Ticks that the best way on is longer after the other move; whether only after that none leads on."""
+    try:
+        rest_other, rest_real = least_ticks(other, PATIENCE), least_ticks(real, PATIENCE)
+    except ImpatientError:
+        return None, False
+    if rest_other is None or rest_real is None:
+        return None, rest_real is not None
+    return rest_other - rest_real, False
+
+
+def after_move(state: SimState, move: Move) -> SimState:
+    """The state after a move, judged."""
+    return replace(state, world=transition(state.world, move, state.config), queue=(), watch=NOTHING_KEPT)
+
+
+def _end(state: SimState) -> Future | None:
+    """How the episode ends if nobody says anything more; None if it waits for a person or is not told."""
+    if state.mode is Mode.MANUAL and state.world.outcome is Outcome.RUNNING:
+        return None
+    # With `repetition` the run itself ends there.
+    recurs = state.config.planner in LOCAL and state.config.certain and not state.config.repetition
+    seen: set[Situation] = set()
+    last = state
+    if state.world.outcome is Outcome.RUNNING:
+        for before, tick in rollout(state):
+            if recurs:
+                now = situation(before.world)
+                if now in seen:
+                    return Future(Outcome.STUCK, state.config.max_ticks + 1)
+                seen.add(now)
+            last = tick.state
+    world = last.world
+    if world.outcome is Outcome.RUNNING:
+        return None
+    return Future(world.outcome, world.episode_tick, world.cause.ids if world.cause else ())

@@ -1,0 +1,207 @@
+"""What will come of a run: the same ticks as it would be driven through, taken on a copy.
+
+Nothing is foretold here, everything is run, to the end of the episode or for a few ticks. What a person
+may say meanwhile is left out: a story is told as if nothing were said any more.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Final
+
+from sim.episode_record import DetourReason, sake
+from sim.plan import Decision
+from sim.state import SimState, StepResult, step
+from sim.types import Mode, Move, Outcome
+from sim.world import Cause
+
+NEXT_TICKS: Final = 5
+"""How far the way from here is told."""
+
+MAX_WORK: Final = 10_000_000
+"""How much is looked through for one story where the planner searches: cells times rows, every tick.
+
+Four whole episodes on the default road; on the largest roads, where one decision takes a second, a few
+ticks.
+"""
+
+MAX_FAULTS: Final = 20
+"""After so many failures one after the other no answer is expected of a planner any more."""
+
+AT_SIGHT: Final = frozenset(("priority", "rules"))
+"""Planners that look one tick ahead, on a road of any size."""
+
+
+@dataclass(frozen=True, slots=True)
+class Detour:
+    """A move that was not straight on."""
+
+    tick: int
+    move: Move
+    sake: DetourReason
+    ids: tuple[str, ...]
+    """who would have been met straight ahead"""
+
+
+@dataclass(frozen=True, slots=True)
+class EpisodeRollout:
+    """A run to the end of its episode; where a result stands, to the end of the next."""
+
+    tick: int
+    """where it begins"""
+    waited: int
+    """ticks until the next road, where a result stood"""
+    episode: int
+    end: int
+    """the tick at which it ends"""
+    outcome: Outcome
+    """`RUNNING` where it is not told: no answer from the planner in time, or too much to look through"""
+    cause: Cause | None
+    """of a crash"""
+    path: tuple[Move, ...]
+    """every move, in order"""
+    detours: tuple[Detour, ...]
+    held_back: tuple[int, ...]
+    """ticks in which a person's move is not made, since its cell will not be free"""
+    by_hand: bool
+    """whether a person drives and asked for nothing, from the first move on"""
+    silent: str | None
+    """what the planner did instead of answering"""
+    digest: str
+    """of the world at the end"""
+
+    @property
+    def ticks(self) -> int:
+        """Ticks from the beginning to the end."""
+        return self.end - self.tick
+
+    @property
+    def driven(self) -> int:
+        """Ticks on the road, without those waited."""
+        return len(self.path)
+
+    def moves(self) -> dict[Move, int]:
+        """How many moves of each kind."""
+        return {move: self.path.count(move) for move in Move}
+
+
+@dataclass(frozen=True, slots=True)
+class RouteAhead:
+    """The next decisions, none of them taken yet."""
+
+    state: SimState
+    """the moment it is seen from"""
+    decisions: tuple[Decision, ...]
+    detours: tuple[Detour, ...]
+    outcome: Outcome
+    cause: Cause | None
+    offered: bool
+    """whether this is what the planner would do, were it let: a person drives and has asked for nothing"""
+    chance: bool
+    """whether what comes after the first move hangs on who gives way"""
+
+
+def story(state: SimState) -> EpisodeRollout:
+    """What comes of a run if nothing more is said."""
+    return summarize(state, list(rollout(state)))
+
+
+def rollout(state: SimState) -> Iterator[tuple[SimState, StepResult]]:
+    """Each tick to the end of the episode, with the run before it; a result that stands is waited out first.
+
+    A tick whose planner did not answer in time is the last: a session would hand over to a person there.
+    So is that of one that has failed `MAX_FAULTS` times running; and on long roads a planner that searches is
+    followed for so long only as `MAX_WORK` allows.
+    """
+    work = faults = 0
+    started = state.world.outcome is Outcome.RUNNING
+    while state.world.outcome is Outcome.RUNNING or not started:
+        tick = step(state)
+        yield state, tick
+        faults = faults + 1 if tick.decision is not None and tick.decision.fault is not None else 0
+        if faults == MAX_FAULTS or (tick.decision is not None and tick.decision.timed_out):
+            return
+        state = tick.state
+        work += _work(state)
+        if work > MAX_WORK:
+            return
+        started = started or state.world.outcome is Outcome.RUNNING
+
+
+def _work(state: SimState) -> int:
+    """How much is looked through in a tick of a run."""
+    road = state.world.road
+    return 0 if state.config.planner in AT_SIGHT else road.columns * road.rows * road.rows
+
+
+def summarize(state: SimState, ticks: list[tuple[SimState, StepResult]]) -> EpisodeRollout:
+    """The story of ticks that were followed from a run."""
+    path, detours, held_back = [], [], []
+    last, silent = state, None
+    for before, tick in ticks:
+        decision = tick.decision
+        if decision is not None and decision.timed_out:
+            silent = decision.fault
+            break
+        last = tick.state
+        if decision is not None:
+            path.append(decision.move)
+            detours += find_detour(before, tick)
+            held_back += [decision.tick] if decision.held_back else []
+    if last.world.outcome is Outcome.RUNNING and ticks and ticks[-1][1].decision is not None:
+        silent = silent or ticks[-1][1].decision.fault
+    first = next((tick.decision for _, tick in ticks if tick.decision is not None), None)
+    return EpisodeRollout(
+        tick=state.world.tick,
+        waited=sum(tick.decision is None for _, tick in ticks),
+        episode=last.world.episode,
+        end=last.world.tick,
+        outcome=last.world.outcome,
+        cause=last.world.cause,
+        path=tuple(path),
+        detours=tuple(detours),
+        held_back=tuple(held_back),
+        by_hand=first is not None
+        and first.asked is not None
+        and state.mode is Mode.MANUAL
+        and not state.queue,
+        silent=silent,
+        digest=last.world.digest(),
+    )
+
+
+def find_detour(before: SimState, tick: StepResult) -> list[Detour]:
+    """The detour of a tick, if it was one."""
+    decision = tick.decision
+    if decision is None or decision.move is Move.FORWARD:
+        return []
+    by_person, faulty = decision.asked is not None, decision.fault is not None
+    whose, ids = sake(before.world, tick.state.world, by_person=by_person, faulty=faulty)
+    return [Detour(decision.tick, decision.move, whose, ids)]
+
+
+def route_ahead(state: SimState, ticks: int = NEXT_TICKS) -> RouteAhead:
+    """The next decision and the way from there; empty while a result stands.
+
+    Where a person drives and has asked for nothing, it is what the planner would do, were it let. Movers
+    that may give way or brake are a matter of chance that no driver knows beforehand, so then the way is
+    not told beyond the next decision.
+    """
+    offered = state.mode is Mode.MANUAL and not state.queue
+    chance = not state.config.certain
+    seen = replace(state, mode=Mode.AUTO) if offered else state
+    decisions: list[Decision] = []
+    detours: list[Detour] = []
+    after = seen
+    for _ in range(1 if chance else ticks):
+        if after.world.outcome is not Outcome.RUNNING:
+            break
+        tick = step(after)
+        if tick.decision is None or tick.decision.timed_out:
+            break
+        decisions.append(tick.decision)
+        detours += find_detour(after, tick)
+        after = tick.state
+    outcome, cause = after.world.outcome, after.world.cause
+    return RouteAhead(state, tuple(decisions), tuple(detours), outcome, cause, offered, chance)

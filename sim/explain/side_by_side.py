@@ -1,0 +1,101 @@
+"""A counterfactual to be watched: a run in which something is otherwise, tick by tick, and the real one.
+
+The same two futures as are told in words: those of a move that was not made (`stakes`, where after that
+move the planner goes on), and those of a change (`whatif`). Leaves out the words.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from sim.actions import WorldAction
+from sim.explain.alternatives import after_move
+from sim.explain.facts import QuestionError
+from sim.explain.rollout import EpisodeRollout, rollout, summarize
+from sim.plan import Decision
+from sim.session.edits import apply
+from sim.session.timeline import Timeline
+from sim.state import SimState, StepResult
+from sim.types import Mode, Move, Outcome
+
+Ticks = tuple[tuple[SimState, StepResult], ...]
+"""Each tick, with the run before it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Side:
+    """One of the two: how it begins, its ticks to the end of the episode, and how that is told."""
+
+    start: SimState
+    ticks: Ticks
+    story: EpisodeRollout
+
+
+@dataclass(frozen=True, slots=True)
+class SideBySide:
+    """Both sides of a moment."""
+
+    tick: int
+    real: Side
+    changed: Side
+    instead_of: Move | None
+    """the move that was made, where another one is asked about"""
+    said_since: int
+    """how many actions said after the moment are left out of both"""
+
+
+def compare_move(timeline: Timeline, tick: int, move: Move) -> SideBySide:
+    """What comes of another move than the one decided at a tick, whatever it meets.
+
+    After the move the planner goes on, in both. Raises `QuestionError`: `no_such_tick`, `no_decision`
+    while a result stood, `off_road`, and `same_move` for the one that was made.
+    """
+    state = _moment(timeline, tick)
+    decision = timeline.decided(state)
+    if decision is None:
+        raise QuestionError("no_decision", tick=tick)
+    if decision.option(move).cell is None:
+        raise QuestionError("off_road", move=move)
+    if decision.move is move:
+        raise QuestionError("same_move", move=move)
+    real, changed = (_side(state, tuple(_driven(state, decision, each))) for each in (decision.move, move))
+    return SideBySide(tick, real, changed, decision.move, _said_since(timeline, tick))
+
+
+def compare_change(timeline: Timeline, tick: int, change: Sequence[WorldAction]) -> SideBySide:
+    """What comes of a change made at a tick. Raises `QuestionError` and `EditError`."""
+    state = changed = _moment(timeline, tick)
+    for action in change:
+        changed = apply(changed, action).state
+    sides = [
+        Side(each, ticks, summarize(each, list(ticks))) for each in (state, changed) for ticks in [_all(each)]
+    ]
+    return SideBySide(tick, sides[0], sides[1], None, _said_since(timeline, tick))
+
+
+def _all(state: SimState) -> Ticks:
+    return tuple(rollout(state))
+
+
+def _side(state: SimState, ticks: Ticks) -> Side:
+    return Side(state, ticks, summarize(replace(state, mode=Mode.AUTO), list(ticks)))
+
+
+def _driven(state: SimState, decision: Decision, move: Move) -> Iterator[tuple[SimState, StepResult]]:
+    """A move made, and what comes of it."""
+    after = replace(after_move(state, move), mode=Mode.AUTO)
+    yield state, StepResult(after, replace(decision, move=move), ())
+    if after.world.outcome is Outcome.RUNNING:
+        yield from rollout(after)
+
+
+def _moment(timeline: Timeline, tick: int) -> SimState:
+    try:
+        return timeline.at(tick)
+    except IndexError:
+        raise QuestionError("no_such_tick", tick=tick, now=timeline.tick) from None
+
+
+def _said_since(timeline: Timeline, tick: int) -> int:
+    return sum(entry.tick > tick for entry in timeline.entries)

@@ -1,0 +1,119 @@
+"""What if: a fork in which something is otherwise, and the real run, both driven to the end.
+
+Both are told as if nothing more were said. Where a tick in the past is asked about, what has been said
+since then is left out of both, so that they differ in the change and in nothing else.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+
+from sim.actions import Add, Drive, Remove, SetCount, WorldAction
+from sim.explain.facts import QuestionError
+from sim.explain.rollout import EpisodeRollout, rollout, summarize
+from sim.oracle.lower_bounds import PATIENCE
+from sim.oracle.regret import Regret, regret
+from sim.plan import Decision
+from sim.search.reactive import ImpatientError
+from sim.session.edits import Applied, apply
+from sim.session.timeline import Timeline
+from sim.state import SimState, StepResult
+from sim.types import Move
+
+
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """The first moment at which the two are driven differently, and how."""
+
+    tick: int
+    """of the real run"""
+    ahead: int
+    """moves that are the same before it"""
+    real: Move
+    changed: Move
+
+
+@dataclass(frozen=True, slots=True)
+class WhatIf:
+    """The answer to what if, in facts."""
+
+    state: SimState
+    """the moment at which it is changed"""
+    done: tuple[Applied, ...]
+    """what the change has done, an entry for each action"""
+    real: EpisodeRollout
+    changed: EpisodeRollout
+    same_road: bool
+    """whether both go on along the same road, so that moves can be compared"""
+    first_difference: Difference | None
+    regret: Regret | None
+    """what the real move costs at that moment on the real road, against the best that could be done there;
+    None also where that is not known within `sim.oracle.lower_bounds.PATIENCE`"""
+    certain: bool
+    """whether the regret is exact: nothing is left to who gives way"""
+    said_since: int
+    """how many actions said after the moment are left out"""
+
+    @property
+    def no_effect(self) -> bool:
+        """Whether the change changes nothing at all."""
+        return all(not (each.changes or each.added or each.removed or each.events) for each in self.done)
+
+
+def what_if(timeline: Timeline, change: Sequence[WorldAction], tick: int | None = None) -> WhatIf:
+    """What would come of the session were this done now, or had it been done at a tick.
+
+    Raises `QuestionError` for a tick that never was, and `EditError` for what cannot be done.
+    The timeline is left as it is.
+    """
+    state = _moment(timeline, tick)
+    done, changed = [], state
+    for action in change:
+        applied = apply(changed, action)
+        changed = applied.state
+        done.append(applied)
+    real_ticks, changed_ticks = list(rollout(state)), list(rollout(changed))
+    real, other = summarize(state, real_ticks), summarize(changed, changed_ticks)
+    same_road = not _new_road(done)
+    difference = _first_difference(real_ticks, changed_ticks) if same_road else None
+    lost, certain = None, state.config.certain
+    if difference is not None:
+        before = next(state for state, _ in real_ticks if state.world.tick == difference.tick)
+        with suppress(ImpatientError):
+            lost = regret(before, difference.real, PATIENCE)
+    since = state.world.tick
+    said_since = 0 if tick is None else sum(entry.tick > since for entry in timeline.entries)
+    return WhatIf(state, tuple(done), real, other, same_road, difference, lost, certain, said_since)
+
+
+def _moment(timeline: Timeline, tick: int | None) -> SimState:
+    if tick is None:
+        return timeline.state
+    try:
+        return timeline.at(tick)
+    except IndexError:
+        raise QuestionError("no_such_tick", tick=tick, now=timeline.tick) from None
+
+
+def _new_road(done: Sequence[Applied]) -> bool:
+    """Whether the change itself begins a road, rather than touching the one there is or is next."""
+    return any(each.events and not isinstance(each.action, Add | Remove | SetCount | Drive) for each in done)
+
+
+def _first_difference(
+    real: Sequence[tuple[SimState, StepResult]], changed: Sequence[tuple[SimState, StepResult]]
+) -> Difference | None:
+    """The first of the decisions, one by one from the moment on, in which the moves are not the same."""
+    mine, theirs = _taken(real), _taken(changed)
+    for ahead, (one, other) in enumerate(zip(mine, theirs, strict=False)):
+        if one.move is not other.move:
+            return Difference(one.tick, ahead, one.move, other.move)
+    return None
+
+
+def _taken(ticks: Sequence[tuple[SimState, StepResult]]) -> list[Decision]:
+    """The decisions that led on; one that did not come in time leads nowhere."""
+    decisions = [tick.decision for _, tick in ticks if tick.decision is not None]
+    return [decision for decision in decisions if not decision.timed_out]

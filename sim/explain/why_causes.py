@@ -1,0 +1,191 @@
+"""What a decision hangs on: a smallest set of things and wishes that brings it about, each tried by removal.
+
+A set is *enough* if, with nothing else on the road, the move is the same; the causes are such a set
+from which nothing can be spared. A cause is *necessary* if taking it away, and nothing else, changes
+the move. One that is not has a stand-in (the decision is overdetermined): then the causes are looked
+for among the necessary things first, and if those are not enough, the cause is told with its group,
+the things that must go together for the move to change.
+
+This is the but-for test and its repair for overdetermination as in Halpern & Pearl, "Causes and
+explanations: a structural-model approach" (British Journal for the Philosophy of Science, 2005), with
+the deterministic world as the model. Sets are found by deletion in shrinking chunks (Zeller &
+Hildebrandt, "Simplifying and isolating failure-inducing input", 2002), so no single member can be
+spared; whether any smaller part would do is then tried outright.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from itertools import combinations
+from typing import Protocol
+
+from sim.explain.factors import is_factor, removal
+from sim.explain.facts import Cause, Counterfactual, Explanation, Role, Verified
+from sim.explain.intervention import Intervention, wall
+from sim.oracle.ddmin import ddmin
+from sim.plan import Decision, Option
+from sim.session.locate import nearest_first
+from sim.state import SimState
+from sim.types import Move
+from sim.world import World
+
+MAX_TRIED = 6
+"""Sets up to this size have every part of them tried."""
+
+MAX_GROUPS = 6
+"""For so many causes that are not necessary alone it is found out what would have to go with them."""
+
+
+def explain_why(state: SimState, decision: Decision) -> Explanation:
+    """Why `decision` was taken in `run`."""
+    rerun = Intervention(state, decision)
+    fact = decision.move
+    enough, groups, minimal = minimal_sufficient_set(
+        rerun, fact, [*rerun.factors, *by_salience(state.world, decision)]
+    )
+    if decision.held_back:
+        hindered = [option for option in decision.options if option.move is decision.asked]
+    else:
+        hindered = list(decision.preferred)
+    causes = rank_causes(rerun, fact, state.world, hindered, groups)
+    told = dict.fromkeys(cause.group for cause in causes if cause.group)
+    flips = [Counterfactual(removal(group, state.config), rerun.without(group), group) for group in told]
+    foil = next((option.move for option in decision.preferred if option.cell is not None), None)
+    return Explanation(
+        about="why",
+        moment=state,
+        decision=decision,
+        foil=foil,
+        causes=causes,
+        verified=Verified(
+            necessary=all(cause.necessary for cause in causes),
+            sufficient=rerun.keeping(enough) is fact,
+            minimal=minimal,
+        ),
+        counterfactuals=tuple(flips or _had_it_been_blocked(rerun, decision)),
+        stakes=None,
+        reruns=rerun.count,
+    )
+
+
+class Tried(Protocol):
+    """What can be tried without some things, or with nothing but some, and then comes to something."""
+
+    def without(self, names: Iterable[str]) -> object:
+        """What it comes to had these never been there."""
+
+    def keeping(self, names: Iterable[str]) -> object:
+        """What it comes to had nothing but these been there."""
+
+
+def minimal_sufficient_set(
+    tried: Tried, fact: object, names: list[str]
+) -> tuple[list[str], dict[str, tuple[str, ...]], bool]:
+    """What a fact hangs on: a smallest part of `names` that is enough for it, and the group of each.
+
+    Also whether no smaller part would do (all were tried). With all of `names` it comes to the fact, and the
+    more telling ones come first.
+    """
+    enough = minimal_subset(names, lambda kept: tried.keeping(kept) is fact)
+    if any(tried.without([name]) is fact for name in enough):  # some have a stand-in
+        enough = _of_necessary(tried, fact, names) or enough
+    enough, minimal = _smallest(tried, fact, enough)
+    return enough, _groups(tried, fact, names, enough), minimal
+
+
+def _had_it_been_blocked(rerun: Intervention, decision: Decision) -> list[Counterfactual]:
+    """For a move that nothing brought about: what would have been done had its cell been blocked."""
+    if decision.asked is not None or decision.chosen.cell is None or decision.move is Move.STAY:
+        return []
+    change = (wall(rerun.state.world, decision.chosen.cell),)
+    return [Counterfactual(change, rerun.after(change))]
+
+
+def by_salience(world: World, decision: Decision) -> list[str]:
+    """Every thing's id: first those that stand in the way, in the order of preference; then the nearest."""
+    direct = [name for option in decision.options for name in option.causes]
+    cells = nearest_first({*world.movers, *world.hazards}, world)
+    near = [table[cell] for cell in cells for table in (world.movers, world.hazards) if cell in table]
+    return list(dict.fromkeys([*direct, *near]))
+
+
+def _of_necessary(tried: Tried, fact: object, names: list[str]) -> list[str]:
+    """A set that is enough and of necessary things alone, or an empty list if there is none."""
+    necessary = [name for name in names if tried.without([name]) is not fact]
+    if tried.keeping(necessary) is not fact:
+        return []
+    return ddmin(necessary, lambda kept: tried.keeping(kept) is fact)
+
+
+def _groups(tried: Tried, fact: object, names: list[str], enough: list[str]) -> dict[str, tuple[str, ...]]:
+    """For each cause its group; an empty one for causes that are not necessary after the first few."""
+    necessary = {name for name in enough if tried.without([name]) is not fact}
+    looked_for = [name for name in enough if name not in necessary][:MAX_GROUPS]
+    groups: dict[str, tuple[str, ...]] = {}
+    for name in enough:
+        if name in necessary:
+            groups[name] = (name,)
+        else:
+            groups[name] = _group(tried, fact, name, names, enough) if name in looked_for else ()
+    return groups
+
+
+def _group(tried: Tried, fact: object, name: str, names: list[str], enough: list[str]) -> tuple[str, ...]:
+    """The things that must go with a cause that is not necessary for the move to change.
+
+    There are such: without the cause and all that is not one, the others are not enough.
+    """
+    stand_ins = [other for other in names if other not in enough]
+    return (name, *minimal_subset(stand_ins, lambda gone: tried.without([name, *gone]) is not fact))
+
+
+def minimal_subset(names: list[str], holds: Callable[[Sequence[str]], bool]) -> list[str]:
+    """A part of `names` for which it holds and from which nothing can be spared; it holds for all of them.
+
+    Looked for among the first names before the later ones are thought of, so that an explanation does not
+    change with what is far away.
+    """
+    size = 0
+    while size < len(names) and not holds(names[:size]):
+        size = max(size + 1, size * 3 // 2)
+    return ddmin(names[:size], holds)
+
+
+def _smallest(tried: Tried, fact: object, enough: list[str]) -> tuple[list[str], bool]:
+    """The smallest part that is enough as well, and whether no part of that can be (all were tried).
+
+    Of a set larger than `MAX_TRIED` only single members are known not to be spared.
+    """
+    if len(enough) > MAX_TRIED:
+        return enough, False
+    parts = (part for size in range(len(enough)) for part in combinations(enough, size))
+    smaller = next((list(part) for part in parts if tried.keeping(part) is fact), None)
+    return (enough if smaller is None else smaller), True
+
+
+def rank_causes(
+    tried: Tried, fact: object, world: World, hindered: Sequence[Option], groups: dict[str, tuple[str, ...]]
+) -> tuple[Cause, ...]:
+    """The causes, by their groups: those that block the first of the hindered moves before the others.
+
+    Then what sent them there, then wishes.
+    """
+    causes = []
+    for name, group in groups.items():
+        necessary = group == (name,)
+        each = len(group) > 1 and all(tried.keeping([other]) is fact for other in group)
+        if is_factor(name):
+            kind = name.partition(":")[0]
+            causes.append(Cause(name, kind, None, Role.WEIGHS, (), necessary, group, each))  # type: ignore[arg-type]
+            continue
+        thing = world.find(name)
+        if thing is not None:
+            blocked = tuple(option.move for option in hindered if name in option.causes)
+            role = Role.BLOCKS if blocked else Role.DRIVES
+            causes.append(Cause(name, thing.kind, thing.cell, role, blocked, necessary, group, each))
+    order = [option.move for option in hindered]
+
+    def rank(cause: Cause) -> tuple[int, bool]:
+        return order.index(cause.moves[0]) if cause.moves else len(order), cause.role is Role.WEIGHS
+
+    return tuple(sorted(causes, key=rank))

@@ -1,0 +1,50 @@
+"""The advice: of all choices the one with the best chance, and among equals the gentlest."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from sim.actions import Weather
+from sim.hazard_advice.chances import figures, prospects
+from sim.hazard_advice.facts import Advice, Choice, NoAdviceError, Prospect
+from sim.hazard_advice.parameters import DISTANCES_M, SPEEDS_KMH
+from sim.hazard_advice.samples import SAMPLES
+from sim.types import Kind
+
+EVEN_CHANCE: Final = 0.05
+"""Chances that differ by less are as good as each other: what is beside and behind is not known."""
+EVEN_HARM_KMH: Final = 2.0
+"""Harm is even, too, if on average it is done at so little more speed."""
+
+
+def advise(hazard: Kind, distance_m: float, speed_kmh: float, weather: Weather = "clear") -> Advice:
+    """What to do about a hazard straight ahead. Raises `NoAdviceError` where nothing can be said."""
+    for field, value, (least, most), unit in (
+        ("distance_m", distance_m, DISTANCES_M, "m"),
+        ("speed_kmh", speed_kmh, SPEEDS_KMH, "km/h"),
+    ):
+        if not least <= value <= most:
+            name = "speed" if field == "speed_kmh" else "distance"
+            can = f"I can advise at a {name} of {least:g} to {most:,.0f} {unit}"
+            raise NoAdviceError(field, f"{can}, and not at {value:.12g} {unit}.")
+    middle = figures(hazard, distance_m, speed_kmh, weather)
+    found = prospects(hazard, distance_m, speed_kmh, weather, middle)
+    return Advice(
+        hazard=hazard,
+        distance_m=distance_m,
+        speed_kmh=speed_kmh,
+        weather=weather,
+        choice=_best(hazard, found).choice,
+        prospects=found,
+        figures=middle,
+        samples=SAMPLES,
+    )
+
+
+def _best(hazard: Kind, found: tuple[Prospect, ...]) -> Prospect:
+    """The best chance; then the least speed at which harm is done; then the least effort."""
+    open_ = [each for each in found if each.choice is not Choice.KEEP or hazard is Kind.POTHOLE]
+    most = max(each.chance for each in open_)
+    even = [each for each in open_ if each.chance > most - EVEN_CHANCE]
+    least = min(each.harm_kmh for each in even)
+    return next(each for each in even if each.harm_kmh <= least + EVEN_HARM_KMH)

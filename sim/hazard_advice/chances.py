@@ -1,0 +1,111 @@
+"""The chance of each choice: the share of samples in which it comes away unharmed.
+
+*Unharmed* is the same for every choice: the hazard is never reached, or is met no faster than it does harm.
+Only a pothole can be met so; anything else does harm at any speed.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+import numpy as np
+
+from sim.actions import Weather
+from sim.hazard_advice import physics, samples
+from sim.hazard_advice.facts import Choice, Ending, Figures, Prospect
+from sim.hazard_advice.parameters import CLEARING, FRICTION, GRAVITY, HARM, LATERAL, MARGIN_M, REACTION, WIDTH
+from sim.types import Kind
+
+_Z = 1.96
+"""A standard normal is between ±1.96 in 95 % of cases."""
+
+
+def figures(hazard: Kind, distance_m: float, speed_kmh: float, weather: Weather) -> Figures:
+    """The physics, with every quantity in the middle of its range."""
+    speed, reaction, friction = speed_kmh / 3.6, REACTION.middle, FRICTION[weather].middle
+    lateral = float(physics.lateral_acceleration(speed, friction, LATERAL.middle))
+    offset = _offset(hazard, WIDTH[hazard].middle)
+    steering_s = float(physics.steering_time(offset, lateral))
+    drawn = physics.stopping_distance(
+        speed * samples.speed_ratio(), samples.reaction(), samples.friction(weather)
+    )
+    rank = int(0.95 * samples.SAMPLES)
+    return Figures(
+        speed_ms=speed,
+        time_s=distance_m / speed,
+        reaction_s=reaction,
+        friction=friction,
+        deceleration_ms2=friction * GRAVITY,
+        reaction_m=speed * reaction,
+        braking_m=physics.braking_distance(speed, friction),
+        stopping_m=physics.stopping_distance(speed, reaction, friction),
+        stopping_most_m=float(np.partition(drawn, rank)[rank]),
+        offset_m=offset,
+        lateral_ms2=lateral,
+        steering_s=steering_s,
+        steering_m=speed * (reaction + steering_s),
+        unharmed_kmh=HARM.middle if hazard is Kind.POTHOLE else 0.0,
+    )
+
+
+def prospects(
+    hazard: Kind, distance_m: float, speed_kmh: float, weather: Weather, middle: Figures
+) -> tuple[Prospect, ...]:
+    """What each choice leads to, in the order of `Choice`; `middle` is what `figures` found."""
+    speed = middle.speed_ms * samples.speed_ratio()
+    distance = distance_m * samples.distance_ratio(weather)
+    reaction, friction = samples.reaction(), samples.friction(weather)
+    lateral = physics.lateral_acceleration(speed, friction, samples.lateral_share())
+    aside_s = reaction + physics.steering_time(_offset(hazard, samples.width(hazard)), lateral)
+    braked = float(physics.speed_left(middle.speed_ms, middle.reaction_s, middle.friction, distance_m))
+    clears = middle.steering_m <= distance_m
+    met = {
+        Choice.KEEP: (speed, 3.6 * middle.speed_ms, 0.0),
+        Choice.BRAKE: (
+            physics.speed_left(speed, reaction, friction, distance),
+            3.6 * braked,
+            middle.stopping_m,
+        ),
+        Choice.STEER: (
+            np.where(speed * aside_s <= distance, 0.0, speed),
+            0.0 if clears else speed_kmh,
+            middle.steering_m,
+        ),
+    }
+    unharmed_below = samples.pothole_harm() if hazard is Kind.POTHOLE else np.float64(0.0)
+    found = []
+    for choice, (meets, typical_kmh, needs_m) in met.items():
+        harmed = meets > unharmed_below
+        chance = 1.0 - int(np.count_nonzero(harmed)) / samples.SAMPLES
+        found.append(
+            Prospect(
+                choice=choice,
+                chance=chance,
+                interval=interval(chance, samples.SAMPLES),
+                ending=_ending(choice, typical_kmh, middle.unharmed_kmh),
+                needs_m=needs_m,
+                meets_kmh=typical_kmh,
+                harm_kmh=3.6 * float(np.sum(meets, where=harmed)) / samples.SAMPLES,
+            )
+        )
+    return tuple(found)
+
+
+def interval(share: float, count: int) -> tuple[float, float]:
+    """Where a share lies with 95 % (Wilson, 1927): honest also at 0 and 1."""
+    square = _Z * _Z / count
+    middle = (share + square / 2) / (1 + square)
+    half = _Z * sqrt(share * (1 - share) / count + square / (4 * count)) / (1 + square)
+    # At 0 and 1 the bound is the share itself, but for the last digit of a float.
+    return max(0.0, min(share, middle - half)), min(1.0, max(share, middle + half))
+
+
+def _offset(hazard: Kind, width: physics.Number) -> physics.Number:
+    """How far aside the car must be: what is to pass was heading for the hazard's middle."""
+    return (CLEARING[hazard] + width) / 2 + MARGIN_M
+
+
+def _ending(choice: Choice, meets_kmh: float, unharmed_kmh: float) -> Ending:
+    if meets_kmh == 0.0:
+        return Ending.CLEARS if choice is Choice.STEER else Ending.STOPS
+    return Ending.CROSSES if meets_kmh <= unharmed_kmh else Ending.HITS

@@ -1,0 +1,112 @@
+"""The least ticks and the least cost from a moment to the goal, as the rules and the charges say.
+
+The least ticks are exact: movers that give way or brake are searched with the reactions they are drawn to
+have. The least cost assumes that nobody reacts to the vehicle after the first tick.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+from sim.forecast import Forecast, predict
+from sim.perceive import perceive
+from sim.search.astar import cheapest
+from sim.search.costs import weights
+from sim.search.reachability import flood_fill, reachability, shortest_plan, steps_left
+from sim.search.reactive import ReactiveSearch
+from sim.search.time_expanded import TimeExpandedGraph
+from sim.state import SimState
+from sim.types import Move, Outcome
+
+PATIENCE: Final = 1_000
+"""States searched for an answer to a question, where movers react: some 30 ms."""
+
+
+def foreseen(state: SimState) -> tuple[Forecast, int]:
+    """The forecast to the episode's end, and the steps left. Raises `ValueError` after the end."""
+    if state.world.outcome is not Outcome.RUNNING:
+        raise ValueError("the episode has ended")
+    limit = steps_left(state.config, state.world.episode_tick)
+    return predict(perceive(state.world, state.config), max(1, limit)), limit
+
+
+def least_ticks(state: SimState, patience: int | None = None) -> int | None:
+    """Ticks of the quickest way from here to row 0 that meets nothing; None: there is no way in time.
+
+    Where movers react, `patience` is how many states are searched; then it raises `ImpatientError`.
+    """
+    if state.world.outcome is Outcome.SUCCESS:
+        return 0
+    if state.world.outcome is not Outcome.RUNNING:
+        return None
+    forecast, limit = foreseen(state)
+    ticks = reachability(forecast, 1 << forecast.ego, limit).ticks
+    if _settled(state, ticks):
+        return ticks
+    bound = _bound(state, ticks, limit)
+    quicker = None
+    if ticks is not None or _passable(forecast):
+        quicker = ReactiveSearch(state.world, state.config, forecast, patience).least_ticks(bound)
+    return ticks if quicker is None and state.config.courtesy == 0.0 else quicker
+
+
+def quickest_plan(state: SimState) -> tuple[Move, ...] | None:
+    """The moves of a way of `least_ticks` from here; None: there is no way in time.
+
+    Raises `ValueError` after the end.
+    """
+    forecast, limit = foreseen(state)
+    plan = shortest_plan(forecast, limit)
+    ticks = None if plan is None else len(plan)
+    if _settled(state, ticks):
+        return plan
+    bound = _bound(state, ticks, limit)
+    quicker = None
+    if ticks is not None or _passable(forecast):
+        quicker = ReactiveSearch(state.world, state.config, forecast).plan(bound)
+    return plan if quicker is None and state.config.courtesy == 0.0 else quicker
+
+
+def can_arrive(state: SimState, patience: int | None = None) -> bool:
+    """Whether the goal can be reached from here in time. `patience`: as for `least_ticks`."""
+    if state.world.outcome is not Outcome.RUNNING:
+        return state.world.outcome is Outcome.SUCCESS
+    forecast, limit = foreseen(state)
+    if state.config.courtesy == 0.0 and reachability(forecast, 1 << forecast.ego, limit).ticks is not None:
+        return True
+    if not state.config.reacting or not _passable(forecast):
+        return False
+    search = ReactiveSearch(state.world, state.config, forecast, patience)
+    return search.least_ticks(limit) is not None
+
+
+def least_cost(state: SimState) -> int | None:
+    """The cheapest way from here to row 0 by the configuration's charges; None: none is known."""
+    if state.world.outcome is Outcome.SUCCESS:
+        return 0
+    if state.world.outcome is not Outcome.RUNNING:
+        return None
+    forecast, limit = foreseen(state)
+    if reachability(forecast, 1 << forecast.ego, limit).ticks is None:
+        return None  # a heuristic search would try everything before it gave up
+    terrain = TimeExpandedGraph(forecast, weights(state.config), limit)
+    way = cheapest(terrain, terrain.start)
+    return None if way is None else way.cost
+
+
+def _settled(state: SimState, ticks: int | None) -> bool:
+    """Whether reactions of movers cannot lead to the goal sooner than a way found without them."""
+    # A way that meets nothing in the roll-out without reactions causes none, unless movers give way. No way
+    # takes less than a tick a row.
+    rows = state.world.av // state.world.road.columns
+    return not state.config.reacting or (state.config.courtesy == 0.0 and ticks == rows)
+
+
+def _bound(state: SimState, ticks: int | None, limit: int) -> int:
+    """Ticks within which a quicker way would have to arrive."""
+    return limit if ticks is None or state.config.courtesy else ticks - 1
+
+
+def _passable(forecast: Forecast) -> bool:
+    """Whether a way leads past the fixed hazards, were there no movers."""
+    return bool(flood_fill(forecast, 1 << forecast.ego) & forecast.road.row(0))

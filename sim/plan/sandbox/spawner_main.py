@@ -1,0 +1,85 @@
+"""The process that planners' processes are started from: `python -m sim.plan.sandbox.spawner_main`.
+
+It has this project's modules loaded and nothing else, so that one more process costs milliseconds, and who
+asks (a service with much memory and little time) does not have to divide itself. It has one thread, runs
+nothing of any planner, and is asked on its standard input, one request after the other; a line answers each:
+
+    {"start": "module:Class", "paths": [...]}, with two files: the line, and what is printed  ->  its number
+    {"look": number}   ->  the code it ended with, or null
+    {"reap": number}   ->  null; it has been killed, and its number may be given away
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import socket
+import sys
+from typing import Any, Final
+
+from sim.plan.sandbox.worker_main import end_with_parent, serve
+
+_REQUEST: Final = 2**20
+_reaping: set[int] = set()
+
+
+def main() -> None:
+    """Answer until nobody asks."""
+    end_with_parent()
+    asked = socket.socket(fileno=os.dup(0))
+    with open(os.devnull, "rb") as nothing:
+        os.dup2(nothing.fileno(), 0)
+    while True:
+        data, files = _received(asked)
+        if not data:
+            return
+        answer = _answer(json.loads(data), files, asked)
+        asked.sendall(json.dumps(answer).encode() + b"\n")
+
+
+def _received(asked: socket.socket) -> tuple[bytes, list[int]]:
+    data, files = b"", list[int]()
+    while not data.endswith(b"\n"):
+        part, more, _, _ = socket.recv_fds(asked, _REQUEST, 2)
+        if not part:
+            return b"", files
+        data, files = data + part, files + more
+    return data, files
+
+
+def _answer(request: dict[str, Any], files: list[int], asked: socket.socket) -> int | None:
+    for number in list(_reaping):
+        if os.waitpid(number, os.WNOHANG)[0]:
+            _reaping.discard(number)
+    if "start" in request:
+        number = _started(request["start"], request["paths"], files, asked)
+        for file in files:
+            os.close(file)
+        return number
+    if "reap" in request:
+        _reaping.add(request["reap"])
+        return None
+    ended = os.waitid(os.P_PID, request["look"], os.WEXITED | os.WNOHANG | os.WNOWAIT)
+    if ended is None:
+        return None
+    return ended.si_status if ended.si_code == os.CLD_EXITED else -ended.si_status
+
+
+def _started(target: str, paths: list[str], files: list[int], asked: socket.socket) -> int:
+    number = os.fork()
+    if number:
+        os.setpgid(number, number)
+        return number
+    code = 1
+    try:
+        os.setpgid(0, 0)
+        asked.close()
+        sys.path[:] = paths
+        serve(target, *files)
+        code = 0
+    finally:
+        os._exit(code)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,506 @@
+"""Planners of other packages, each in a process of its own, where it can hang, crash or leak alone.
+
+One thread with an event loop looks after all of them; who asks has a future, and waits or does not. A process
+has a time to start in and a time for each decision, gets a line of its own and nothing else of this process
+(no files, no sockets, no settings), and stands still while it is not asked (Linux). Whoever takes too long or
+breaks the rules of the line is killed with all it has started, and begun anew at the next question; one that
+fails again and again is left alone for a while. How many processes there are, and begin at once, is limited.
+
+Leaves out what an answer is (`answer`), and what a process with the rights of its user may do to that user's
+files: it is kept from troubling the service, not from being malicious.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import atexit
+import json
+import logging
+import os
+import signal
+import socket
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Coroutine
+from concurrent.futures import Future
+from contextlib import asynccontextmanager, suppress
+from functools import cache
+from typing import TYPE_CHECKING, Any, Final, TypeVar
+
+from sim.config import Config
+from sim.perceive import Percept
+from sim.plan.sandbox.answer import (
+    MOST_BYTES,
+    Answer,
+    CodedError,
+    FaultError,
+    answer_of,
+    fault_of,
+    loaded,
+    parsed,
+)
+from sim.plan.sandbox.answer_cache import Remembered, answers, key_of
+from sim.plan.sandbox.codec import CHECKED, question
+from sim.planner_names import installed
+
+if TYPE_CHECKING:
+    from collections.abc import AsyncIterator
+
+_LOG = logging.getLogger(__name__)
+
+BUDGET_S: Final = 0.25
+"""Time for one decision."""
+START_S: Final = 20.0
+"""Time for a process to start and load its planner."""
+MOST_PROCESSES: Final = 32
+"""More planners than this take turns."""
+MOST_AT_ONCE: Final = max(4, os.cpu_count() or 1)
+"""So many decide at once, so that each has a processor to do so in time; the others wait for their turn."""
+MOST_STARTING: Final = 2
+"""So many processes start at once; the others wait for their turn."""
+MOST_FAILURES: Final = 5
+"""After so many failures in a row a planner is left alone for `REST_S`."""
+REST_S: Final = 30.0
+CHECK_BYTES: Final = 32_768
+"""Of an answer that is told in full, for the checker."""
+LOG_BYTES: Final = 500
+"""Of what a process prints are logged; the rest is thrown away."""
+
+_PRINTED_BYTES, _PRINTED_S = 4_096, 0.02
+"""Not more is read of what a process prints, and not more often: who floods waits."""
+_PASSED_ON: Final = (
+    "PATH",
+    "HOME",
+    "LANG",
+    "LC_ALL",
+    "LC_CTYPE",
+    "TMPDIR",
+    "TZ",
+    "VIRTUAL_ENV",
+    "LD_LIBRARY_PATH",
+)
+"""Of the environment: keys and passwords of the service are not for planners."""
+_ONE_THREAD: Final = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+_STANDS_STILL: Final = sys.platform == "linux"
+
+Result = TypeVar("Result")
+
+
+class SilentError(Exception):
+    """No answer within the time there is; the message says which, to follow the planner's name."""
+
+
+class Worker:
+    """One planner's process, started when first asked. Several threads may ask; it answers in turn."""
+
+    def __init__(
+        self,
+        name: str,
+        target: str,
+        budget_s: float = BUDGET_S,
+        start_s: float = START_S,
+        memory: Remembered | None = answers,
+    ) -> None:
+        """The planner `module:Class`. Without a `memory` it is asked the same question again."""
+        self.name = name
+        self._target = target
+        self._budget_s = budget_s
+        self._start_s = start_s
+        self._memory = memory
+        self._turn = asyncio.Lock()
+        self._line: _Line | None = None
+        self._failures = 0
+        self._rests_until = 0.0
+
+    def ask(self, percept: Percept, config: Config) -> Future[Answer]:
+        """What it answers. The future raises `FaultError` or `SilentError`; it is not to be cancelled."""
+
+        async def asked() -> Answer:
+            return await self._asked(question(percept, config))
+
+        return _planners().begin(asked())
+
+    def ask_in_full(self, percept: Percept, config: Config) -> Future[tuple[Answer, dict[str, Any]]]:
+        """As `ask`, with all that its decision says, as it says it: nothing of that is believed."""
+
+        async def asked() -> tuple[Answer, dict[str, Any]]:
+            async with self._turn:
+                values = loaded(await self._exchanged(CHECKED + question(percept, config), CHECK_BYTES))
+            if "fault" in values:
+                raise fault_of(values)
+            if set(values) != {"answer", "claims", "changed"} or not isinstance(values["answer"], dict):
+                raise CodedError("more")
+            return answer_of(values["answer"]), values
+
+        return _planners().begin(asked())
+
+    def stop(self) -> None:
+        """End the process."""
+
+        async def stopped() -> None:
+            line = self._line
+            self.leave()
+            if line is not None:
+                await line.gone()
+
+        _planners().begin(stopped()).result()
+
+    @property
+    def idle(self) -> bool:
+        """Whether it has a process that nobody asks."""
+        return self._line is not None and not self._turn.locked()
+
+    async def _asked(self, what: bytes) -> Answer:
+        key = key_of(self.name, what)
+        async with self._turn:
+            found = None if self._memory is None else self._memory.find(key)
+            if found is None:
+                found = await self._found(what)
+                if self._memory is not None:
+                    self._memory.note(key, found)
+        if isinstance(found, str):
+            raise FaultError(found)
+        return found
+
+    async def _found(self, what: bytes) -> Answer | str:
+        try:
+            return parsed(await self._exchanged(what, MOST_BYTES))
+        except FaultError as fault:
+            if fault.detail:
+                _LOG.info("the planner %s %s: %s", self.name, fault, ascii(fault.detail))
+            return str(fault)
+
+    async def _exchanged(self, what: bytes, most: int) -> bytes:
+        """A question and its answer. Raises `FaultError` where the line broke, and `SilentError`."""
+        if self._rests_until > time.monotonic():
+            raise SilentError(f"has failed {MOST_FAILURES} times in a row and is left alone for now")
+        try:
+            line = self._line or await self._started()
+            _planners().used(self)
+            async with _planners().deciding:
+                told = await line.exchanged(what, most, self._budget_s, "did not answer")
+        except (SilentError, FaultError):
+            self.leave()
+            self._failures += 1
+            if self._failures >= MOST_FAILURES:
+                self._rests_until = time.monotonic() + REST_S
+            raise
+        self._failures = 0
+        if _planners().wanted:
+            self.leave()  # others wait for a process
+        return told
+
+    async def _started(self) -> _Line:
+        async with _planners().starting(self):
+            self._line = _Line(self.name, _planners().spawner)
+            await self._line.start(self._target)
+            await self._line.ready(self._start_s)
+            return self._line
+
+    def leave(self) -> None:
+        """Let go of its process; on the planners' thread."""
+        line, self._line = self._line, None
+        if line is not None:
+            line.kill()
+        _planners().gone(self)
+
+
+class _Spawner:
+    """The process that the others are started from. For the planners' thread."""
+
+    def __init__(self) -> None:
+        self._turn = asyncio.Lock()
+        self._process: subprocess.Popen[bytes] | None = None
+        self._socket: socket.socket | None = None
+
+    async def start(self, target: str, *files: int) -> int:
+        """Start the process of a planner with these files; answers its number. Raises `CodedError`."""
+        try:
+            number = await self._asked({"start": target, "paths": _paths()}, *files)
+        except (OSError, ValueError) as error:
+            raise CodedError("unstartable", detail=str(error)) from error
+        assert number is not None
+        return number
+
+    async def code(self, number: int) -> int | None:
+        """The code that a process ended with; of a signal, its negative. None while it runs."""
+        return await self._asked({"look": number})
+
+    async def reap(self, number: int) -> None:
+        """A process has been killed and is looked at no more."""
+        await self._asked({"reap": number})
+
+    def end(self) -> None:
+        """End it, and with it (on Linux) all that it has started."""
+        if self._socket is not None:
+            self._socket.close()
+        if self._process is not None:
+            self._process.kill()
+            self._process.wait()
+        self._socket = self._process = None
+
+    async def _asked(self, request: dict[str, Any], *files: int) -> int | None:
+        loop = asyncio.get_running_loop()
+        async with self._turn:
+            if self._socket is None or self._process is None or self._process.poll() is not None:
+                self.end()
+                self._begin()
+            line = self._socket
+            assert line is not None
+            try:
+                async with asyncio.timeout(START_S):
+                    socket.send_fds(line, [json.dumps(request).encode() + b"\n"], list(files))
+                    answer = b""
+                    while not answer.endswith(b"\n"):
+                        part = await loop.sock_recv(line, 256)
+                        if not part:
+                            raise ConnectionError("the process that starts planners has ended")
+                        answer += part
+            except OSError:  # a planner may have stopped it, or ended it; a timeout is one, too
+                self.end()
+                raise
+        found = json.loads(answer)
+        return found if isinstance(found, int) else None
+
+    def _begin(self) -> None:
+        ours, theirs = socket.socketpair()
+        ours.setblocking(False)
+        environment = {key: os.environ[key] for key in _PASSED_ON if key in os.environ}
+        environment |= _ONE_THREAD | {"PYTHONPATH": os.pathsep.join(_paths()), "PYTHONDONTWRITEBYTECODE": "1"}
+        with theirs:
+            self._process = subprocess.Popen(
+                [sys.executable, "-P", "-m", "sim.plan.sandbox.spawner_main"],
+                stdin=theirs.fileno(),
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                env=environment,
+                start_new_session=True,  # Linux shares out processors session by session
+            )
+        self._socket = ours
+
+
+class _Line:
+    """A process, and the line to it."""
+
+    def __init__(self, name: str, spawner: _Spawner) -> None:
+        self._name = name
+        self._spawner = spawner
+        self._number = 0
+        self._process: int | None = None
+        self._reader: asyncio.StreamReader | None = None
+        self._writer: asyncio.StreamWriter | None = None
+        self._reading: asyncio.Future[None] | None = None
+        self._reaping: asyncio.Future[None] | None = None
+
+    async def start(self, target: str) -> None:
+        """Start the process. Raises `CodedError`."""
+        ours, theirs = socket.socketpair()
+        printed, printing = os.pipe()
+        try:
+            self._process = await self._spawner.start(target, theirs.fileno(), printing)
+        except BaseException:
+            ours.close()
+            os.close(printed)
+            raise
+        finally:
+            theirs.close()
+            os.close(printing)
+        self._reading = asyncio.ensure_future(self._read_printed(printed))
+        self._reader, self._writer = await asyncio.open_unix_connection(sock=ours, limit=CHECK_BYTES)
+
+    async def ready(self, within_s: float) -> None:
+        """Wait until its planner is loaded. Raises `SilentError` and `FaultError`."""
+        told = loaded(await self._told(0, MOST_BYTES, within_s, "did not start"))
+        if told != {"ready": True}:
+            raise fault_of(told)
+        self._rest()
+
+    async def exchanged(self, what: bytes, most: int, within_s: float, late: str) -> bytes:
+        """The line that answers a line."""
+        assert self._writer is not None
+        self._number += 1
+        if _STANDS_STILL:
+            self._signal(signal.SIGCONT)
+        self._writer.write(b"%d %s\n" % (self._number, what))
+        told = await self._told(self._number, most, within_s, late)
+        self._rest()
+        return told
+
+    async def _told(self, number: int, most: int, within_s: float, late: str) -> bytes:
+        assert self._reader is not None
+        try:
+            async with asyncio.timeout(within_s):
+                line = await self._reader.readuntil()
+        except TimeoutError:
+            raise SilentError(f"{late} within {within_s:g} s") from None
+        except asyncio.LimitOverrunError:
+            raise CodedError("too-long") from None
+        except (asyncio.IncompleteReadError, ConnectionError):
+            raise await self._ended() from None
+        if len(line) > most:
+            raise CodedError("too-long")
+        which, _, told = line.partition(b" ")
+        if which != b"%d" % number:
+            raise CodedError("out-of-turn")
+        return told
+
+    async def _ended(self) -> CodedError:
+        """How its process ended, if it has."""
+        assert self._process is not None
+        for _ in range(20):
+            code = await self._spawner.code(self._process)
+            if code is not None:
+                return CodedError(
+                    "died", f"exit status {code}" if code >= 0 else f"killed by {_signal_name(-code)}"
+                )
+            await asyncio.sleep(0.01)
+        return CodedError("closed")
+
+    def kill(self) -> None:
+        """End it, and whatever it has started in its group."""
+        self._signal(signal.SIGKILL)
+        if self._process is not None:
+            self._reaping = asyncio.ensure_future(self._reaped(self._process))
+            self._process = None
+        if self._reading is not None:
+            self._reading.cancel()
+        if self._writer is not None:
+            self._writer.transport.abort()
+
+    async def gone(self) -> None:
+        """Once it has been killed: wait until its number is given back."""
+        if self._reaping is not None:
+            await self._reaping
+
+    async def _reaped(self, process: int) -> None:
+        with suppress(OSError, ValueError):  # whoever starts them has ended, and they with it
+            await self._spawner.reap(process)
+
+    def _rest(self) -> None:
+        if _STANDS_STILL:
+            self._signal(signal.SIGSTOP)
+
+    def _signal(self, number: int) -> None:
+        if self._process is not None:
+            with suppress(ProcessLookupError, PermissionError):
+                os.killpg(self._process, number)
+
+    async def _read_printed(self, printed: int) -> None:
+        """Log the beginning of what it prints, and read on in small bites."""
+        loop, reader = asyncio.get_running_loop(), asyncio.StreamReader(limit=_PRINTED_BYTES)
+        with os.fdopen(printed, "rb", buffering=0) as end:
+            transport, _ = await loop.connect_read_pipe(lambda: asyncio.StreamReaderProtocol(reader), end)
+            kept = b""
+            try:
+                while part := await reader.read(_PRINTED_BYTES):
+                    kept += part[: LOG_BYTES - len(kept)]
+                    await asyncio.sleep(_PRINTED_S)
+            finally:
+                transport.close()
+                if kept:
+                    _LOG.info("the planner %s printed: %s", self._name, ascii(kept.decode(errors="replace")))
+
+
+class _Planners:
+    """The thread that looks after all processes, and how many there may be."""
+
+    def __init__(self) -> None:
+        self._loop = asyncio.new_event_loop()
+        self.spawner = _Spawner()
+        self.deciding = asyncio.Semaphore(MOST_AT_ONCE)
+        self._start = asyncio.Semaphore(MOST_STARTING)
+        self._room = asyncio.Condition()
+        self._with_process: dict[Worker, None] = {}
+        """the one that was asked longest ago first"""
+        self.wanted = 0
+        """how many wait for room"""
+        self._ended = False
+        self._telling: asyncio.Task[None] | None = None
+        self._thread = threading.Thread(target=self._run, name="planners", daemon=True)
+        self._thread.start()
+
+    def begin(self, work: Coroutine[Any, Any, Result]) -> Future[Result]:
+        """Do this on the thread."""
+        return asyncio.run_coroutine_threadsafe(work, self._loop)
+
+    @asynccontextmanager
+    async def starting(self, worker: Worker) -> AsyncIterator[None]:
+        """Room for one more process, and a turn to start it."""
+        if self._ended:
+            raise SilentError("is asked no more, since the program ends")
+        async with self._room:
+            if len(self._with_process) >= MOST_PROCESSES:
+                idle = next((each for each in self._with_process if each.idle), None)
+                if idle is not None:
+                    idle.leave()
+                self.wanted += 1
+                try:
+                    await self._room.wait_for(lambda: len(self._with_process) < MOST_PROCESSES)
+                finally:
+                    self.wanted -= 1
+            self._with_process[worker] = None
+        try:
+            async with self._start:
+                yield
+        except BaseException:
+            self.gone(worker)
+            raise
+
+    def used(self, worker: Worker) -> None:
+        """It is asked now."""
+        self._with_process.pop(worker, None)
+        self._with_process[worker] = None
+
+    def gone(self, worker: Worker) -> None:
+        """It has no process any more."""
+        if worker in self._with_process:
+            del self._with_process[worker]
+            self._telling = self._loop.create_task(self._told_of_room())
+
+    def end(self) -> None:
+        """Kill every process, and start none any more."""
+
+        async def ended() -> None:
+            for worker in list(self._with_process):
+                worker.leave()
+            self.spawner.end()
+
+        if not self._ended:
+            self._ended = True
+            with suppress(TimeoutError):
+                self.begin(ended()).result(5.0)
+
+    async def _told_of_room(self) -> None:
+        async with self._room:
+            self._room.notify_all()
+
+    def _run(self) -> None:
+        asyncio.set_event_loop(self._loop)
+        self._loop.run_forever()
+
+
+@cache
+def _planners() -> _Planners:
+    planners = _Planners()
+    atexit.register(planners.end)
+    return planners
+
+
+@cache
+def worker_of(name: str) -> Worker | None:
+    """The process of the installed planner of that name; None if there is none."""
+    point = installed().get(name)
+    return None if point is None else Worker(name, point.value)
+
+
+def _paths() -> list[str]:
+    return [os.path.abspath(path) for path in sys.path]
+
+
+def _signal_name(number: int) -> str:
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        return f"signal {number}"

@@ -1,0 +1,87 @@
+"""Pictures of a world, with pygame: the only place that imports it. No window is needed.
+
+`render` draws, `encode` makes bytes of it. Drawing knows the world and nothing of where its
+pictures go. Importing this package does not import pygame; drawing does.
+"""
+
+from __future__ import annotations
+
+from os import environ
+from typing import TYPE_CHECKING
+
+from sim.render.motion import STEP_FRAMES, eased
+from sim.render.theme import MAX_SIDE_PX
+
+if TYPE_CHECKING:
+    import numpy as np
+    import pygame
+    from numpy.typing import NDArray
+
+    from sim.plan import Decision
+    from sim.state import SimState
+    from sim.world import World
+
+VIEWS = ("road", "schematic")
+FORMATS = ("png", "jpeg", "webp")
+MIN_SIDE_PX = 64
+"""The least room for a picture."""
+
+__all__ = [
+    "FORMATS",
+    "MAX_SIDE_PX",
+    "MIN_SIDE_PX",
+    "STEP_FRAMES",
+    "VIEWS",
+    "eased",
+    "encode",
+    "pixels",
+    "render",
+]
+
+
+def render(
+    view: str,
+    state: SimState,
+    *,
+    before: World | None = None,
+    decision: Decision | None = None,
+    phase: float = 1.0,
+    size: tuple[int, int] | None = None,
+) -> pygame.Surface:
+    """A picture of a run.
+
+    `before` is the world one tick earlier, from which things glide as `phase` goes from 0 to 1;
+    `decision` is what led from it to the present. `size` is the room for it in pixels (the
+    picture keeps its shape within). Raises `ValueError` for a view there is none of and for
+    a size that is too small or too large.
+    """
+    environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
+    from sim.render.road_view import draw_road
+    from sim.render.schematic import draw_schematic
+
+    if size is not None and not all(MIN_SIDE_PX <= side <= MAX_SIDE_PX for side in size):
+        raise ValueError(f"the sides of a picture are {MIN_SIDE_PX} to {MAX_SIDE_PX} pixels, not {size}")
+    if view == "road":
+        return draw_road(state, before, decision, phase, size)
+    if view == "schematic":
+        return draw_schematic(state, size)
+    raise ValueError(f"there is no view called {view!r}; there are {', '.join(VIEWS)}")
+
+
+def encode(picture: pygame.Surface, form: str = "png") -> bytes:
+    """A picture as the bytes of a file. Raises `ValueError` for a format that is not offered."""
+    from sim.render.files import encoded
+
+    if form not in FORMATS:
+        raise ValueError(
+            f"pictures can be had as {', '.join(FORMATS[:-1])} and {FORMATS[-1]}, not as {form!r}"
+        )
+    return encoded(picture, form)
+
+
+def pixels(picture: pygame.Surface) -> NDArray[np.uint8]:
+    """A picture as an array (shape: height, width, 3)."""
+    import numpy as np
+    import pygame
+
+    return np.ascontiguousarray(pygame.surfarray.array3d(picture).transpose(1, 0, 2))

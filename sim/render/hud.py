@@ -1,0 +1,78 @@
+"""Figures over the road, and the verdict when an episode has ended."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import pygame
+
+from sim.render import theme
+from sim.render.text import width_of, written
+from sim.state import SimState
+from sim.types import Outcome
+
+LEAST_PX = 24
+MOST_PX = 42
+"""Height of the strip of figures; where it is too narrow for all of them, the last are left out."""
+
+
+def draw_figures(picture: pygame.Surface, state: SimState, unit_px: int) -> None:
+    """Tick, time, way to go and success rate along the upper edge."""
+    world, rate = state.world, state.metrics.success_rate
+    row = world.road.cell(world.av)[1]
+    figures = [
+        ("tick", str(world.tick)),
+        ("time", f"{world.tick * state.config.step_seconds:.1f} s"),
+        ("to go", f"{row * state.config.cell_m:g} m"),
+        ("episode", str(world.episode)),
+        ("arrived", "–" if rate is None else f"{rate:.0%}"),
+    ]
+    picture.blit(_strip(tuple(figures), picture.get_width(), unit_px), (0, 0))
+
+
+@lru_cache(maxsize=8)
+def _strip(shown: tuple[tuple[str, str], ...], width: int, unit_px: int) -> pygame.Surface:
+    figures, height = list(shown), max(LEAST_PX, min(MOST_PX, int(unit_px * 0.45)))
+    strip = pygame.Surface((width, height), pygame.SRCALPHA)
+    strip.fill(theme.PANEL)
+    name_px, figure_px = int(height * 0.55), int(height * 0.68)
+    room = height // 5 + 2 * height // 5
+    needs = [width_of(name, name_px) + width_of(figure, figure_px) + room for name, figure in figures]
+    while len(figures) > 1 and max(needs[: len(figures)]) * len(figures) > width:
+        figures.pop()
+    share = width // len(figures)
+    for n, (label, value) in enumerate(figures):
+        name = written(label, name_px, theme.TEXT_QUIET)
+        figure = written(value, figure_px, theme.TEXT)
+        x = n * share + (share - name.get_width() - figure.get_width() - height // 5) // 2
+        strip.blit(name, (x, (height - name.get_height()) // 2 + 1))
+        strip.blit(figure, (x + name.get_width() + height // 5, (height - figure.get_height()) // 2))
+    return strip
+
+
+def draw_verdict(picture: pygame.Surface, state: SimState, unit_px: int) -> None:
+    """CRASH, SUCCESS or STUCK across the middle, with what was hit; nothing while the road is driven."""
+    world = state.world
+    if world.outcome is Outcome.RUNNING:
+        return
+    colour = theme.OUTCOMES[world.outcome]
+    width, height = picture.get_size()
+    band = pygame.Surface((width, int(unit_px * 1.5)), pygame.SRCALPHA)
+    band.fill(theme.PANEL)
+    band.fill(colour, (0, 0, width, max(2, unit_px // 24)))
+    title = written(world.outcome.upper(), int(unit_px * 0.95), colour)
+    told = written(_told(state), int(unit_px * 0.36), theme.TEXT)
+    band.blit(title, ((width - title.get_width()) // 2, int(unit_px * 0.26)))
+    band.blit(told, ((width - told.get_width()) // 2, int(unit_px * 1.0)))
+    picture.blit(band, (0, (height - band.get_height()) // 2))
+
+
+def _told(state: SimState) -> str:
+    world = state.world
+    if world.cause is not None:
+        verb = {"swap": "through", "cross": "cut off by"}.get(world.cause.how, "into")
+        return f"{verb} {' and '.join(world.cause.ids)}"
+    ticks = (world.ended or world.tick) - world.episode_start
+    if world.outcome is Outcome.STUCK and ticks <= state.config.max_ticks:
+        return f"the same again after {ticks} ticks"
+    return f"{ticks} ticks, {ticks * state.config.step_seconds:g} s"

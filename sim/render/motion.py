@@ -1,0 +1,144 @@
+"""Where things are seen between two ticks: one answer for the window, for films and for what measures them.
+
+Everything goes in a straight line from cell to cell, all of it by the same share of its way at the same time,
+as `sim.rules.bodies` judges it. In the tick of a crash everything stops at the first contact, and stands
+there for as long as the result does.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+from sim.rules.bodies import SIZES, Path, first_contact
+from sim.state import SimState
+from sim.types import HAZARDS, Kind, Outcome
+from sim.world import Thing, World
+
+STEP_FRAMES: Final = 30
+"""frames from one tick to the next at 60 frames a second and `step_seconds` 0.5"""
+
+Box = tuple[float, float, float, float]
+"""left, top, right, bottom, in cells; whole numbers are centres of cells"""
+
+
+@dataclass(frozen=True, slots=True)
+class Pose:
+    """A thing and where its centre is seen, in cells; whole numbers are centres of cells."""
+
+    thing: Thing
+    column: float
+    row: float
+
+    @property
+    def box(self) -> Box:
+        """What of the road its body covers."""
+        across, along = (float(side) / 2 for side in SIZES[self.thing.kind])
+        return self.column - across, self.row - along, self.column + across, self.row + along
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """Everything as seen at one moment."""
+
+    av: Pose
+    things: tuple[Pose, ...]
+    """from the ground up"""
+    share: float
+    """of the tick's way that is gone, from 0 to 1"""
+    touch: tuple[float, float] | None = None
+    """column and row of the first contact of a crash, once it has happened"""
+
+
+def eased(phase: float) -> float:
+    """f(t) = t²(3 − 2t): the share of the way gone after the share `phase` of the time."""
+    share = min(1.0, max(0.0, phase))
+    return share * share * (3.0 - 2.0 * share)
+
+
+def between(start: float, end: float, share: float) -> float:
+    """The value that share of the way from `start` to `end`."""
+    return start + (end - start) * share
+
+
+def leading(state: SimState, before: World | None, phase: float) -> tuple[World, float]:
+    """The world from which things glide to the present one, and how much of the time is gone.
+
+    Without one that belongs to the same episode nothing glides. While the result of a crash stands, it is the
+    world before the crash, at its end: what collided stays where it touched.
+    """
+    world, last = state.world, state.record.last
+    if before is not None and before.episode_start != world.episode_start:
+        before = None
+    stands = world.outcome is Outcome.CRASH and (before is None or before.outcome is Outcome.CRASH)
+    if stands and last is not None:
+        return last, 1.0
+    return (world, 1.0) if before is None else (before, phase)
+
+
+def poses(before: World, after: World, phase: float) -> Scene:
+    """Everything on the road after the share `phase` of the time from one world to the next.
+
+    What was not there before is seen where it is now.
+    """
+    share = eased(phase)
+    av = Thing("av-1", Kind.AV, after.road.cell(after.av))
+    start = before.road.cell(before.av)
+    was, things = _cells(before), _things(after)
+    touch = None
+    if after.outcome is Outcome.CRASH and before.outcome is Outcome.RUNNING:
+        struck = _struck(Path(Kind.AV, start, av.cell), was, things)
+        if struck is not None and share >= struck[0]:
+            share = struck[0]
+            touch = _meeting(_gliding(av, start, share).box, _gliding(struck[1], struck[2], share).box)
+    seen = tuple(_gliding(thing, was.get(thing.id, thing.cell), share) for thing in things)
+    return Scene(_gliding(av, start, share), seen, share, touch)
+
+
+def _gliding(thing: Thing, start: tuple[int, int], share: float) -> Pose:
+    return Pose(thing, between(start[0], thing.cell[0], share), between(start[1], thing.cell[1], share))
+
+
+def _struck(
+    av: Path, was: dict[str, tuple[int, int]], things: tuple[Thing, ...]
+) -> tuple[float, Thing, tuple[int, int]] | None:
+    """What the vehicle touches first: when, what, and where that came from."""
+    first = None
+    for thing in things:
+        if min(abs(thing.cell[1] - av.start[1]), abs(thing.cell[1] - av.end[1])) > 1:
+            continue  # no body reaches so far, and the exact answer takes a while where there are thousands
+        start = was.get(thing.id, thing.cell)
+        when = first_contact(av, Path(thing.kind, start, thing.cell))
+        if when is not None and (first is None or when < first[0]):
+            first = float(when), thing, start
+    return first
+
+
+def _meeting(one: Box, other: Box) -> tuple[float, float]:
+    """The middle of what two boxes that touch have in common."""
+    across = (max(one[0], other[0]) + min(one[2], other[2])) / 2
+    return across, (max(one[1], other[1]) + min(one[3], other[3])) / 2
+
+
+_SEEN: list[tuple[World, tuple[Thing, ...], dict[str, tuple[int, int]]]] = []
+"""The two latest worlds, each with what is in it: the same two are drawn for many frames."""
+
+
+def _seen(world: World) -> tuple[tuple[Thing, ...], dict[str, tuple[int, int]]]:
+    for known, things, cells in _SEEN:
+        if known is world:
+            return things, cells
+    things = tuple(sorted(world.things(), key=lambda thing: thing.kind not in HAZARDS))
+    cells = {thing.id: thing.cell for thing in things}
+    _SEEN.append((world, things, cells))
+    del _SEEN[:-2]
+    return things, cells
+
+
+def _things(world: World) -> tuple[Thing, ...]:
+    """What is on the road, from the ground up."""
+    return _seen(world)[0]
+
+
+def _cells(world: World) -> dict[str, tuple[int, int]]:
+    return _seen(world)[1]

@@ -1,0 +1,61 @@
+"""The occupancy matrix: 0 where the road is free and 1 where something is, coloured by its kind."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import pygame
+
+from sim.render import theme
+from sim.render.text import written
+from sim.render.theme import MAX_SIDE_PX
+from sim.state import SimState
+from sim.types import Kind
+
+CELL_PX = 24
+LEAST_WRITTEN_PX = 8
+"""Digits in smaller cells could not be read, and are left out."""
+
+
+def draw_occupancy(state: SimState, size: tuple[int, int] | None = None) -> pygame.Surface:
+    """A cell for each of the road; `size` is the room for it in pixels."""
+    road = state.world.road
+    width, height = size or (MAX_SIDE_PX, MAX_SIDE_PX)
+    fitting = max(1, min(width // road.columns, height // road.rows))
+    px = min(fitting, CELL_PX) if size is None else fitting
+    picture = _zeros(road.columns, road.rows, px).copy()
+    for thing in state.world.things():
+        _one(picture, thing.kind, thing.cell, px)
+    for index in state.world.avs:
+        _one(picture, Kind.AV, road.cell(index), px)
+    return picture
+
+
+@lru_cache(maxsize=4)
+def _zeros(columns: int, rows: int, px: int) -> pygame.Surface:
+    picture = pygame.Surface((columns * px, rows * px))
+    picture.fill(theme.SCHEMATIC_GRID)
+    for row in range(rows):
+        for column in range(columns):
+            _digit(picture, "0", theme.ZERO, theme.SCHEMATIC_ROAD, (column, row), px)
+    return picture
+
+
+def _one(picture: pygame.Surface, kind: Kind, cell: tuple[int, int], px: int) -> None:
+    _digit(picture, "1", theme.ON_KIND, theme.SCHEMATIC[kind], cell, px)
+
+
+def _digit(
+    picture: pygame.Surface,
+    digit: str,
+    ink: theme.Colour,
+    paper: theme.Colour,
+    cell: tuple[int, int],
+    px: int,
+) -> None:
+    gap = 1 if px >= 6 else 0
+    box = pygame.Rect(cell[0] * px, cell[1] * px, px - gap, px - gap)
+    picture.fill(paper, box)
+    if px >= LEAST_WRITTEN_PX:
+        sign = written(digit, max(10, px * 4 // 5), ink)
+        picture.blit(sign, sign.get_rect(center=(box.centerx, box.centery + 1)))

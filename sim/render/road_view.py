@@ -1,0 +1,116 @@
+"""The road view: what is around the vehicle, gliding between two ticks."""
+
+from __future__ import annotations
+
+from math import cos, pi, sin
+
+import pygame
+
+from sim.plan import Decision
+from sim.render import theme
+from sim.render.camera import Camera, camera_on
+from sim.render.ground import lay_ground
+from sim.render.hud import draw_figures, draw_verdict
+from sim.render.motion import Pose, leading, poses
+from sim.render.sprites import av_sprite, barrier_sprite, pedestrian_sprite, pothole_sprite, vehicle_sprite
+from sim.rules.bodies import SIZES
+from sim.state import SimState
+from sim.types import Kind, Outcome
+from sim.world import World
+
+BOX_FROM_PX = 48
+"""side of a cell from which on boxes are drawn"""
+
+
+def draw_road(
+    state: SimState,
+    before: World | None,
+    decision: Decision | None,
+    phase: float,
+    size: tuple[int, int] | None,
+) -> pygame.Surface:
+    """See `sim.render.render`."""
+    world = state.world
+    start, gone = leading(state, before, phase)
+    seen = poses(start, world, gone)
+    camera = camera_on(state.config, seen.av.row, size)
+    picture = pygame.Surface(camera.size)
+    lay_ground(picture, camera, state.config.rows)
+    shown = (pose for pose in seen.things if camera.sees(pose.row))
+    if seen.touch is not None:
+        _draw_impact(picture, camera, seen.touch)
+    for pose in shown:
+        _draw_thing(picture, camera, pose)
+    if decision is not None and world.outcome is Outcome.RUNNING:
+        _draw_move(picture, camera, start, decision, seen.share)
+    _blit(picture, av_sprite(camera.cell_px), camera.centre(seen.av.column, seen.av.row))
+    _draw_box(picture, camera, seen.av, theme.AV)
+    draw_figures(picture, state, camera.cell_px)
+    draw_verdict(picture, state, camera.cell_px)
+    return picture
+
+
+def _draw_thing(picture: pygame.Surface, camera: Camera, pose: Pose) -> None:
+    thing = pose.thing
+    px, look = camera.cell_px, int(thing.id.rpartition("-")[2])
+    heading = thing.heading or "left"
+    match thing.kind:
+        case Kind.POTHOLE:
+            sprite = pothole_sprite(px, thing.id)
+        case Kind.BARRIER:
+            sprite = barrier_sprite(px)
+        case Kind.PEDESTRIAN:
+            sprite = pedestrian_sprite(px, look, heading, thing.disabled)
+        case _:
+            sprite = vehicle_sprite(px, look, heading, thing.disabled)
+    _blit(picture, sprite, camera.centre(pose.column, pose.row))
+    if thing.kind.moves:
+        _draw_box(picture, camera, pose, theme.BOX)
+
+
+def _draw_box(picture: pygame.Surface, camera: Camera, pose: Pose, colour: theme.Colour) -> None:
+    """The corners of a body's box, as a detector would draw it, where they do not hide what is in it."""
+    if camera.cell_px < BOX_FROM_PX:
+        return
+    across, along = (float(side) * camera.cell_px / 2 for side in SIZES[pose.thing.kind])
+    x, y = camera.centre(pose.column, pose.row)
+    arm = max(2, camera.cell_px // 14)
+    for dx in (-1, 1):
+        for dy in (-1, 1):
+            corner = (x + round(dx * across), y + round(dy * along))
+            pygame.draw.line(picture, colour, corner, (corner[0] - dx * arm, corner[1]))
+            pygame.draw.line(picture, colour, corner, (corner[0], corner[1] - dy * arm))
+
+
+def _draw_impact(picture: pygame.Surface, camera: Camera, touch: tuple[float, float]) -> None:
+    """A burst where two bodies first touched, under them, so that they stay to be seen."""
+    x, y = camera.centre(*touch)
+    for share, colour in zip((1.0, 0.74, 0.48), theme.IMPACT, strict=True):
+        points = []
+        for n in range(24):
+            radius = camera.cell_px * 0.5 * share * (1 - 0.12 * (n * 5 % 3) if n % 2 == 0 else 0.58)
+            points.append((x + radius * cos(pi * n / 12), y + radius * sin(pi * n / 12)))
+        pygame.draw.polygon(picture, colour, points)
+
+
+def _draw_move(
+    picture: pygame.Surface, camera: Camera, before: World, decision: Decision, share: float
+) -> None:
+    """An arrow from where the decision was taken to where it leads, fading as the way is gone."""
+    columns, rows = decision.move.offset
+    if (columns, rows) == (0, 0) or share >= 1.0:
+        return
+    column, row = before.road.cell(before.av)
+    start, end = camera.centre(column, row), camera.centre(column + columns, row + rows)
+    tip = camera.cell_px // 8
+    room = pygame.Rect(start, (1, 1)).union(pygame.Rect(end, (1, 1))).inflate(2 * tip, 2 * tip)
+    layer = pygame.Surface(room.size, pygame.SRCALPHA)
+    corner = pygame.Vector2(room.topleft)
+    colour = (*theme.MOVE, int(230 * (1 - share)))
+    pygame.draw.line(layer, colour, start - corner, end - corner, max(3, camera.cell_px // 14))
+    pygame.draw.circle(layer, colour, end - corner, tip)
+    picture.blit(layer, room)
+
+
+def _blit(picture: pygame.Surface, sprite: pygame.Surface, centre: tuple[int, int]) -> None:
+    picture.blit(sprite, sprite.get_rect(center=centre))

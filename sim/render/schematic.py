@@ -1,0 +1,48 @@
+"""The schematic: the whole road at a glance, one small square a cell."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import pygame
+
+from sim.render import theme
+from sim.render.theme import MAX_SIDE_PX
+from sim.state import SimState
+from sim.types import Kind
+
+CELL_PX = 24
+
+
+def draw_schematic(state: SimState, size: tuple[int, int] | None) -> pygame.Surface:
+    """See `sim.render.render`."""
+    road = state.world.road
+    width, height = size or (MAX_SIDE_PX, MAX_SIDE_PX)
+    fitting = max(1, min(width // road.columns, height // road.rows))
+    px = min(fitting, CELL_PX) if size is None else fitting
+    picture = _empty(road.columns, road.rows, px).copy()
+    for thing in state.world.things():
+        _spot(picture, thing.kind, thing.cell, px)
+    _spot(picture, Kind.AV, road.cell(state.world.av), px)
+    return picture
+
+
+@lru_cache(maxsize=4)
+def _empty(columns: int, rows: int, px: int) -> pygame.Surface:
+    picture = pygame.Surface((columns * px, rows * px))
+    picture.fill(theme.SCHEMATIC_GRID)
+    gap = 1 if px >= 6 else 0
+    for row in range(rows):
+        for column in range(columns):
+            colour = theme.FINISH[column % 2] if row == 0 else theme.SCHEMATIC_ROAD
+            picture.fill(colour, (column * px, row * px, px - gap, px - gap))
+    return picture
+
+
+def _spot(picture: pygame.Surface, kind: Kind, cell: tuple[int, int], px: int) -> None:
+    inset = max(0, px // 8)
+    spot = pygame.Rect(cell[0] * px, cell[1] * px, px, px).inflate(-2 * inset, -2 * inset)
+    if kind in (Kind.POTHOLE, Kind.PEDESTRIAN):
+        pygame.draw.ellipse(picture, theme.SCHEMATIC[kind], spot)
+    else:
+        pygame.draw.rect(picture, theme.SCHEMATIC[kind], spot, border_radius=px // 5)

@@ -1,0 +1,42 @@
+"""One tick of all movers, computed once for all who ask about the same tick.
+
+What a planner expects of the next tick is, with perfect sight, what then happens: the same rule asked for the
+same boards twice, and for the same table of ids. Here the latest answer of either kind is kept, process-wide.
+The rules themselves are in `sim.rules.traffic`, which is compiled as well and stays free of this.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from sim.rules.traffic import Motion, move_movers, shift_table
+from sim.world.grid import Board
+
+_moved: tuple[tuple[Board, ...], Motion] | None = None
+
+
+def cached_move_movers(*boards: Board) -> Motion:
+    """`move_movers`; the boards of the latest question are answered with one and the same motion."""
+    global _moved
+    # As below. Comparing takes less than hashing does: most of the boards are the very same.
+    latest = _moved
+    if latest is not None and latest[0] == boards:
+        return latest[1]
+    motion = move_movers(*boards)
+    _moved = boards, motion
+    return motion
+
+
+_followed: tuple[Mapping[int, str], Motion, Mapping[int, str]] | None = None
+
+
+def cached_shift_table(table: Mapping[int, str], motion: Motion) -> Mapping[int, str]:
+    """`shift_table`; the very same table and motion are answered with one and the same table."""
+    global _followed
+    # Read and set in one piece each: several threads may be here.
+    latest = _followed
+    if latest is not None and latest[0] is table and latest[1] is motion:
+        return latest[2]
+    after = shift_table(table, motion)
+    _followed = table, motion, after
+    return after

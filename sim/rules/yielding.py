@@ -1,0 +1,31 @@
+"""Which movers react to autonomous vehicles in a tick: those that give way, and those that brake.
+
+Both are drawn by cell, episode and tick of the episode, so that neither edits elsewhere nor a restart of the
+episode change who reacts. Only a mover next to a vehicle can have a reason to.
+"""
+
+from __future__ import annotations
+
+from sim.config import Config
+from sim.randomness import Stream
+from sim.world import World
+from sim.world.grid import Board, bits, board_of
+
+
+def yielding_movers(world: World, config: Config) -> Board:
+    """The movers that count an autonomous vehicle's cell as blocked in the coming tick."""
+    return _drawn(world, config, "courtesy", config.courtesy) if config.courtesy else 0
+
+
+def attentive_movers(world: World, config: Config) -> Board:
+    """The movers that brake in the coming tick for an autonomous vehicle that stands still before them."""
+    return _drawn(world, config, "attentive", config.attentive) if config.attentive else 0
+
+
+def _drawn(world: World, config: Config, purpose: str, share: float) -> Board:
+    vehicles = world.driven
+    near = (vehicles >> 1 | vehicles << 1) & world.moving
+    if not near or share == 1.0:
+        return near
+    draws = Stream.of(config.seed, purpose, world.episode, world.episode_tick)
+    return board_of([cell for cell in bits(near) if draws.uniform(cell) < share])

@@ -1,0 +1,124 @@
+"""The least cost from every state to row 0, by one sweep backwards through the layers of time.
+
+Every step leads exactly one tick on, so that going backwards tick by tick settles states in an order
+that Dijkstra's algorithm would accept, and no queue is needed (dynamic programming; Bellman, 1957). How
+far ahead a cheapest way can lie is bounded first: for each first move a way of least ticks is found with
+sets of cells and charged, and no way of more ticks than that pays for can be cheaper. Guarantee: exact,
+for all six moves.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from sim.forecast import Forecast
+from sim.search.costs import Weights
+from sim.search.reachability import MOVES, on_shortest, reachability
+from sim.search.time_expanded import TimeExpandedGraph
+from sim.search.waiting_cost import cost_of_staying
+from sim.types import Move
+from sim.world.grid import Board
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+FAR = 1 << 40
+"""More than any way costs."""
+
+
+def totals_by_move(forecast: Forecast, weights: Weights, limit: int) -> tuple[int | None, ...]:
+    """What every move now costs with the cheapest way on, in the order of `Move`; None: no way."""
+    terrain = TimeExpandedGraph(forecast, weights, limit)
+    staying = cost_of_staying(forecast, weights, limit)
+    horizon = _horizon(forecast, terrain, limit)
+    if horizon == 0:
+        return tuple(staying if move is Move.STAY else None for move in MOVES)
+    first_entering = _sweep(forecast, terrain, horizon)
+    columns = forecast.road.columns
+    totals: list[int | None] = []
+    for there, step in zip(forecast.steps(1 << forecast.ego), terrain.moves, strict=True):
+        total = FAR
+        if there:
+            row, column = divmod(there.bit_length() - 1, columns)
+            total = int(first_entering[row, column + 1]) + step.cost
+        totals.append(total if total < FAR else None)
+    if staying is not None:
+        totals[MOVES.index(Move.STAY)] = staying
+    return tuple(totals)
+
+
+def _horizon(forecast: Forecast, terrain: TimeExpandedGraph, limit: int) -> int:
+    """Ticks within which the cheapest way of every first move that has one ends."""
+    furthest = 0
+    for move, there in zip(MOVES, forecast.steps(1 << forecast.ego) if limit else (), strict=False):
+        if not there:
+            continue
+        found = reachability(forecast, there, limit - 1, after=1)
+        if found.ticks is None:
+            continue
+        needed = on_shortest(forecast, found, after=1)
+        cost = _charged(forecast, terrain, there, needed) + terrain.weights.of(move)
+        cost += terrain.charge(0, there.bit_length() - 1)
+        furthest = max(furthest, cost // terrain.weights.tick)
+    return min(furthest, limit)
+
+
+def _charged(forecast: Forecast, terrain: TimeExpandedGraph, here: Board, needed: list[Board]) -> int:
+    """What one of the ways through these layers costs, the first of which is one tick from now."""
+    total = 0
+    for ahead, wanted in enumerate(needed[1:], 1):
+        for move, there in zip(MOVES, forecast.steps(here, ahead), strict=True):
+            if there & wanted:
+                total += terrain.weights.of(move) + terrain.charge(ahead, there.bit_length() - 1)
+                here = there
+                break
+    return total
+
+
+def _sweep(forecast: Forecast, terrain: TimeExpandedGraph, horizon: int) -> NDArray[np.int64]:
+    """What entering each cell now costs with the cheapest way on (shape: rows, columns + 2; edges far)."""
+    import numpy as np
+
+    road, weights = forecast.road, terrain.weights
+    rows = forecast.ego // road.columns + 1
+    layers = [terrain.layer(ahead) for ahead in range(horizon)]
+    inside = np.s_[:, :, 1:-1]
+
+    def fields(boards: list[Board]) -> NDArray[np.bool_]:
+        """Boards as cells (shape: boards, rows, columns); rows behind the vehicle are left out."""
+        size = (road.columns * road.rows + 7) // 8
+        raw = np.frombuffer(b"".join(board.to_bytes(size, "little") for board in boards), np.uint8)
+        flat = np.unpackbits(raw.reshape(len(boards), size), axis=1, bitorder="little")
+        return flat[:, : rows * road.columns].reshape(len(boards), rows, road.columns).astype(np.bool_)
+
+    entering = np.full((horizon, rows, road.columns + 2), FAR, np.int64)
+    charges = np.zeros((horizon, rows, road.columns), np.int64)
+    charges += weights.fixed * fields([terrain.near_fixed])
+    for distance in range(len(layers[0].near)):
+        charges += weights.mover * fields([layer.near[distance] for layer in layers])
+    charges[fields([layer.blocked for layer in layers])] = FAR
+    entering[inside] = charges
+    no_left = FAR * fields([layer.no_left & road.all for layer in layers]).astype(np.int64)
+    no_right = FAR * fields([layer.no_right & road.all for layer in layers]).astype(np.int64)
+    no_forward_left = FAR * fields([layer.no_forward_left & road.all for layer in layers]).astype(np.int64)
+    no_forward_right = FAR * fields([layer.no_forward_right & road.all for layer in layers]).astype(np.int64)
+
+    cost = {move: weights.of(move) for move in MOVES}
+    value = np.full((rows, road.columns + 2), FAR, np.int64)
+    value[0, 1:-1] = 0
+    for ahead in range(horizon - 1, -1, -1):
+        enter = entering[ahead]
+        np.add(enter, value, out=enter)
+        if ahead == 0:
+            break
+        here, on = enter[1:], enter[:-1]
+        best = on[:, 1:-1] + cost[Move.FORWARD]
+        np.minimum(best, here[:, :-2] + no_left[ahead, 1:] + cost[Move.LEFT], out=best)
+        np.minimum(best, here[:, 2:] + no_right[ahead, 1:] + cost[Move.RIGHT], out=best)
+        np.minimum(best, on[:, :-2] + no_forward_left[ahead, 1:] + cost[Move.FORWARD_LEFT], out=best)
+        np.minimum(best, on[:, 2:] + no_forward_right[ahead, 1:] + cost[Move.FORWARD_RIGHT], out=best)
+        np.minimum(best, here[:, 1:-1] + cost[Move.STAY], out=best)
+        np.minimum(best, FAR, out=value[1:, 1:-1])
+    first: NDArray[np.int64] = entering[0]
+    return first

@@ -1,0 +1,26 @@
+"""The cells from which the goal may still be reached, whoever reacts: a proof for those that are left out.
+
+Structure: one sweep backwards from row 0. Movers react to the vehicle only in its own row, so the rows before
+it go on as foretold until it enters them, and its own row is taken to be free of movers. Guarantee: from a
+cell that is left out no way leads to the goal; from the others there may be none either.
+"""
+
+from __future__ import annotations
+
+from sim.forecast import Forecast
+from sim.rules.traffic import beside
+from sim.world.grid import Board
+
+
+def cells_that_may_arrive(forecast: Forecast, limit: int) -> list[Board]:
+    """The cells from which the goal may be reached by `limit` ticks from now, by ticks from now."""
+    road = forecast.road
+    free, goal = road.all & ~forecast.fixed, road.row(0)
+    boards = [goal & free]
+    for ahead in reversed(range(limit)):
+        there = boards[-1]
+        entered = there & ~forecast.slices[ahead].occupied
+        within = beside(there, road.left_edge, road.right_edge)
+        before = beside(entered, road.left_edge, road.right_edge) << road.columns
+        boards.append((goal | within | before) & free)
+    return boards[::-1]

@@ -1,0 +1,176 @@
+"""Where a `Where` is: the cells it names on a given road, as seen from the vehicle, best first.
+
+Lanes and rows are absolute; sides are seen from the vehicle. "Ahead" without a lane is the
+vehicle's own lane for placing, and every lane for finding, the nearest thing first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from sim.actions import Where
+from sim.types import Cell
+from sim.world import World
+from sim.world.grid import Board, Road, bits
+
+
+class PlaceError(ValueError):
+    """A place that is not on the road; the message is a sentence for a person."""
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Cells to choose from: the nearest first if `ordered`, else any."""
+
+    cells: Board
+    ordered: bool
+
+
+def nearest_first(cells: Iterable[int], world: World) -> list[int]:
+    """Cell indices by distance from the vehicle; among equals its own lane, then ahead, first."""
+    column, row = world.road.cell(world.av)
+
+    def key(index: int) -> tuple[int, int, bool, int]:
+        c, r = world.road.cell(index)
+        return max(abs(c - column), abs(r - row)), abs(c - column), r > row, index
+
+    return sorted(cells, key=key)
+
+
+def lane_columns(road: Road, lane: str | int) -> list[int]:
+    """The columns of a lane; the middle of an even road is two. Raises `PlaceError`."""
+    match lane:
+        case "left":
+            return [0]
+        case "right":
+            return [road.columns - 1]
+        case "middle":
+            return sorted({(road.columns - 1) // 2, road.columns // 2})
+        case int() if 1 <= lane <= road.columns:
+            return [lane - 1]
+    raise PlaceError(f"There is no lane {lane}: the road has {road.columns} lanes.")
+
+
+def cells_away(where: Where, cell_m: float) -> int | None:
+    """The distance said, in whole cells (halves up, at least one), or None if none was said."""
+    if where.cells is not None:
+        return where.cells
+    if where.distance_m is not None:
+        return max(1, int(where.distance_m / cell_m + 0.5))
+    return None
+
+
+def place_for_adding(where: Where | None, count: int, world: World, cell_m: float) -> Place:
+    """The cells `count` new things may be put in, free or not. Raises `PlaceError`.
+
+    One thing at a distance has one cell; several spread along that row, or along the lane if one
+    was named.
+    """
+    road = world.road
+    if where is None:
+        return Place(road.between, ordered=False)
+    cells = _absolute(where, road)
+    away = cells_away(where, cell_m)
+    side = _side(where, away)
+    if side is None:
+        exact = where.cell is not None or where.row is not None
+        return Place(cells if exact else cells & road.between, ordered=bool(where.nearest))
+    if where.lane is None and where.cell is None and where.row is None:
+        cells &= _own_line(world, side, away, spread=count > 1)
+    else:
+        cells &= _band(world, side, away, open_ended=count > 1)
+    return Place(cells, ordered=True)
+
+
+def place_for_finding(where: Where | None, world: World, cell_m: float) -> Place:
+    """The cells in which things that are meant may be. Raises `PlaceError`."""
+    if where is None:
+        return Place(world.road.all, ordered=True)
+    cells = _absolute(where, world.road)
+    away = cells_away(where, cell_m)
+    side = _side(where, away)
+    if side is not None and away is not None and where.lane is None:
+        cells &= _own_line(world, side, away, spread=False)
+    elif side is not None:
+        cells &= _band(world, side, away, open_ended=False)
+    return Place(cells, ordered=True)
+
+
+def _side(where: Where, away: int | None) -> str | None:
+    """The side said; a bare distance is one ahead."""
+    return where.side or ("ahead" if away is not None else None)
+
+
+def _absolute(where: Where, road: Road) -> Board:
+    """The cells that lane, row and cell leave."""
+    cells = road.all
+    if where.cell is not None:
+        if not road.holds(where.cell):
+            raise PlaceError(
+                f"Cell ({where.cell[0]}, {where.cell[1]}) is not on the road: "
+                f"columns are 0 to {road.columns - 1}, rows 0 to {road.rows - 1}."
+            )
+        cells &= 1 << road.index(where.cell)
+    if where.row is not None:
+        if not 0 <= where.row < road.rows:
+            raise PlaceError(f"There is no row {where.row}: rows are 0 to {road.rows - 1}.")
+        cells &= road.row(where.row)
+    if where.lane is not None:
+        columns = 0
+        for column in lane_columns(road, where.lane):
+            columns |= road.column(column)
+        cells &= columns
+    return cells
+
+
+_STEPS: dict[str, Cell] = {"ahead": (0, -1), "behind": (0, 1), "left": (-1, 0), "right": (1, 0)}
+
+
+def _own_line(world: World, side: str, away: int | None, *, spread: bool) -> Board:
+    """The cells straight to one side of the vehicle; at a distance the one, or several if `spread`."""
+    road = world.road
+    start = road.cell(world.av)
+    if away is None:
+        return _ray(road, start, _STEPS[side], 1)
+    cell = _cell_away(road, start, side, away)
+    if not spread:
+        return 1 << road.index(cell)
+    return road.row(cell[1]) if side in ("ahead", "behind") else _ray(road, start, _STEPS[side], away)
+
+
+def _band(world: World, side: str, away: int | None, *, open_ended: bool) -> Board:
+    """All rows ahead or behind, or all columns to the left or right; those at a distance if one was said."""
+    road = world.road
+    start = road.cell(world.av)
+    first = 1 if away is None else away
+    if away is not None:
+        _cell_away(road, start, side, away)
+    along = _ray(road, start, _STEPS[side], first)
+    lines = 0
+    for index in bits(along):
+        column, row = road.cell(index)
+        if away is None or open_ended or abs(column - start[0]) + abs(row - start[1]) == away:
+            lines |= road.row(row) if side in ("ahead", "behind") else road.column(column)
+    return lines
+
+
+def _cell_away(road: Road, start: Cell, side: str, away: int) -> Cell:
+    """The cell that many cells to one side. Raises `PlaceError` where the road ends before it."""
+    columns, rows = _STEPS[side]
+    cell = (start[0] + columns * away, start[1] + rows * away)
+    if not road.holds(cell):
+        left = _ray(road, start, (columns, rows), 1).bit_count()
+        words = f"to the {side}" if side in ("left", "right") else side
+        cells = "cell" if left == 1 else "cells"
+        raise PlaceError(f"The road ends {left} {cells} {words}; {away} is too far.")
+    return cell
+
+
+def _ray(road: Road, start: Cell, step: Cell, first: int) -> Board:
+    """The cells from the `first`-th in one direction to the end of the road."""
+    board, cell = 0, (start[0] + step[0] * first, start[1] + step[1] * first)
+    while road.holds(cell):
+        board |= 1 << road.index(cell)
+        cell = (cell[0] + step[0], cell[1] + step[1])
+    return board

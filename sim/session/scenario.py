@@ -1,0 +1,81 @@
+"""From a scenario's words to a configuration: road presets and traffic levels, one table each.
+
+A scenario renews what it can name (road, layout, traffic, counts, planner, sensor) and keeps the rest:
+the grid, the clock, the seed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+from sim.actions import RoadType, Scenario, Traffic
+from sim.config import Config, ConfigError, Problem, barriers_refused
+from sim.planner_names import PROMISED
+from sim.rules.versions import default_under
+from sim.world.layouts import has_barriers
+
+
+@dataclass(frozen=True, slots=True)
+class RoadPreset:
+    """What a type of road is furnished with where the scenario does not say."""
+
+    spawn_probability: float
+    pothole_probability: float
+    pedestrians: int
+    barriers: int
+
+
+ROADS: Final[dict[RoadType | None, RoadPreset]] = {
+    None: RoadPreset(spawn_probability=0.68, pothole_probability=0.15, pedestrians=0, barriers=0),
+    "highway": RoadPreset(spawn_probability=0.68, pothole_probability=0.05, pedestrians=0, barriers=0),
+    "city": RoadPreset(spawn_probability=0.55, pothole_probability=0.15, pedestrians=4, barriers=3),
+    "rural": RoadPreset(spawn_probability=0.30, pothole_probability=0.30, pedestrians=1, barriers=1),
+}
+
+TRAFFIC: Final[dict[Traffic, float]] = {"none": 0.0, "light": 0.34, "normal": 0.68, "heavy": 0.90}
+"""Spawn probability of an obstacle vehicle in each row."""
+
+_PLANNER: Final = Config().planner
+
+
+def unavailable(scenario: Scenario) -> Problem | None:
+    """The first thing named that this version has not, and what it is called; None if it has all."""
+    if scenario.weather not in (None, "clear"):
+        return Problem("weather", f"Weather other than clear ({scenario.weather})")
+    if scenario.time_of_day not in (None, "day"):
+        return Problem("time_of_day", f"Another time of day than day ({scenario.time_of_day})")
+    if scenario.sensor not in (None, "perfect"):
+        return Problem("sensor", f"A sensor other than the perfect one ({scenario.sensor})")
+    if scenario.planner in PROMISED:
+        return Problem("planner", f"The planner {scenario.planner}")
+    if scenario.avs:
+        return Problem("avs", "A second autonomous vehicle")
+    return None
+
+
+def configured(config: Config, scenario: Scenario) -> Config:
+    """The configuration of a scenario, everything it does not name at its default under the same rules.
+
+    Raises `ConfigError` where the road cannot hold what was asked.
+    """
+    preset = ROADS[scenario.road]
+    barriers = preset.barriers
+    if has_barriers(scenario.layout):
+        if scenario.barriers is not None:
+            raise ConfigError((Problem("barriers", barriers_refused(scenario.layout)),))
+        barriers = 0
+    spawn = TRAFFIC[scenario.traffic] if scenario.traffic else preset.spawn_probability
+    return config.with_parts(
+        road=scenario.road,
+        layout=scenario.layout,
+        traffic=scenario.traffic,
+        spawn_probability=spawn,
+        pothole_probability=preset.pothole_probability,
+        potholes=scenario.potholes,
+        vehicles=scenario.vehicles,
+        barriers=barriers if scenario.barriers is None else scenario.barriers,
+        pedestrians=preset.pedestrians if scenario.pedestrians is None else scenario.pedestrians,
+        planner=scenario.planner or default_under(config.rules, "planner", _PLANNER),
+        sensor=scenario.sensor or "perfect",
+    )

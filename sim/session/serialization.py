@@ -1,0 +1,233 @@
+"""States as JSON values and back, exactly: many of them together, and what they share is written once.
+
+Worlds that follow each other share most of what they are made of: configurations, tables of things, the
+world an episode began with. Here each such part has a number, given when it is first met, and is one object
+again when it is read. Boards are hexadecimal, since JSON readers take no whole numbers of that size. Leaves
+out what is to be made of it, and whether it can be trusted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import fields
+from hashlib import blake2b
+from typing import Any, TypeVar
+
+from sim.config import Config
+from sim.episode_record import DetourReason, EpisodeRecord
+from sim.metrics import Metrics
+from sim.repetition import Situation, Watch
+from sim.state import SimState
+from sim.types import Kind, Mode, Move, Outcome
+from sim.world import Cause, World
+from sim.world.grid import Road
+
+Part = TypeVar("Part")
+
+_CONFIG = tuple(field.name for field in fields(Config))
+_METRICS = tuple(field.name for field in fields(Metrics))
+
+
+class Pool:
+    """Parts that are written once, by identity; they must live as long as the pool."""
+
+    def __init__(self) -> None:
+        self.values: list[Any] = []
+        self._numbers: dict[int, int] = {}
+        self._held: list[object] = []
+
+    def number(self, part: Part, written: Callable[[Part], Any]) -> int:
+        """The number of a part; it is written when it is met for the first time."""
+        found = self._numbers.get(id(part))
+        if found is None:
+            value = written(part)  # which may write parts of its own first
+            found = self._numbers[id(part)] = len(self.values)
+            self.values.append(value)
+            self._held.append(part)
+        return found
+
+
+class Packer:
+    """Runs as JSON values."""
+
+    def __init__(self) -> None:
+        self._configs, self._tables, self._numbered = Pool(), Pool(), Pool()
+        self._worlds, self._runs = Pool(), Pool()
+        self._digests = blake2b(digest_size=16)
+
+    def run(self, state: SimState) -> int:
+        """The number of a run."""
+        return self._runs.number(state, self._run)
+
+    def packed(self) -> dict[str, Any]:
+        """All of it."""
+        return {
+            "configs": self._configs.values,
+            "tables": self._tables.values,
+            "numbered": self._numbered.values,
+            "worlds": self._worlds.values,
+            "runs": self._runs.values,
+            "digest": self._digests.hexdigest(),
+        }
+
+    def planners(self) -> set[str]:
+        """Every planner that one of them is driven by."""
+        return {config["planner"] for config in self._configs.values}
+
+    def config(self, config: Config) -> int:
+        """The number of a configuration."""
+        return self._configs.number(config, _config)
+
+    def _run(self, state: SimState) -> list[Any]:
+        record = state.record
+        return [
+            self.config(state.config),
+            self._world(state.world),
+            state.mode,
+            [*state.queue],
+            [getattr(state.metrics, name) for name in _METRICS],
+            state.edits,
+            state.fault,
+            [
+                None if record.start is None else self._world(record.start),
+                record.edits,
+                record.changed,
+                record.certain,
+                record.moves,
+                [[*each] for each in record.sakes],
+                None if record.last is None else self._world(record.last),
+            ],
+            _watch(state.watch),
+        ]
+
+    def _world(self, world: World) -> int:
+        return self._worlds.number(world, self._written)
+
+    def _written(self, world: World) -> list[Any]:
+        self._digests.update(world.digest().encode())
+        cause = world.cause
+        return [
+            world.road.columns,
+            world.road.rows,
+            world.tick,
+            world.episode,
+            world.episode_start,
+            world.outcome,
+            world.ended,
+            None if cause is None else [cause.how, cause.kind, [*cause.ids], [*cause.cell]],
+            [*world.avs],
+            *(f"{board:x}" for board in _boards(world)),
+            self._tables.number(world.movers, _table),
+            self._tables.number(world.hazards, _table),
+            self._numbered.number(world.numbered, lambda numbered: [[*each] for each in numbered.items()]),
+        ]
+
+
+class Unpacker:
+    """Runs from JSON values, by their numbers.
+
+    Raises `ValueError`, `TypeError` or `LookupError` for what cannot be read (`ConfigError` is one of the
+    first), and `ValueError` where the worlds are not those that were written.
+    """
+
+    def __init__(self, packed: Mapping[str, Any]) -> None:
+        self.configs = [_read_config(parts) for parts in packed["configs"]]
+        tables = [dict(zip(cells, ids, strict=True)) for cells, ids in packed["tables"]]
+        numbered = [{Kind(kind): number for kind, number in pairs} for pairs in packed["numbered"]]
+        worlds: list[World] = []
+        digests = blake2b(digest_size=16)
+        for parts in packed["worlds"]:
+            worlds.append(_world(parts, tables, numbered))
+            digests.update(worlds[-1].digest().encode())
+        if digests.hexdigest() != packed["digest"]:
+            raise ValueError("the worlds are not those that were written")
+        self.runs = [_run(parts, self.configs, worlds) for parts in packed["runs"]]
+
+
+def _boards(world: World) -> tuple[int, ...]:
+    return world.potholes, world.barriers, world.right, world.left, world.pedestrians
+
+
+def _config(config: Config) -> dict[str, Any]:
+    return {name: getattr(config, name) for name in _CONFIG}
+
+
+def _read_config(parts: Mapping[str, Any]) -> Config:
+    if {*parts} != set(_CONFIG):
+        raise ValueError("a configuration has other fields")
+    return Config(**{**parts, "preferences": tuple(parts["preferences"])})
+
+
+def _table(table: Mapping[int, str]) -> list[Any]:
+    return [[*table], [*table.values()]]
+
+
+def _world(
+    parts: Sequence[Any], tables: Sequence[Mapping[int, str]], numbered: Sequence[Mapping[Kind, int]]
+) -> World:
+    columns, rows, tick, episode, start, outcome, ended, cause, avs, *rest = parts
+    potholes, barriers, right, left, pedestrians = (int(board, 16) for board in rest[:5])
+    movers, hazards, last = rest[5:]
+    return World(
+        road=Road.of(columns, rows),
+        tick=tick,
+        episode=episode,
+        episode_start=start,
+        outcome=Outcome(outcome),
+        ended=ended,
+        cause=None if cause is None else _cause(*cause),
+        avs=tuple(avs),
+        potholes=potholes,
+        barriers=barriers,
+        right=right,
+        left=left,
+        pedestrians=pedestrians,
+        movers=tables[movers],
+        hazards=tables[hazards],
+        numbered=numbered[last],
+    )
+
+
+def _cause(how: str, kind: str, ids: Sequence[str], cell: Sequence[int]) -> Cause:
+    column, row = cell
+    return Cause(how, Kind(kind), tuple(ids), (column, row))
+
+
+def _watch(watch: Watch) -> list[Any]:
+    kept, ticks, span = watch
+    if kept is None:
+        return [None, ticks, span]
+    cell, beat, *boards = kept
+    return [[cell, beat, *(f"{board:x}" for board in boards)], ticks, span]
+
+
+def _read_watch(parts: Sequence[Any]) -> Watch:
+    kept, ticks, span = parts
+    if kept is None:
+        return Watch(None, ticks, span)
+    cell, beat, *boards = kept
+    return Watch(Situation(cell, beat, *(int(board, 16) for board in boards)), ticks, span)
+
+
+def _run(parts: Sequence[Any], configs: Sequence[Config], worlds: Sequence[World]) -> SimState:
+    config, world, mode, queue, metrics, edits, fault, record, watch = parts
+    start, seen, changed, certain, moves, sakes, last = record
+    return SimState(
+        configs[config],
+        worlds[world],
+        Mode(mode),
+        tuple(Move(move) for move in queue),
+        Metrics(**dict(zip(_METRICS, metrics, strict=True))),
+        edits,
+        fault,
+        EpisodeRecord(
+            None if start is None else worlds[start],
+            seen,
+            changed,
+            certain,
+            moves,
+            tuple((DetourReason(sake), count) for sake, count in sakes),
+            None if last is None else worlds[last],
+        ),
+        _read_watch(watch),
+    )

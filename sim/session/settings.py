@@ -1,0 +1,117 @@
+"""Settings that can be changed while a road runs, and what a change by a step means.
+
+Three kinds: what holds from the next decision on; what roads are made from, which shows from the next road on
+(a restart included); and what only a new road can have, which begins one. What this version has not
+is refused, unless what is asked for is how it is.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Final, get_args
+
+from sim.actions import Adjust, Preference, Set, Traffic, Wish
+from sim.config import RANGES, Config, ConfigError
+from sim.planner_names import PROMISED
+from sim.session.errors import EditError
+from sim.session.scenario import TRAFFIC
+from sim.world.layouts import vehicles_on_average
+
+NEEDS_A_NEW_ROAD: Final = frozenset(("columns", "rows", "seed"))
+FROM_THE_NEXT_ROAD: Final = frozenset(("spawn_probability", "pothole_probability", "traffic"))
+STEPS: Final[dict[str, float]] = {
+    "spawn_probability": 0.1,
+    "pothole_probability": 0.05,
+    "courtesy": 0.1,
+    "attentive": 0.1,
+    "safety_buffer": 1,
+    "step_seconds": 0.1,
+    "columns": 1,
+    "rows": 5,
+    "seed": 1,
+}
+"""How far "up" and "down" go, for every number that can be set."""
+AS_IT_IS: Final = {"sensor": "perfect", "weather": "clear", "time_of_day": "day", "dynamics": "grid"}
+"""Settings that this version has in one form only."""
+_COUNTS: Final = {"spawn_probability": "vehicles", "pothole_probability": "potholes", "traffic": "vehicles"}
+"""Exact numbers that a probability takes the place of."""
+_LEVELS: Final = get_args(Traffic)
+
+
+def offered(action: Set | Adjust) -> bool:
+    """Whether this version can do that at all, whatever the value."""
+    name = action.parameter
+    if name in AS_IT_IS:
+        return isinstance(action, Set) and action.value == AS_IT_IS[name]
+    if name == "planner":
+        return isinstance(action, Adjust) or action.value not in PROMISED
+    return name in STEPS or name == "traffic"
+
+
+def setting(config: Config, action: Set | Adjust) -> Config:
+    """The configuration with a setting changed. Raises `EditError`."""
+    name = action.parameter
+    if not offered(action):
+        raise EditError("not-available", f"{name} cannot be changed in this version yet.", "parameter")
+    if name in AS_IT_IS:
+        return config
+    value = action.value if isinstance(action, Set) else _adjusted(config, action)
+    parts: dict[str, Any] = {name: value}
+    if name == "traffic":
+        if value not in _LEVELS:
+            raise EditError("out-of-range", f"traffic must be one of {', '.join(_LEVELS)}.", "value")
+        parts["spawn_probability"] = TRAFFIC[value]  # type: ignore[index]
+    elif name == "spawn_probability":
+        parts["traffic"] = None
+    if name in _COUNTS:
+        parts[_COUNTS[name]] = None
+    if isinstance(value, float) and value.is_integer() and isinstance(getattr(config, name), int):
+        parts[name] = int(value)
+    try:
+        return config.with_parts(**parts)
+    except ConfigError as error:
+        problem = error.problems[0]
+        now = getattr(config, problem.field)
+        message = f"{problem.field} {problem.message}; it is {now} now."
+        raise EditError("out-of-range", message, "value") from None
+
+
+def preferring(config: Config, wish: Wish) -> Config:
+    """The configuration with one more preference, the latest last; `balanced` is none."""
+    if wish == "balanced":
+        return config.with_parts(preferences=())
+    opposite: dict[Preference, Preference] = {"fastest": "cautious", "cautious": "fastest"}
+    kept = [other for other in config.preferences if other not in (wish, opposite.get(wish))]
+    return config.with_parts(preferences=(*kept, wish))
+
+
+def vehicles_for(config: Config) -> int:
+    """How many obstacle vehicles a road of this traffic has on average."""
+    return round(vehicles_on_average(config.layout, config.columns, config.rows, config.spawn_probability))
+
+
+def _adjusted(config: Config, action: Adjust) -> object:
+    name = action.parameter
+    if name == "traffic":
+        return _next_level(config, action)
+    if name not in STEPS:
+        raise EditError("out-of-range", f"{name} has no more or less; say which one.", "parameter")
+    now = getattr(config, name)
+    if action.factor is not None:
+        return round(now * action.factor, 9)
+    if action.by is not None:
+        return round(now + action.by, 9)
+    low, high = RANGES[name]
+    if now == (high if action.direction == "up" else low):
+        raise EditError("out-of-range", f"{name} is at its limit already: {now}.", "direction")
+    step = STEPS[name] if action.direction == "up" else -STEPS[name]
+    return round(min(high, max(low, now + step)), 9)
+
+
+def _next_level(config: Config, action: Adjust) -> str:
+    if action.direction is None:
+        raise EditError("out-of-range", f"traffic is one of {', '.join(_LEVELS)}.", "parameter")
+    now = config.traffic or "normal"
+    index = _LEVELS.index(now) + (1 if action.direction == "up" else -1)
+    if not 0 <= index < len(_LEVELS):
+        raise EditError("out-of-range", f"traffic is at its limit already: {now}.", "direction")
+    return str(_LEVELS[index])

@@ -1,0 +1,357 @@
+"""Time that can be walked: a configuration and the actions with the tick at which each took effect.
+
+That list *is* the session; every state is derived from it by replay, and snapshots along the way
+only save time. Undoing is rewriting the list without a change, which is then as if never said.
+Snapshots are placed by the work between them, so that every state is as near as every other. The way from
+one is driven by the moves that were made (`sim.session.move_log`); a tick is decided once.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right
+from collections import deque
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from sim.actions import WorldAction
+from sim.config import Config
+from sim.events import Event, EventType
+from sim.perceive import perceive
+from sim.plan import Decision
+from sim.plan.safe_planning import failed_decision, is_foreign, recorded_decision
+from sim.session.edits import Applied, apply
+from sim.session.move_log import MoveLog
+from sim.session.persistent_list import PersistentList
+from sim.state import SimState, StepResult, decide, step
+
+SNAPSHOT_TICKS = 128
+"""Work between two snapshots, in ticks that are driven again; twice that each time there are too many."""
+
+MAX_SNAPSHOTS = 512
+"""Of some kilobytes each. A fork of a log of 50,000 ticks is to take 10 ms."""
+
+ACTION_WORK = 4
+"""What an action of the log costs, in such ticks or those of the simplest planner: two of them are one."""
+
+THINGS_AN_ACTION = 10
+"""So many things on the road cost an action one such tick more."""
+
+ROAD_WORK, ROAD_CELLS = 4, 80
+"""What drawing a road costs, and the cells that cost one such tick more."""
+
+SEARCH_WORK = 16
+"""What a tick costs with a planner that searches, or one that is not known here."""
+
+_SIMPLE_PLANNERS = frozenset(("priority", "rules", "dwa"))
+_DRAWN = frozenset((EventType.EPISODE_STARTED, EventType.ROAD_KEPT))
+
+RECENT_RUNS = 8
+"""States kept as they were, for questions about what has just been done."""
+
+RECENT_CHANGES = 4
+"""States before the latest changes: taken back from snapshots, those took half of a long replay."""
+
+
+class PlannerSilentError(Exception):
+    """A planner from another package did not answer in time."""
+
+    def __init__(self, planner: str, fault: str) -> None:
+        super().__init__(f"The planner {planner} {fault}")
+        self.planner = planner
+        self.fault = fault
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One action of the log. Entries of one `sequence` were said together."""
+
+    sequence: int
+    tick: int
+    action: WorldAction
+
+
+@dataclass(frozen=True, slots=True)
+class Snapshot:
+    """A state on the way: at a tick, once the first `entries` of the log were applied."""
+
+    tick: int
+    state: SimState
+    entries: int
+
+
+class Timeline:
+    """A session's log and its present state. `copy()` is cheap: states and the log are values and shared."""
+
+    def __init__(self, config: Config) -> None:
+        """A session at tick 0."""
+        self.config = config
+        self.state = SimState.start(config)
+        self.entries: PersistentList[Entry] = PersistentList()
+        self._gap = SNAPSHOT_TICKS
+        self._work = 0
+        self.worked = 0
+        """all the work that was done on it, in ticks of the simplest planner: about what a replay takes"""
+        self._snapshots: tuple[Snapshot, ...] = (Snapshot(0, self.state, 0),)
+        self._recent: deque[SimState] = deque(maxlen=RECENT_RUNS)
+        self._before: tuple[Snapshot, ...] = ()
+        """before the latest changes"""
+        self._track = MoveLog()
+
+    @classmethod
+    def made(
+        cls,
+        config: Config,
+        state: SimState,
+        entries: PersistentList[Entry],
+        snapshots: Sequence[Snapshot],
+        gap: int,
+        work: int,
+        worked: int,
+        moves: Sequence[bytes],
+    ) -> Timeline:
+        """A timeline of the parts of another: see `parts`. Raises `ValueError` where moves are missing."""
+        new = cls.__new__(cls)
+        new.config, new.state, new.entries = config, state, entries
+        new._snapshots, new._gap, new._work, new.worked = tuple(snapshots), gap, work, worked
+        new._recent = deque(maxlen=RECENT_RUNS)
+        new._before = ()
+        new._track = MoveLog(moves)
+        if len(new._track) != new.tick:
+            raise ValueError(f"{len(new._track)} moves lead to tick {new.tick}")
+        return new
+
+    def parts(
+        self,
+    ) -> tuple[
+        Config, SimState, PersistentList[Entry], tuple[Snapshot, ...], int, int, int, tuple[bytes, ...]
+    ]:
+        """What it is made of, but for the states that are only kept for being near."""
+        shots, moves = self._snapshots, self._track.blocks
+        return self.config, self.state, self.entries, shots, self._gap, self._work, self.worked, moves
+
+    @property
+    def tick(self) -> int:
+        """The present tick."""
+        return self.state.world.tick
+
+    def copy(self) -> Timeline:
+        """A timeline that goes its own way from here."""
+        twin = Timeline.__new__(Timeline)
+        twin.config = self.config
+        twin.state = self.state
+        twin.entries = self.entries
+        twin._gap = self._gap
+        twin._work = self._work
+        twin.worked = self.worked
+        twin._snapshots = self._snapshots
+        twin._recent = self._recent.copy()
+        twin._before = self._before
+        twin._track = self._track.copy()
+        return twin
+
+    def advance(self, decided: Decision | None = None) -> StepResult:
+        """One tick on, with what was `decided` for it elsewhere, if it was.
+
+        Raises `PlannerSilentError`; nothing has then changed. A planner that did not answer in time may
+        answer when the tick is run again, so a tick without its answer must not become part of what is
+        replayed.
+        """
+        tick = _answered(step(self.state) if decided is None else step(self.state, decided))
+        self._recent.append(self.state)
+        self._went_on(tick, len(self.entries))
+        return tick
+
+    def apply(self, sequence: int, actions: Sequence[WorldAction]) -> list[Applied]:
+        """Change the world at the present tick; all of the actions or, on `EditError`, none."""
+        state, done, work = self.state, [], 0
+        for action in actions:
+            applied = apply(state, action)
+            state = applied.state
+            done.append(applied)
+            work += _action_work(applied)
+        before = Snapshot(self.tick, self.state, len(self.entries))
+        self._before = (*self._before[1 - RECENT_CHANGES :], before)
+        self.state = state
+        self.entries = self.entries.plus([Entry(sequence, self.tick, action) for action in actions])
+        self._worked(ACTION_WORK * len(actions), work, len(self.entries))
+        return done
+
+    def rewrite(self, entries: Sequence[Entry], since: int) -> None:
+        """Make `entries` the log, as if nothing else had ever been said, and replay to the present tick.
+
+        The new log may differ from the old at tick `since` and later; the time taken is that of
+        the ticks since then. Raises `PlannerSilentError`; of this timeline nothing is then to be used.
+        """
+        present = self.tick
+        self._recent.clear()
+        self._forget_from(entries, since)
+        self.entries = entries if isinstance(entries, PersistentList) else PersistentList(entries)
+        self.state, position = self._nearest(since)
+        self._track.cut(since)
+        self._work = 0
+        while True:
+            due = position
+            self.state, position, work = self._apply_due(self.state, position)
+            self._worked(ACTION_WORK * (position - due), work, position)
+            if self.tick == present:
+                return
+            if self.tick < since:
+                self.state = self._track.after(self.state)
+                self._worked(1, 1, position)
+            else:
+                self._went_on(_answered(step(self.state)), position)
+
+    def rewind(self, tick: int) -> None:
+        """Make a past tick the present; what was said or happened after it is gone. Raises `IndexError`."""
+        state = self.at(tick)
+        if tick == self.tick:
+            return
+        self.worked += self.work_to(tick)
+        self.state = state
+        self.entries = self.entries.first(self._said_by(tick))
+        self._snapshots, self._before = (
+            tuple(shot for shot in shots if shot.tick <= tick) for shots in (self._snapshots, self._before)
+        )
+        self._track.cut(tick)
+        self._work = 0
+        self._recent.clear()
+
+    def work_to(self, tick: int) -> int:
+        """What it takes to know the state at a past tick, about in ticks. Raises `IndexError`."""
+        self._check(tick)
+        shot = self._nearest_shot(tick)
+        said = self._said_by(tick) - shot.entries
+        return tick - shot.tick + said * ACTION_WORK
+
+    def work_since(self, tick: int) -> int:
+        """What it takes to come to the present anew from a past tick, about in ticks. Raises `IndexError`."""
+        said = len(self.entries) - self._said_by(tick)
+        return self.work_to(tick) + (self.tick - tick) * _tick_work(self.state) + said * ACTION_WORK
+
+    def at(self, tick: int) -> SimState:
+        """The state at a past tick, after the actions of that tick. Raises `IndexError`."""
+        self._check(tick)
+        if tick == self.tick:
+            return self.state
+        back = tick - self.tick + len(self._recent)
+        if back >= 0:
+            return self._recent[back]
+        return next(self.between(tick, tick + 1))
+
+    def between(self, first: int, stop: int) -> Iterator[SimState]:
+        """The states from tick `first` up to but without `stop`, replayed in one go. Raises `IndexError`."""
+        if first == stop:
+            return
+        for tick in (first, stop - 1):
+            self._check(tick)
+        state, position = self._nearest(first)
+        track = self._track.copy()  # whoever reads on later reads of this
+        while state.world.tick < stop:
+            state, position, _ = self._apply_due(state, position)
+            if state.world.tick >= first:
+                yield state
+            state = track.after(state)
+
+    def decision(self, tick: int) -> Decision | None:
+        """The decision taken at a tick (None while a result stood), derived anew. Raises `IndexError`."""
+        return self.decided(self.at(tick))
+
+    def decided(self, state: SimState) -> Decision | None:
+        """The decision taken in a state of this timeline (None while a result stood).
+
+        Derived anew, but for that of a planner of another package: where its move is noted it is not asked
+        again. In the present state it is what would be decided now.
+        """
+        tick, config = state.world.tick, state.config
+        if tick < self.tick and is_foreign(config.planner):
+            move = self._track.planned(tick)
+            if move is not None:
+                return recorded_decision(perceive(state.world, config), config, move)
+            if self._track.failed(tick):
+                return failed_decision(perceive(state.world, config), config)
+        return decide(state)
+
+    def led_to(self, state: SimState) -> StepResult:
+        """The tick that a state of this timeline led to."""
+        return step(state, self.decided(state))
+
+    def _check(self, tick: int) -> None:
+        if not 0 <= tick <= self.tick:
+            raise IndexError(f"tick {tick} is not between 0 and {self.tick}")
+
+    def _went_on(self, tick: StepResult, entries: int) -> None:
+        """One tick on, which was decided now, with so many entries applied."""
+        self.state = tick.state
+        self._track.note(tick.decision)
+        self._worked(_tick_work(tick.state), 1 + _road_work(tick.state, tick.events), entries)
+
+    def _worked(self, work: int, again: int, entries: int) -> None:
+        """The present was come to by this much work, and so much when it is done again."""
+        self._work += again
+        self.worked += work
+        if self._work < self._gap:
+            return
+        self._work = 0
+        self._snapshots = (*self._snapshots, Snapshot(self.tick, self.state, entries))
+        if len(self._snapshots) > MAX_SNAPSHOTS:
+            self._gap *= 2
+            self._snapshots = self._snapshots[::2]
+
+    def _forget_from(self, entries: Sequence[Entry], since: int) -> None:
+        """Forget the snapshots that another log does not lead to, being the same up to tick `since`."""
+        start = bisect_left(self.entries, since, key=lambda entry: entry.tick)
+        alike = start
+        while alike < min(len(entries), len(self.entries)) and entries[alike] == self.entries[alike]:
+            alike += 1  # an entry at this very tick may be among what stays
+        self._snapshots, self._before = (
+            tuple(shot for shot in shots if shot.tick <= since and shot.entries <= alike)
+            for shots in (self._snapshots, self._before)
+        )
+
+    def _said_by(self, tick: int) -> int:
+        """How many entries there are up to a tick and at it."""
+        return bisect_right(self.entries, tick, key=lambda entry: entry.tick)
+
+    def _nearest_shot(self, tick: int) -> Snapshot:
+        nearest = self._snapshots[bisect_right(self._snapshots, tick, key=lambda shot: shot.tick) - 1]
+        for shot in reversed(self._before):
+            if shot.tick <= tick:
+                return max(nearest, shot, key=lambda each: (each.tick, each.entries))
+        return nearest
+
+    def _nearest(self, tick: int) -> tuple[SimState, int]:
+        shot = self._nearest_shot(tick)
+        return shot.state, shot.entries
+
+    def _apply_due(self, state: SimState, position: int) -> tuple[SimState, int, int]:
+        """The state, the entries applied, and the work of those that were applied now."""
+        work = 0
+        while position < len(self.entries) and self.entries[position].tick == state.world.tick:
+            applied = apply(state, self.entries[position].action)
+            state = applied.state
+            work += _action_work(applied)
+            position += 1
+        return state, position, work
+
+
+def _answered(tick: StepResult) -> StepResult:
+    """A tick whose planner answered in time. Raises `PlannerSilentError`."""
+    if tick.decision is not None and tick.decision.timed_out:
+        raise PlannerSilentError(tick.decision.planner, tick.decision.fault or "")
+    return tick
+
+
+def _tick_work(state: SimState) -> int:
+    return 1 if state.config.planner in _SIMPLE_PLANNERS else SEARCH_WORK
+
+
+def _action_work(applied: Applied) -> int:
+    world = applied.state.world
+    things = len(world.movers) + len(world.hazards)
+    return ACTION_WORK + things // THINGS_AN_ACTION + _road_work(applied.state, applied.events)
+
+
+def _road_work(state: SimState, events: Sequence[Event]) -> int:
+    if not any(event.type in _DRAWN for event in events):
+        return 0
+    return ROAD_WORK + state.world.road.columns * state.world.road.rows // ROAD_CELLS

@@ -1,0 +1,126 @@
+"""Everything that is wrong with a state or a plan, listed; for tests, tools and worlds written by hand.
+
+It knows no planner and no forecast: a plan is played, and what happens is looked at. Nothing is repaired.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+
+from sim.commit import commit
+from sim.config import Config
+from sim.judge import collisions, outcome
+from sim.types import Cell, Kind, Move, Outcome, kind_of
+from sim.world import World
+from sim.world.grid import Board, bits, board_of
+
+
+@dataclass(frozen=True, slots=True)
+class Defect:
+    """One thing that is wrong. `code` is for programs."""
+
+    code: str
+    tick: int
+    ids: tuple[str, ...] = ()
+    cell: Cell | None = None
+
+
+def validate_world(world: World) -> tuple[Defect, ...]:
+    """Every way in which a world is none: what is where it cannot be, twice, or not as its tables say."""
+    return tuple(_of_state(world))
+
+
+def validate_plan(world: World, plan: Iterable[Move], config: Config) -> tuple[Defect, ...]:
+    """Every way in which playing these moves is no way to row 0.
+
+    A step off the road is left out and the plan goes on; after a collision it goes on as well, so that
+    all that is wrong is listed. Codes: `off_road`; `hit_…`, `swap_…` and `cross_…` with what was met;
+    `after_the_end`, `too_long`, `not_at_goal`.
+    """
+    return tuple(_of_plan(world, plan, config))
+
+
+def _of_state(world: World) -> Iterator[Defect]:
+    road, tick = world.road, world.tick
+
+    def at(code: str, board: Board) -> Iterator[Defect]:
+        for index in bits(board):
+            yield Defect(code, tick, _names(world, index), road.cell(index))
+
+    boards = {
+        "potholes": world.potholes,
+        "barriers": world.barriers,
+        "movers": world.moving,
+        "pedestrians": world.pedestrians,
+    }
+    for name, board in boards.items():
+        if board & ~road.all:
+            yield Defect(f"{name}_off_road", tick)
+    yield from at("two_headings", world.right & world.left)
+    yield from at("pothole_and_barrier", world.potholes & world.barriers & road.all)
+    yield from at("mover_in_barrier", world.moving & world.barriers & road.all)
+    yield from at("pedestrian_without_heading", world.pedestrians & ~world.moving & road.all)
+    yield from at("no_mover_here", board_of(world.movers) & ~world.moving)
+    yield from at("mover_without_id", world.moving & ~board_of(world.movers) & road.all)
+    yield from at("no_hazard_here", board_of(world.hazards) & ~world.fixed)
+    yield from at("hazard_without_id", world.fixed & ~board_of(world.hazards) & road.all)
+    for table, kinds in (
+        (world.movers, (Kind.PEDESTRIAN, Kind.VEHICLE)),
+        (world.hazards, (Kind.POTHOLE, Kind.BARRIER)),
+    ):
+        for index, name in table.items():
+            first, second = kinds
+            wanted = first if world.board(first) >> index & 1 else second
+            if not name.startswith(f"{wanted}-"):
+                yield Defect("wrong_kind", tick, (name,), road.cell(index))
+            elif int(name.rpartition("-")[2]) > world.numbered.get(kind_of(name), 0):
+                yield Defect("number_not_given", tick, (name,), road.cell(index))
+    for name, count in Counter([*world.movers.values(), *world.hazards.values()]).items():
+        if count > 1:
+            yield Defect("same_id", tick, (name,))
+    if not world.avs:
+        yield Defect("no_vehicle", tick)
+    for number, index in enumerate(world.avs, 1):
+        if not 0 <= index < road.columns * road.rows:
+            yield Defect("vehicle_off_road", tick, (f"av-{number}",))
+        elif world.outcome is not Outcome.CRASH and (world.fixed | world.moving) >> index & 1:
+            yield Defect(
+                "vehicle_in_something", tick, (f"av-{number}", *_names(world, index)), road.cell(index)
+            )
+    if len(set(world.avs)) < len(world.avs) and world.outcome is not Outcome.CRASH:
+        yield Defect("two_vehicles", tick)
+    if (world.outcome is Outcome.RUNNING) is not (world.ended is None):
+        yield Defect("end_without_outcome" if world.ended is not None else "outcome_without_end", tick)
+    if (world.outcome is Outcome.CRASH) is not (world.cause is not None):
+        yield Defect("crash_without_cause" if world.cause is None else "cause_without_crash", tick)
+    if world.outcome is Outcome.SUCCESS and any(index >= road.columns for index in world.avs):
+        yield Defect("not_at_goal", tick)
+    if not 0 <= world.episode_start <= tick:
+        yield Defect("began_later", tick)
+
+
+def _of_plan(world: World, plan: Iterable[Move], config: Config) -> Iterator[Defect]:
+    arrived = world.outcome is Outcome.SUCCESS
+    for move in plan:
+        if arrived:
+            yield Defect("after_the_end", world.tick)
+        if world.road.moved(world.av, move) is None:
+            yield Defect("off_road", world.tick, cell=world.road.cell(world.av))
+            continue
+        after = commit(world, move, config)
+        for crash in collisions(world, after, config.collision):
+            yield Defect(f"{crash.how}_{crash.kind}", after.tick, crash.ids, crash.cell)
+        # What was hit is noted, the plan goes on.
+        result = outcome(after, (), config.max_ticks)
+        if result is Outcome.STUCK and not arrived:
+            yield Defect("too_long", after.tick)
+        arrived = arrived or result is Outcome.SUCCESS
+        world = replace(after, outcome=Outcome.RUNNING)
+    if not arrived:
+        yield Defect("not_at_goal", world.tick, cell=world.road.cell(world.av))
+
+
+def _names(world: World, index: int) -> tuple[str, ...]:
+    return tuple(table[index] for table in (world.hazards, world.movers) if index in table)

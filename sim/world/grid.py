@@ -1,0 +1,111 @@
+"""The grid, and sets of its cells as integers (bitboards).
+
+Cell (column, row) is bit `row * columns + column`. A set of cells is one Python integer, so that
+a road of any size is handled whole by `&`, `|`, `~` and shifts; idea and names are those of chess
+engines (Slate & Atkin, "CHESS 4.5", 1977). A shift by one is a step sideways, by `columns` a
+step along the road.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from functools import lru_cache
+from itertools import compress
+
+from sim.types import Cell, Move
+
+_WORD_BITS = 240
+_WORD = (1 << _WORD_BITS) - 1
+_FROM_DIGITS = bytes(digit == ord("1") for digit in range(256))
+
+Board = int
+"""A set of cells of one road."""
+
+
+def bits(board: Board) -> Iterator[int]:
+    """The cell indices in a board, lowest first."""
+    # Word by word: taking single bits off a long number costs its whole length each time.
+    offset = 0
+    while board:
+        word = board & _WORD
+        while word:
+            lowest = word & -word
+            yield offset + lowest.bit_length() - 1
+            word ^= lowest
+        board >>= _WORD_BITS
+        offset += _WORD_BITS
+
+
+def cells_of(board: Board) -> list[int]:
+    """The same as a list; quicker where many of the cells are in it."""
+    return list(compress(range(board.bit_length()), bin(board)[:1:-1].encode().translate(_FROM_DIGITS)))
+
+
+def board_of(indices: Iterable[int]) -> Board:
+    """The board holding these cell indices."""
+    board = 0
+    for index in indices:
+        board |= 1 << index
+    return board
+
+
+@dataclass(frozen=True, slots=True)
+class Road:
+    """`columns` × `rows` cells; row 0 is the destination edge, column 0 is lane 1."""
+
+    columns: int
+    rows: int
+    all: Board = field(init=False, repr=False, compare=False)
+    left_edge: Board = field(init=False, repr=False, compare=False)
+    right_edge: Board = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        left_edge = board_of([row * self.columns for row in range(self.rows)])
+        object.__setattr__(self, "all", (1 << self.columns * self.rows) - 1)
+        object.__setattr__(self, "left_edge", left_edge)
+        object.__setattr__(self, "right_edge", left_edge << (self.columns - 1))
+
+    @staticmethod
+    @lru_cache(maxsize=64)
+    def of(columns: int, rows: int) -> Road:
+        """The road of that size; one object per size."""
+        return Road(columns, rows)
+
+    @property
+    def start(self) -> int:
+        """The cell index where the first vehicle starts: bottom centre."""
+        return self.index((self.columns // 2, self.rows - 1))
+
+    def index(self, cell: Cell) -> int:
+        """The bit number of a cell that lies on the road."""
+        return cell[1] * self.columns + cell[0]
+
+    def cell(self, index: int) -> Cell:
+        """(column, row) of a bit number."""
+        row, column = divmod(index, self.columns)
+        return column, row
+
+    def holds(self, cell: Cell) -> bool:
+        """Whether a cell lies on the road."""
+        return 0 <= cell[0] < self.columns and 0 <= cell[1] < self.rows
+
+    def row(self, row: int) -> Board:
+        """All cells of a row."""
+        return ((1 << self.columns) - 1) << row * self.columns
+
+    def column(self, column: int) -> Board:
+        """All cells of a column."""
+        return self.left_edge << column
+
+    @property
+    def between(self) -> Board:
+        """The rows between start and goal, where roads are furnished."""
+        return self.all & ~self.row(0) & ~self.row(self.rows - 1)
+
+    def moved(self, index: int, move: Move) -> int | None:
+        """The cell a move leads to, or None if that is off the road."""
+        columns, rows = move.offset
+        column = index % self.columns + columns
+        target = index + columns + rows * self.columns
+        return target if 0 <= column < self.columns and target >= 0 else None

@@ -1,0 +1,225 @@
+"""A world: sets of cells as bitboards, plus the table of things with ids. A value, never changed.
+
+What moves is in `right` and `left` (by heading; `pedestrians` says which of them walk), what does
+not in `potholes` and `barriers`. The tables `movers` and `hazards` hang ids on cells. Derived
+state is derived: a mover on a pothole is *disabled* for as long as the pothole is there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator, Mapping
+from dataclasses import dataclass, replace
+from hashlib import blake2b
+from struct import Struct, pack
+
+from sim.types import PLACEABLE, Cell, Kind, Outcome
+from sim.world.grid import Board, Road, bits
+
+_OUTCOMES = {outcome: number for number, outcome in enumerate(Outcome)}
+_HEAD = Struct("<IIQQQqBH").pack
+_CELL = Struct("<I").pack
+_UNREAD = blake2b(digest_size=16)
+_KINDS = {kind.value: kind for kind in Kind}
+
+
+@dataclass(frozen=True, slots=True)
+class Thing:
+    """One thing on the road, with its id."""
+
+    id: str
+    kind: Kind
+    cell: Cell
+    heading: str | None = None
+    """"left" or "right" for movers"""
+    disabled: bool = False
+    """a mover in a pothole: it stays where it is"""
+
+
+@dataclass(frozen=True, slots=True)
+class Cause:
+    """Why an episode ended in a crash: what was hit, how (`hit`, `swap` or `cross`), and where."""
+
+    how: str
+    kind: Kind
+    ids: tuple[str, ...]
+    cell: Cell
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class World:
+    """Everything that is so at one tick. `avs` and the tables' keys are cell indices."""
+
+    road: Road
+    tick: int = 0
+    """ticks since the session began"""
+    episode: int = 1
+    episode_start: int = 0
+    """the tick this episode began at"""
+    outcome: Outcome = Outcome.RUNNING
+    ended: int | None = None
+    """the tick at which the outcome was decided"""
+    cause: Cause | None = None
+    avs: tuple[int, ...]
+    potholes: Board = 0
+    barriers: Board = 0
+    right: Board = 0
+    left: Board = 0
+    pedestrians: Board = 0
+    movers: Mapping[int, str]
+    hazards: Mapping[int, str]
+    numbered: Mapping[Kind, int]
+    """the highest number given so far in the session, by kind: ids are never given twice"""
+
+    @property
+    def av(self) -> int:
+        """The cell index of the first autonomous vehicle."""
+        return self.avs[0]
+
+    @property
+    def episode_tick(self) -> int:
+        """Ticks since this episode began."""
+        return self.tick - self.episode_start
+
+    @property
+    def fixed(self) -> Board:
+        """Every pothole and barrier."""
+        return self.potholes | self.barriers
+
+    @property
+    def moving(self) -> Board:
+        """Every mover, disabled ones included."""
+        return self.right | self.left
+
+    @property
+    def disabled(self) -> Board:
+        """Movers that a pothole holds."""
+        return self.moving & self.potholes
+
+    @property
+    def occupied(self) -> Board:
+        """Every cell with anything on it, autonomous vehicles included."""
+        return self.fixed | self.moving | self.driven
+
+    @property
+    def driven(self) -> Board:
+        """The cells of the autonomous vehicles."""
+        avs = self.avs
+        if len(avs) == 1:
+            return 1 << avs[0]
+        board = 0
+        for cell in avs:
+            board |= 1 << cell
+        return board
+
+    def board(self, kind: Kind) -> Board:
+        """The cells of one kind."""
+        match kind:
+            case Kind.POTHOLE:
+                return self.potholes
+            case Kind.BARRIER:
+                return self.barriers
+            case Kind.VEHICLE:
+                return self.moving & ~self.pedestrians
+            case Kind.PEDESTRIAN:
+                return self.pedestrians
+            case Kind.AV:
+                return self.driven
+
+    def count(self, kind: Kind) -> int:
+        """How many things of one kind there are."""
+        return len(self.avs) if kind is Kind.AV else self.board(kind).bit_count()
+
+    def counts(self) -> dict[Kind, int]:
+        """How many things of each placeable kind there are."""
+        return {kind: self.count(kind) for kind in PLACEABLE}
+
+    def id_at(self, index: int, kind: Kind) -> str:
+        """The id of the thing of that kind in a cell. Raises `KeyError` if there is none."""
+        if kind is Kind.AV:
+            return f"av-{self.avs.index(index) + 1}"
+        return (self.movers if kind.moves else self.hazards)[index]
+
+    def things(self) -> Iterator[Thing]:
+        """Everything but the autonomous vehicles, hazards first, each in reading order."""
+        for kind in PLACEABLE:
+            for index in bits(self.board(kind)):
+                yield self._thing(index, kind)
+
+    def find(self, name: str) -> Thing | None:
+        """The thing with this id, if it is on the road."""
+        found = self.index_of(name)
+        if found is None:
+            return None
+        index, kind = found
+        return Thing(name, kind, self.road.cell(index)) if kind is Kind.AV else self._thing(index, kind)
+
+    def index_of(self, name: str) -> tuple[int, Kind] | None:
+        """The cell index and the kind of the thing with this id, if it is on the road."""
+        kind_word, _, number = name.rpartition("-")
+        kind = _KINDS.get(kind_word)
+        if kind is None:
+            return None
+        if kind is Kind.AV:
+            places = (index for order, index in enumerate(self.avs, 1) if str(order) == number)
+            return next(((index, kind) for index in places), None)
+        for index, other in (self.hazards if kind.fixed else self.movers).items():
+            if other == name:
+                return index, kind
+        return None
+
+    def without(self, ids: Collection[str]) -> World:
+        """The same world had these things never been there. Unknown ids are no matter."""
+        return self._filtered(lambda name: name not in ids)
+
+    def keeping(self, ids: Collection[str]) -> World:
+        """The same world with nothing on the road but these things."""
+        return self._filtered(lambda name: name in ids)
+
+    def digest(self) -> str:
+        """128 bits that are equal exactly when the states are (ids aside), as hexadecimal."""
+        columns, rows, avs = self.road.columns, self.road.rows, self.avs
+        size = (columns * rows + 7) // 8
+        head = _HEAD(
+            columns,
+            rows,
+            self.tick,
+            self.episode,
+            self.episode_start,
+            -1 if self.ended is None else self.ended,
+            _OUTCOMES[self.outcome],
+            len(avs),
+        )
+        parts = (
+            head,
+            _CELL(avs[0]) if len(avs) == 1 else pack(f"<{len(avs)}I", *avs),
+            self.potholes.to_bytes(size, "little"),
+            self.barriers.to_bytes(size, "little"),
+            self.right.to_bytes(size, "little"),
+            self.left.to_bytes(size, "little"),
+            self.pedestrians.to_bytes(size, "little"),
+        )
+        read = _UNREAD.copy()  # a new one takes as long as all the rest
+        read.update(b"".join(parts))
+        return read.hexdigest()
+
+    def _thing(self, index: int, kind: Kind) -> Thing:
+        bit = 1 << index
+        heading = None if kind.fixed else "right" if self.right & bit else "left"
+        disabled = kind.moves and bool(self.potholes & bit)
+        return Thing(self.id_at(index, kind), kind, self.road.cell(index), heading, disabled)
+
+    def _filtered(self, kept: Callable[[str], bool]) -> World:
+        movers = {index: name for index, name in self.movers.items() if kept(name)}
+        hazards = {index: name for index, name in self.hazards.items() if kept(name)}
+        moving = sum(1 << index for index in movers)
+        fixed = sum(1 << index for index in hazards)
+        return replace(
+            self,
+            potholes=self.potholes & fixed,
+            barriers=self.barriers & fixed,
+            right=self.right & moving,
+            left=self.left & moving,
+            pedestrians=self.pedestrians & moving,
+            movers=movers,
+            hazards=hazards,
+        )

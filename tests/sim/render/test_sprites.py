@@ -1,0 +1,74 @@
+"""Sprites are as large as the boxes that are judged: they fill them, and nothing solid lies outside."""
+
+from __future__ import annotations
+
+import pygame
+import pytest
+from sim.rules.bodies import SIZES
+
+from sim.render import sprites
+from sim.types import Kind
+
+SOLID = 128
+"""least alpha of what is no shadow"""
+WIDTHS = (26, 41, 64, 90, 160)
+
+
+def drawn(kind: Kind, px: int) -> list[pygame.Surface]:
+    """Looks of one kind."""
+    match kind:
+        case Kind.AV:
+            return [sprites.av_sprite(px)]
+        case Kind.VEHICLE:
+            return [
+                sprites.vehicle_sprite(px, look, heading, broken)
+                for look, heading, broken in ((0, "left", False), (1, "right", False), (2, "left", True))
+            ]
+        case Kind.PEDESTRIAN:
+            return [
+                sprites.pedestrian_sprite(px, look, heading, False)
+                for look, heading in ((0, "left"), (1, "right"))
+            ]
+        case Kind.BARRIER:
+            return [sprites.barrier_sprite(px)]
+        case Kind.POTHOLE:
+            return [sprites.pothole_sprite(px, f"pothole-{number}") for number in range(1, 30)]
+
+
+@pytest.mark.parametrize("px", WIDTHS)
+@pytest.mark.parametrize("kind", list(Kind))
+def test_what_is_solid_lies_within_the_box(kind: Kind, px: int) -> None:
+    across, along = (float(side) * px for side in SIZES[kind])
+    for sprite in drawn(kind, px):
+        assert sprite.get_size() == (px, px)
+        solid = pygame.mask.from_surface(sprite, SOLID).get_bounding_rects()
+        seen = solid[0].unionall(solid[1:])
+        # A pixel that is half covered may stand out by half.
+        assert seen.left >= px / 2 - across / 2 - 1, (seen, across)
+        assert seen.right <= px / 2 + across / 2 + 1, (seen, across)
+        assert seen.top >= px / 2 - along / 2 - 1, (seen, along)
+        assert seen.bottom <= px / 2 + along / 2 + 1, (seen, along)
+
+
+@pytest.mark.parametrize("px", WIDTHS)
+@pytest.mark.parametrize("kind", [Kind.AV, Kind.VEHICLE, Kind.BARRIER])
+def test_bodies_fill_their_boxes(kind: Kind, px: int) -> None:
+    across, along = (float(side) * px for side in SIZES[kind])
+    for sprite in drawn(kind, px):
+        solid = pygame.mask.from_surface(sprite, SOLID).get_bounding_rects()
+        seen = solid[0].unionall(solid[1:])
+        assert seen.width >= across - 2
+        assert seen.height >= along - 2
+
+
+def test_vehicles_and_headings_can_be_told_apart() -> None:
+    pictures = [
+        sprites.av_sprite(90),
+        *(
+            sprites.vehicle_sprite(90, look, heading, False)
+            for look in (0, 1)
+            for heading in ("left", "right")
+        ),
+        sprites.vehicle_sprite(90, 0, "left", True),
+    ]
+    assert len({pygame.image.tobytes(picture, "RGBA") for picture in pictures}) == len(pictures)
