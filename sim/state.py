@@ -79,7 +79,7 @@ class StepResult:
 
 
 _advanced = field_setter(SimState, "world", "metrics", "queue", "fault", "record", "watch")
-_ticked = fast_constructor(StepResult, "run", "decision", "events")
+_ticked = fast_constructor(StepResult, "state", "decision", "events")
 
 
 def decide(state: SimState) -> Decision | None:

@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from sim.rules.versions import RULES
 from typer.testing import CliRunner
 
 from service.api.views import PREFIX
 from service.cli import cli
+from sim.rules.versions import RULES
 from tests.compat.test_kept_files import DATA, KEPT, LINKS, Json, database, opened
 
 __all__ = ["database"]

@@ -82,7 +82,7 @@ async def otherwise(walker: Any, path: str, tick: int, actions: list[Json]) -> N
     changed = run = plain.runs[tick]
     try:
         for action in contract.load(road):
-            changed = apply(changed, action).run
+            changed = apply(changed, action).state
     except EditError as error:
         holds(f"a change that cannot be: {error.message}", status in (409, 422), told)
         return
@@ -108,7 +108,7 @@ async def otherwise(walker: Any, path: str, tick: int, actions: list[Json]) -> N
 def followed(run: SimState) -> SimState:
     """The end of an episode, where nothing more is said; a result that stands is waited out first."""
     while run.world.outcome is not Outcome.RUNNING:
-        run = step(run).run
+        run = step(run).state
     while run.world.outcome is Outcome.RUNNING:
-        run = step(run).run
+        run = step(run).state
     return run

@@ -65,7 +65,7 @@ async def sentence(walker: Any, path: str) -> None:
     same(f"whether {told!r} is understood, {parsed}", status, 200)
     run = SimState.start(Config())
     for action in contract.load(parsed["actions"]):
-        run = apply(run, action).run
+        run = apply(run, action).state
     same(f"what {told!r} makes", run.config, walker.sessions[path].run.config)
 
 
@@ -157,7 +157,7 @@ async def forecast(walker: Any, path: str, tick: int) -> None:
     for ahead in told["ahead"][: 3 if told["exact"] else 1]:
         if run.world.outcome is not Outcome.RUNNING:
             return
-        run = step(run).run
+        run = step(run).state
         movers = {name: list(run.world.road.cell(cell)) for cell, name in run.world.movers.items()}
         same(f"movers foretold for {ahead['tick']}", ahead["movers"], movers)
 

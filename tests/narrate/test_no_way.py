@@ -134,7 +134,7 @@ def test_a_mover_that_cuts_across_is_told_in_the_decision_and_in_the_crash() -> 
         ended=True,
     )
     assert NARRATOR.event(
-        Event(crossed.tick, EventType.CRASHED, 1), replace(run, world=crossed, course=course)
+        Event(crossed.tick, EventType.CRASHED, 1), replace(run, world=crossed, record=course)
     ) == (
         "Crash after 1 tick: a car going to lane 3, row 2 cut across my diagonal; "
         "until the last move a way to the goal was open."

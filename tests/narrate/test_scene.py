@@ -130,7 +130,7 @@ def test_what_sensors_are_not_sure_of_is_said_with_how_sure_they_are() -> None:
 def test_after_the_end_what_is_seen_is_told_without_a_way_on() -> None:
     run = run_on(road("........", "o.......", "........", "...A...."))
     while run.world.outcome is Outcome.RUNNING:
-        run = step(run).run
+        run = step(run).state
     told = answer(run)["text"]
     assert (
         told == "The episode has ended (arrived). I see one thing: a pothole 5 m behind in the "

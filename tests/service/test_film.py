@@ -10,13 +10,13 @@ import av
 import pytest
 from PIL import Image, ImageSequence
 
-from service.api import render_video as route
+from service.api import film as route
 from service.api.patience import PatientProtocol
 from service.app import create_app
 from service.settings import Settings
 from service.store import MemoryStore
 from sim.config import Config
-from sim.render import render_video as films
+from sim.render import video as films
 from sim.render.video import VideoMissingError, frames_in, render_video, video_shots
 from sim.session.timeline import Timeline
 from sim.state import SimState

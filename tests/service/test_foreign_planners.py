@@ -11,7 +11,7 @@ import httpx
 import pytest
 
 from sim import planner_names
-from sim.plan import remembered, worker
+from sim.plan.sandbox import answer_cache, worker
 from tests.service.conftest import Service
 from tests.sim.plan import faulty_planners
 
@@ -36,7 +36,7 @@ def installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]
     monkeypatch.syspath_prepend(str(tmp_path))
     monkeypatch.setattr(worker, "worker_of", patient)
     planner_names.forget_installed()
-    remembered.answers.clear()
+    answer_cache.answers.clear()
     patient.cache_clear()
     yield
     for name in planner_names.installed():

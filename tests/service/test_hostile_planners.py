@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 from sim import planner_names
-from sim.plan import remembered, worker
+from sim.plan.sandbox import answer_cache, worker
 from tests.service.conftest import Service
 from tests.sim.plan import faulty_planners
 from tests.sim.plan.hostile_planners import HOSTILE, POSING, payload_path
@@ -56,7 +56,7 @@ def installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]
     monkeypatch.syspath_prepend(str(tmp_path))
     planner_names.forget_installed()
     monkeypatch.setattr(worker, "worker_of", worker_of)
-    remembered.answers.clear()
+    answer_cache.answers.clear()
     payload_path(os.getpid()).unlink(missing_ok=True)
     yield
     for name in planner_names.installed():
@@ -160,7 +160,7 @@ async def test_what_was_decided_is_told_without_asking_again(service: Service) -
     asked = worker_of("slow")
     assert asked is not None
     asked.stop()
-    remembered.answers.clear()
+    answer_cache.answers.clear()
     after = (await service.client.get(f"{path}/decisions")).json()
     assert asked._line is None, "it was not asked"
     assert [each["move"] for each in after["items"]] == [each["move"] for each in before["items"]]

@@ -16,7 +16,7 @@ def test_what_moved_does_not_hang_on_the_order_in_which_things_are_kept() -> Non
     run = SimState.start(Config(seed=3, vehicles=12))
     told = 0
     for _ in range(12):
-        after = step(run).run
+        after = step(run).state
         mixed = replace(after.world, movers=dict(reversed(after.world.movers.items())))
         found = motion_json(run.world, after.world)
         assert found == motion_json(run.world, mixed)

@@ -39,7 +39,7 @@ def test_what_moved_and_turned_is_what_a_look_at_every_thing_gives(config: Confi
     run = SimState.start(config)
     moves = 0
     for _ in range(TICKS):
-        after = step(run).run
+        after = step(run).state
         if after.world.episode == run.world.episode:
             told = motion_json(run.world, after.world)
             expected = looked_at(run.world, after.world)
@@ -64,5 +64,5 @@ def test_what_is_said_from_memory_is_what_would_be_said_anew(config: Config) -> 
             said = remembering.decision(decision, run)
             assert said == remembering.decision(decision, run) == anew.decision(decision, run)
             told.add(said)
-        run = step(run).run
+        run = step(run).state
     assert len(told) >= 2

@@ -18,9 +18,8 @@ from fractions import Fraction
 from pathlib import Path as FilePath
 from typing import Any, Final
 
-from sim.rules.bodies import SIZES, Path, first_contact
-
 from sim.render.motion import poses
+from sim.rules.bodies import SIZES, Path, first_contact
 from sim.types import HAZARDS, MOVERS, Cell, Kind, Move, Outcome
 from sim.world import World
 from tests.sim.roads import numbered, road

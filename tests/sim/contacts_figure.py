@@ -8,12 +8,12 @@ from pathlib import Path
 environ["SDL_VIDEODRIVER"] = "dummy"
 
 import pygame
-from sim.rules.bodies import SIZES
 
 from sim.render import theme
 from sim.render.motion import Pose, poses
 from sim.render.sprites import av_sprite, barrier_sprite, pedestrian_sprite, pothole_sprite, vehicle_sprite
 from sim.render.text import written
+from sim.rules.bodies import SIZES
 from sim.types import Kind, Move
 from tests.sim.contacts import MIDDLE, Case, worlds
 

@@ -13,10 +13,9 @@ from collections import Counter
 from dataclasses import replace
 from random import Random
 
-from sim.rules.yielding import attentive_movers, yielding_movers
-
 from sim.actions import Add, Where
 from sim.config import Config
+from sim.rules.yielding import attentive_movers, yielding_movers
 from sim.session.edits import apply
 from sim.state import SimState, step
 from sim.types import Cell, Outcome
@@ -89,7 +88,7 @@ def random_run(random: Random) -> SimState:
         barriers=some(0.1),
         pedestrians=some(0.3),
         courtesy=random.choice((0.0, 0.0, 0.5, 1.0)),
-        attentive_movers=random.choice((1.0, 1.0, 0.5, 0.0)),
+        attentive=random.choice((1.0, 1.0, 0.5, 0.0)),
         collision=random.choice(("swept", "swept", "cell")),
         repetition=random.random() < 0.8,
     )

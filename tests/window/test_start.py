@@ -35,7 +35,7 @@ def test_the_road_behind_is_the_one_that_is_driven(window: Open) -> None:
     driver.type("17")
     shown = driver.window.start._tick
     assert shown is not None
-    first = SimState.start(shown.run.config).world.digest()
+    first = SimState.start(shown.state.config).world.digest()
     driver.press(pygame.K_RETURN)
     assert driver.game.session.run.world.digest() == first
 
@@ -75,7 +75,7 @@ def test_the_preview_drives(window: Open) -> None:
     driver.seconds(1.2)
     shown = driver.window.start._tick
     assert shown is not None
-    assert shown.run.world.tick == 3
+    assert shown.state.world.tick == 3
 
 
 def test_escape_leaves(window: Open) -> None:

@@ -7,7 +7,7 @@ from itertools import combinations
 import pytest
 
 from sim.explain import Role, why
-from sim.explain.why_causes import spared
+from sim.oracle.ddmin import ddmin
 from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.types import Mode, Move
@@ -113,4 +113,4 @@ def test_a_move_held_back_is_explained_by_what_it_would_have_met() -> None:
 
 @pytest.mark.parametrize("needed", [set(), {"a"}, {"b", "d"}, set("abcdefg")])
 def test_sparing_leaves_what_is_needed(needed: set[str]) -> None:
-    assert set(spared("abcdefg", lambda kept: needed <= set(kept))) == needed
+    assert set(ddmin("abcdefg", lambda kept: needed <= set(kept))) == needed

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-from sim.rules.versions import RULES
 
 from sim.actions import Preference
 from sim.batch import Batch
@@ -16,6 +15,7 @@ from sim.config import Collision, Config
 from sim.forecast import predict
 from sim.perceive import perceive
 from sim.plan import Decision, planner_named
+from sim.rules.versions import RULES
 from sim.search.costs import BALANCED, weights
 from sim.search.reachability import reachability
 from sim.state import SimState, decide, step

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pygame
 import pytest
-from sim.rules.bodies import SIZES
 
 from sim.render import sprites
+from sim.rules.bodies import SIZES
 from sim.types import Kind
 
 SOLID = 128

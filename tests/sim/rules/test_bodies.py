@@ -7,9 +7,9 @@ from fractions import Fraction
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from sim.rules.bodies import SIZES, Path, clearance, first_contact
 
 from sim.render.motion import STEP_FRAMES, poses
+from sim.rules.bodies import SIZES, Path, clearance, first_contact
 from sim.types import Kind, Move, Outcome
 from tests.sim.contacts import TABLE, Case, cases, table, worlds, written
 

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from sim.rules.traffic_cache import cached_move_movers, cached_shift_table
-
 from sim.commit import commit
 from sim.config import Config
 from sim.forecast import predict
 from sim.perceive import perceive
 from sim.rules.traffic import Motion, move_movers, shift_table
+from sim.rules.traffic_cache import cached_move_movers, cached_shift_table
 from sim.state import SimState, step
 from sim.types import Move
 

@@ -6,6 +6,10 @@ from dataclasses import fields
 from typing import Any
 
 import pytest
+
+from sim.actions import Scenario
+from sim.config import Config, ConfigError
+from sim.rules import versions as rules_version
 from sim.rules.versions import (
     FIRST,
     LEFT,
@@ -17,10 +21,6 @@ from sim.rules.versions import (
     held_under,
     note_on,
 )
-
-from sim.actions import Scenario
-from sim.config import Config, ConfigError
-from sim.rules import versions as rules_version
 from sim.session.saved_config import defaults_under, new_config, saved_config
 from sim.session.scenario import configured
 

@@ -53,7 +53,7 @@ def test_costs_are_those_of_another_library(
     assert found.states[0] == start
     assert found.states[-1] == goal
     assert sum(moves[move].cost for move in found.moves) == found.cost
-    blind = cheapest(terrain, start, at_least=no_heuristic)
+    blind = cheapest(terrain, start, heuristic=no_heuristic)
     assert blind is not None
     assert blind.cost == found.cost
     assert blind.expanded >= found.expanded
