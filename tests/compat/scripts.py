@@ -256,6 +256,14 @@ RECORDINGS: Final[Mapping[str, Script]] = {
             60,
         ],
     ),
+    "hit": Script(
+        {
+            "seed": 42,
+            "planner": "priority",
+            "config": {"columns": 5, "rows": 12, "vehicles": 14, "attentive": 0.0, "pedestrians": 2},
+        },
+        [400, _set("planner", "rules"), 300],
+    ),
     "older": Script(
         {"seed": 41, "config": {"rules": 1, "vehicles": 40, "potholes": 20}},
         [250, "add five potholes", 150, {"do": "scenario", "vehicles": 45}, 200],
