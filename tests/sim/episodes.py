@@ -273,6 +273,8 @@ def told(done: Tick) -> str:
     """All that a tick came to."""
     world = done.run.world
     trace = "-" if done.decision is None else decided(done.decision)
+    if done.decision is not None and world.outcome is not Outcome.RUNNING:
+        trace += driven(done.run)
     events = " ".join(map(happened, done.events))
     return f"{world.tick} {world.digest()} {world.outcome.value} | {trace} | {events}"
 
@@ -286,6 +288,14 @@ def decided(decision: Decision) -> str:
     asked = "-" if decision.asked is None else decision.asked.value
     move, measure = decision.move.value, decision.measure.value
     return f"{decision.tick} {decision.av} {move} {asked} {measure} {decision.fault} {' '.join(options)}"
+
+
+def driven(run: Run) -> str:
+    """What an episode came to at its end: moves, and detours by their reason."""
+    course = run.course
+    start, last = (None if each is None else each.digest() for each in (course.start, course.last))
+    detours = ",".join(f"{reason.value}:{count}" for reason, count in course.sakes)
+    return f" driven {course.changed} {course.certain} {course.moves} {detours} {start} {last}"
 
 
 def happened(event: Event) -> str:
