@@ -22,7 +22,6 @@ class RollOut(Sequence[Motion]):
     """`roll_out[k]` is expected k + 1 ticks from now. Ticks are computed when they are first read."""
 
     __slots__ = (
-        "_boards",
         "_disabled",
         "_fixed",
         "_horizon",
@@ -45,11 +44,11 @@ class RollOut(Sequence[Motion]):
         self._percept = percept
         self._horizon = horizon
         self._stands = stands
-        boards = self._boards = percept.boards
+        boards = percept.boards
         self._fixed = boards.fixed
         self._disabled = (percept.right | percept.left) & boards.holding
         self._slices: list[Motion] = []
-        self._shifted: list[Boards] = []
+        self._shifted = [boards]
         self._tables: list[Mapping[int, str]] = []
         self._right, self._left = percept.right, percept.left
 
@@ -82,8 +81,11 @@ class RollOut(Sequence[Motion]):
 
     def boards(self, ahead: int) -> Boards:
         """Where things of which kind are expected, `ahead` + 1 ticks from now."""
-        self[ahead]  # rolls out that far
-        return self._shifted[ahead]
+        if not self._shifted[0].others:
+            return self._shifted[0]  # none of them moves
+        while len(self._shifted) <= ahead + 1:
+            self._shifted.append(shift_boards(self._shifted[-1], self[len(self._shifted) - 1]))
+        return self._shifted[ahead + 1]
 
     def if_standing(self) -> RollOut | None:
         """The roll-out where the vehicle does not move in the first tick; None where that changes nothing."""
@@ -97,12 +99,13 @@ class RollOut(Sequence[Motion]):
     def _next(self) -> Motion:
         percept, ahead = self._percept, len(self._slices)
         road = percept.road
+        boards = self.boards(ahead - 1) if ahead else percept.boards
         # Only the first tick is asked for again: when it comes.
         move = move_movers if ahead else cached_move_movers
         motion = move(
             self._right,
             self._left,
-            resting_movers(self._disabled, self._boards, percept.episode_tick + ahead),
+            resting_movers(self._disabled, boards, percept.episode_tick + ahead),
             self._fixed,
             0 if ahead else percept.yielding,
             percept.vehicles,
@@ -112,6 +115,4 @@ class RollOut(Sequence[Motion]):
         if self._stands and not ahead:
             motion = brake(motion, 1 << percept.ego, percept.attentive)
         self._right, self._left = motion.right, motion.left
-        self._boards = shift_boards(self._boards, motion)
-        self._shifted.append(self._boards)
         return motion

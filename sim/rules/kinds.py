@@ -20,7 +20,9 @@ PERIODS: Final = {kind: KINDS[kind].period or 1 for kind in MOVERS}
 _SLOW: Final = tuple((place, PERIODS[kind]) for place, kind in enumerate(MARKED) if PERIODS[kind] > 1)
 _BEAT: Final = PERIODS[Kind.PEDESTRIAN]
 
-_shifted = field_setter(Boards, "by_kind", "others")
+_COMMON: Final = lcm(_BEAT, *(period for _, period in _SLOW))
+
+_shifted = field_setter(Boards, "marked", "others")
 
 
 def resting_movers(disabled: Board, boards: Boards, episode_tick: int) -> Board:
@@ -42,7 +44,7 @@ def shift_boards(boards: Boards, motion: Motion) -> Boards:
     if not boards.others:
         return boards
     marked = shift_marked(boards.marked, motion)
-    return _shifted(boards, boards.by_kind[: -len(marked)] + marked, union(marked))
+    return _shifted(boards, marked, union(marked))
 
 
 def shift_marked(marked: Sequence[Board], motion: Motion) -> tuple[Board, ...]:
@@ -52,7 +54,7 @@ def shift_marked(marked: Sequence[Board], motion: Motion) -> tuple[Board, ...]:
 
 def common_period(boards: Boards) -> int:
     """Ticks after which every mover's steps fall on the same ticks again; the pedestrians' at least."""
-    if not boards.others:
+    if not boards.others or _COMMON == _BEAT:
         return _BEAT
     marked = boards.marked
     return lcm(_BEAT, *(period for place, period in _SLOW if marked[place]))

@@ -26,7 +26,10 @@ _LATER: Final = tuple(kind for kind in BOARDED if kind not in _FIRST)
 class Boards:
     """The cells of every kind in `BOARDED`, and their unions. Made by `of`."""
 
-    by_kind: tuple[Board, ...]
+    hazards: tuple[Board, ...]
+    """of each kind in `HAZARDS`"""
+    marked: tuple[Board, ...]
+    """the movers of each kind in `MARKED`"""
     fixed: Board
     """everything that does not move"""
     holding: Board
@@ -45,17 +48,19 @@ class Boards:
     @staticmethod
     def in_order(boards: Sequence[Board]) -> Boards:
         """From a board for every kind of `BOARDED`, in that order."""
+        hazards, marked = tuple(boards[:_FIXED]), tuple(boards[_FIXED:])
         holding = union(boards[place] for place in _HOLDING)
-        return Boards(tuple(boards), union(boards[:_FIXED]), holding, union(boards[_FIXED:]))
+        return Boards(hazards, marked, union(hazards), holding, union(marked))
 
     def __getitem__(self, kind: Kind) -> Board:
         """The cells of a kind in `BOARDED`."""
-        return self.by_kind[PLACE[kind]]
+        place = PLACE[kind]
+        return self.hazards[place] if place < _FIXED else self.marked[place - _FIXED]
 
     @property
-    def marked(self) -> tuple[Board, ...]:
-        """The movers of each kind in `MARKED`."""
-        return self.by_kind[_FIXED:]
+    def by_kind(self) -> tuple[Board, ...]:
+        """A board for every kind of `BOARDED`, in that order."""
+        return self.hazards + self.marked
 
     @property
     def later(self) -> tuple[tuple[Kind, Board], ...]:
@@ -77,7 +82,7 @@ class Boards:
 
     def fixed_kind(self, index: int) -> Kind:
         """The kind of the fixed hazard in a cell, the first of several. Raises `KeyError`."""
-        for kind, board in zip(HAZARDS, self.by_kind, strict=False):
+        for kind, board in zip(HAZARDS, self.hazards, strict=True):
             if board >> index & 1:
                 return kind
         raise KeyError(index)
