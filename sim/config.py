@@ -5,14 +5,16 @@ A `Config` that exists is valid: the constructor raises `ConfigError` with *ever
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from difflib import get_close_matches
 from typing import Any, Final, Literal, get_args
 
 from sim import planner_names
-from sim.actions import Layout, Preference, RoadType, SensorName, Traffic
+from sim.actions import MAX_THINGS, Layout, Preference, RoadType, SensorName, Traffic
 from sim.randomness import MAX_SEED
 from sim.rules.versions import RULES
+from sim.types import HAZARDS, KINDS, MOVERS, PLACEABLE, Kind
 from sim.world.grid import Road
 from sim.world.layouts import has_barriers, least_room
 
@@ -43,10 +45,7 @@ RANGES: Final[dict[str, tuple[float, float]]] = {
     "step_seconds": (0.02, 10.0),
     "spawn_probability": (0.0, 1.0),
     "pothole_probability": (0.0, 1.0),
-    "potholes": (0, 10_000),
-    "vehicles": (0, 10_000),
-    "barriers": (0, 10_000),
-    "pedestrians": (0, 10_000),
+    **{KINDS[kind].plural: (0, MAX_THINGS) for kind in PLACEABLE},
     "courtesy": (0.0, 1.0),
     "attentive": (0.0, 1.0),
     "reset_delay_s": (0.0, 60.0),
@@ -82,10 +81,7 @@ _WHOLE: Final = frozenset(
         "columns",
         "visible_rows",
         "rows",
-        "potholes",
-        "vehicles",
-        "barriers",
-        "pedestrians",
+        *(KINDS[kind].plural for kind in PLACEABLE),
         "safety_buffer",
         "rules",
         "seed",
@@ -188,7 +184,8 @@ class Config:
 
     def _number_problems(self) -> list[Problem]:
         problems = []
-        for name, (low, high) in RANGES.items():
+        for name in _NUMBERS:
+            low, high = RANGES[name]
             value = getattr(self, name)
             if value is None and name in _OPTIONAL:
                 continue
@@ -226,10 +223,12 @@ class Config:
             return [Problem("barriers", barriers_refused(self.layout))]
         room = least_room(self.layout, self.columns, self.rows)
         counts = {
-            name: getattr(self, name) or 0 for name in ("vehicles", "pedestrians", "barriers", "potholes")
+            COUNTS[kind]: getattr(self, COUNTS[kind]) or 0
+            for kind in (*MOVERS, *reversed(HAZARDS))
+            if kind in COUNTS
         }
         # Drawn things take at most one cell of a row each; with a layout they take what is left.
-        drawn = (self.rows - 2) * ((self.vehicles is None) + (self.potholes is None))
+        drawn = (self.rows - 2) * sum(getattr(self, name) is None for name in COUNTS.values())
         if self.layout is not None:
             drawn = 0
         if sum(counts.values()) + drawn <= room:
@@ -237,6 +236,14 @@ class Config:
         largest = max(counts, key=lambda name: counts[name])
         left = max(0, room - drawn - sum(counts.values()) + counts[largest])
         return [Problem(largest, f"too many for this road: there is room for {left}")]
+
+
+_NUMBERS: Final = tuple(field.name for field in fields(Config) if field.name in RANGES)
+
+COUNTS: Final[Mapping[Kind, str]] = {
+    kind: KINDS[kind].plural for kind in PLACEABLE if KINDS[kind].plural in _NUMBERS
+}
+"""The field of the exact number of each kind; a kind without one is only put on a road by hand."""
 
 
 def barriers_refused(layout: Layout | None) -> str:

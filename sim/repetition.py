@@ -12,7 +12,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from sim.rules.traffic import PEDESTRIAN_PERIOD
+from sim.rules.kinds import common_period
+from sim.types import MARKED
 from sim.world import World
 from sim.world.grid import Board
 
@@ -22,10 +23,11 @@ class Situation(NamedTuple):
 
     cell: int
     beat: int
-    """`episode_tick` modulo the pedestrians' period"""
+    """`episode_tick` modulo the period in which the steps of all movers repeat"""
     right: Board
     left: Board
-    pedestrians: Board
+    marked: tuple[Board, ...]
+    """the movers of each kind in `MARKED`"""
 
 
 class Watch(NamedTuple):
@@ -39,6 +41,7 @@ class Watch(NamedTuple):
 
 
 NOTHING_KEPT = Watch()
+_NONE_MARKED = (0,) * len(MARKED)
 
 
 def situation(world: World) -> Situation:
@@ -46,12 +49,13 @@ def situation(world: World) -> Situation:
     columns, cell = world.road.columns, world.avs[0]
     first = max(0, cell // columns - 1) * columns
     rows = (1 << 2 * columns) - 1
+    boards = world.boards
     return Situation(
         cell,
-        (world.tick - world.episode_start) % PEDESTRIAN_PERIOD,
+        (world.tick - world.episode_start) % common_period(boards),
         world.right >> first & rows,
         world.left >> first & rows,
-        world.pedestrians >> first & rows,
+        tuple([board >> first & rows for board in boards.marked]) if boards.others else _NONE_MARKED,
     )
 
 

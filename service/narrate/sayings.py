@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from copy import deepcopy
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, Final, Protocol
 
 import yaml
 
 from service.resources import prompts_folder
 from sim.plan import Option
-from sim.types import Cell, Move, kind_of
+from sim.types import KINDS, PLACEABLE, Cell, Move, kind_of
 
 
 class Names(Protocol):
@@ -20,13 +21,51 @@ class Names(Protocol):
         """Several things, each named."""
 
 
+_BY_KIND: Final = (
+    ("words", "a"),
+    ("naming", "the"),
+    ("scene", "a"),
+    ("scene", "nouns"),
+    ("advice", "hazards"),
+    ("ends", "sakes"),
+    ("next", "sakes"),
+)
+"""Tables with words for every kind. A kind that is not there is put as under `other`."""
+
+
+def _with_every_kind(files: dict[str, dict[str, Any]]) -> dict[str, dict[str, Any]]:
+    files = deepcopy(files)
+    things = files.get("words", {}).setdefault("things", {})
+    for kind in PLACEABLE:
+        one, many = things.setdefault(kind.value, [kind.value, KINDS[kind].plural])
+        parts = {"{one}": one, "{many}": many}
+        for file, key in _BY_KIND:
+            table = files.get(file, {}).get(key, {})
+            if "other" in table:
+                table.setdefault(kind.value, _filled(table["other"], parts))
+            if (file, key) == ("words", "a"):
+                parts["{a}"] = table.get(kind.value, one)
+    return files
+
+
+def _filled(other: Any, parts: Mapping[str, str]) -> Any:
+    """What stands under `other` with the words of a kind; what else is to be filled in stays."""
+    if isinstance(other, dict):
+        return {key: _filled(each, parts) for key, each in other.items()}
+    if isinstance(other, list):
+        return [_filled(each, parts) for each in other]
+    for name, word in parts.items():
+        other = other.replace(name, word)
+    return other
+
+
 class Sayings:
     """What `prompts/sayings/<code>/*.yaml` holds."""
 
     def __init__(self, files: dict[str, dict[str, Any]]) -> None:
         """`files`: what each file holds, by its name without ending."""
-        self._files = files
-        self._words = files["words"]
+        self._files = _with_every_kind(files)
+        self._words = self._files["words"]
 
     @classmethod
     def load(cls, code: str = "en", folder: Path | None = None) -> Sayings:

@@ -70,14 +70,15 @@ from sim.batch.observe import observe
 from sim.batch.reachability import exact_moves
 from sim.batch.roads import begin_all, renew
 from sim.batch.tick import END_FIELD, MAX_TICKS_A_CALL, MOVE_FIELD, ticks_kernel
-from sim.config import Config
+from sim.config import COUNTS, Config
 from sim.generation import GenerationError, assign_ids
 from sim.randomness import Stream
 from sim.repetition import Watch
 from sim.search.costs import weights
 from sim.state import SimState
-from sim.types import Kind, Outcome
+from sim.types import KINDS, MARKED, PLACEABLE, Kind, Outcome
 from sim.world import World
+from sim.world.boards import Boards
 from sim.world.grid import Board, bits
 
 After = Literal["next", "restart", "stop"]
@@ -95,6 +96,9 @@ _KERNELS: Final[dict[str, Any]] = {
 }
 """Planners that look ahead, apart from the tick."""
 
+_KINDS: Final = (Kind.POTHOLE, Kind.BARRIER, Kind.VEHICLE, Kind.PEDESTRIAN)
+"""The kinds that the kernels know."""
+_UNKNOWN: Final = tuple(kind for kind in PLACEABLE if kind not in _KINDS)
 _OUTCOMES: Final = tuple(Outcome)
 _NEXT, _THIS = 1, 2
 _STATE: Final = ("_state", "_lanes", "_wholes", "_ticks", "_counts")
@@ -133,6 +137,9 @@ class Batch:
         sizes = {(config.columns, config.rows) for config in configs}
         if len(sizes) != 1:
             raise ValueError(f"a batch has roads of one size, not of {len(sizes)}")
+        for kind in _UNKNOWN:
+            if kind in COUNTS and any(getattr(config, COUNTS[kind]) for config in configs):
+                raise ValueError(_not_known(kind))
         if any(config.layout for config in configs):
             raise ValueError('roads of a layout: make them with Batch.of, and after="stop" or "restart"')
         self.configs = list(configs)
@@ -396,11 +403,9 @@ class Batch:
             outcome=outcome,
             ended=None if outcome is Outcome.RUNNING else tick - since,
             avs=(int(self.vehicles[lane]),),
-            potholes=potholes,
-            barriers=barriers,
             right=right,
             left=left,
-            pedestrians=walkers,
+            boards=Boards.of({Kind.POTHOLE: potholes, Kind.BARRIER: barriers, Kind.PEDESTRIAN: walkers}),
             movers=ids(Kind.VEHICLE, vehicles) | ids(Kind.PEDESTRIAN, walkers),
             hazards=ids(Kind.POTHOLE, potholes) | ids(Kind.BARRIER, barriers),
             numbered=numbered,
@@ -509,6 +514,9 @@ class Batch:
     def _place(self, lane: int, run: SimState) -> None:
         """Put a moment of a run into a lane."""
         world = run.world
+        for kind in _UNKNOWN:
+            if world.count(kind):
+                raise ValueError(_not_known(kind))
         block, inner = divmod(lane, LANES)
         boards = self._state[block].reshape(self.layout.words, PLANES, LANES)
         planes = (world.right, world.left, world.fixed, world.potholes, world.pedestrians)
@@ -544,7 +552,7 @@ class Batch:
         for own, ahead, board in (
             (KEPT_RIGHT, KEPT_RIGHT_AHEAD, kept.right),
             (KEPT_LEFT, KEPT_LEFT_AHEAD, kept.left),
-            (KEPT_WALKERS, KEPT_WALKERS_AHEAD, kept.pedestrians),
+            (KEPT_WALKERS, KEPT_WALKERS_AHEAD, kept.marked[MARKED.index(Kind.PEDESTRIAN)]),
         ):
             values[own] = board >> columns << row % per_word * columns
             values[ahead] = (board & whole) << (row - 1) % per_word * columns
@@ -572,6 +580,12 @@ def _known(planner: str) -> None:
     """Raises `ValueError` for a planner that decides for no batch."""
     if planner not in get_args(BatchPlanner):
         raise ValueError(f"a batch is driven by {_listed(get_args(BatchPlanner))}, not by {planner!r}")
+
+
+def _not_known(kind: Kind) -> str:
+    """What is said of things of a kind that the kernels do not know."""
+    known = _listed([KINDS[each].plural for each in _KINDS])
+    return f"a batch has {known} on its roads, and no {KINDS[kind].plural}; run such roads one by one"
 
 
 def _some(threads: int) -> None:

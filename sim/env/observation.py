@@ -23,14 +23,35 @@ from numpy.typing import NDArray
 
 from sim.config import Config
 from sim.env.options import one_of, whole
-from sim.rules.traffic import pedestrians_walk
-from sim.types import Kind
+from sim.rules.kinds import PERIODS
+from sim.rules.traffic import steps_in_tick
+from sim.types import HAZARDS, MARKED, Kind
 from sim.world import World
 from sim.world.grid import bits
 
-PLANES: Final = 7
-POTHOLES, BARRIERS, RIGHT, LEFT, PEDESTRIANS, VEHICLE, STEPPING, OFF_ROAD = range(8)
-"""Planes by number; the last only in windows."""
+_ORDER: Final = (*HAZARDS, "right", "left", *MARKED, Kind.AV, "stepping", "off_road")
+POTHOLES, BARRIERS, RIGHT, LEFT, PEDESTRIANS, VEHICLE, STEPPING, OFF_ROAD = (
+    _ORDER.index(name)
+    for name in (
+        Kind.POTHOLE,
+        Kind.BARRIER,
+        "right",
+        "left",
+        Kind.PEDESTRIAN,
+        Kind.AV,
+        "stepping",
+        "off_road",
+    )
+)
+"""Planes by number; the last only in windows. Kinds that come later have planes between these."""
+PLANES: Final = OFF_ROAD
+_OF_BATCH: Final = (POTHOLES, BARRIERS, RIGHT, LEFT, PEDESTRIANS, VEHICLE, STEPPING)
+_LATER: Final = tuple(
+    (180 if kind.fixed else 20, _ORDER.index(kind))
+    for kind in (*HAZARDS, *MARKED)
+    if kind not in (Kind.POTHOLE, Kind.BARRIER, Kind.PEDESTRIAN)
+)
+"""Red of later kinds in an image, and their planes. Those of two such kinds look alike."""
 
 KINDS: Final = ("planes", "image", "image_first")
 """Planes; an image of rows × columns × channels; one of channels × rows × columns."""
@@ -46,18 +67,26 @@ def observed(world: World) -> Planes:
     road = world.road
     planes = np.zeros((PLANES, road.rows, road.columns), np.uint8)
     boards = (
-        world.potholes,
-        world.barriers,
+        *(world.board(kind) for kind in HAZARDS),
         world.right,
         world.left,
-        world.pedestrians,
+        *(world.board(kind) for kind in MARKED),
         world.board(Kind.AV),
     )
     for plane, board in zip(planes, boards, strict=False):
         for cell in bits(board):
             plane.flat[cell] = 1
-    planes[STEPPING] = pedestrians_walk(world.episode_tick)
+    planes[STEPPING] = steps_in_tick(PERIODS[Kind.PEDESTRIAN], world.episode_tick)
     return planes
+
+
+def of_batch(planes: Planes) -> Planes:
+    """The planes of `Batch.observe` with those of the kinds that a batch does not know, which are empty."""
+    if planes.shape[1] == PLANES:
+        return planes
+    whole = np.zeros((planes.shape[0], PLANES, *planes.shape[2:]), np.uint8)
+    whole[:, _OF_BATCH] = planes
+    return whole
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,6 +176,8 @@ class Observer:
         """Three channels, a value for each cell; every combination of planes has a value of its own."""
         stepping = cells[:, STEPPING]
         red = 120 * cells[:, POTHOLES] + 255 * cells[:, BARRIERS]
+        for shade, plane in _LATER:
+            red = red + shade * cells[:, plane]
         if self.window is not None:
             red = red + 60 * cells[:, OFF_ROAD]
         on_foot = cells[:, PEDESTRIANS]

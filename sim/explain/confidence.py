@@ -324,8 +324,13 @@ class _Futures:
         if self._known:
             rows = world.road.cell(world.av)[1] + 1 + self._buffer
             ahead = (1 << min(rows, world.road.rows) * world.road.columns) - 1
-        boards = (world.right & ahead, world.left & ahead, world.pedestrians & ahead)
-        return world.tick, tuple(Outcome).index(world.outcome), *world.avs, *boards
+        boards = (world.right, world.left, *world.boards.marked)
+        return (
+            world.tick,
+            tuple(Outcome).index(world.outcome),
+            *world.avs,
+            *(board & ahead for board in boards),
+        )
 
 
 def _drawn(near: Board, share: float) -> list[tuple[Board, float]]:

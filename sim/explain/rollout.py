@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Final
 
-from sim.episode_record import DetourReason, sake
+from sim.episode_record import Sake, sake
 from sim.plan import Decision
 from sim.state import SimState, StepResult, step
 from sim.types import Mode, Move, Outcome
@@ -39,7 +39,7 @@ class Detour:
 
     tick: int
     move: Move
-    sake: DetourReason
+    sake: Sake
     ids: tuple[str, ...]
     """who would have been met straight ahead"""
 

@@ -13,7 +13,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Final
 
-from sim.episode_record import DetourReason, EpisodeRecord
+from sim.episode_record import EpisodeRecord, Sake
 from sim.forecast import predict
 from sim.oracle.lower_bounds import can_arrive, least_ticks
 from sim.perceive import perceive
@@ -40,7 +40,7 @@ class Summary:
 
     outcome: Outcome
     ticks: int
-    sakes: tuple[tuple[DetourReason, int], ...]
+    sakes: tuple[tuple[Sake, int], ...]
     """detours by whose sake, in the order they first came"""
     best: int | None
     """least ticks from the beginning; None where there is no way, or where it is not certain, or not found"""

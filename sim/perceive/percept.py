@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from sim.types import Kind
+from sim.world.boards import Boards
 from sim.world.grid import Board, Road
 
 
@@ -18,11 +20,9 @@ class Percept:
     ego: int
     """cell index of the vehicle that looks"""
     ego_id: str
-    potholes: Board
-    barriers: Board
     right: Board
     left: Board
-    pedestrians: Board
+    boards: Boards
     yielding: Board
     """movers seen to give way to autonomous vehicles in this tick"""
     attentive: Board
@@ -33,3 +33,18 @@ class Percept:
     """whether bodies collide by what they sweep within a tick (`Config.collision`)"""
     movers: Mapping[int, str]
     hazards: Mapping[int, str]
+
+    @property
+    def potholes(self) -> Board:
+        """The cells of potholes."""
+        return self.boards[Kind.POTHOLE]
+
+    @property
+    def barriers(self) -> Board:
+        """The cells of barriers."""
+        return self.boards[Kind.BARRIER]
+
+    @property
+    def pedestrians(self) -> Board:
+        """The cells of pedestrians."""
+        return self.boards[Kind.PEDESTRIAN]

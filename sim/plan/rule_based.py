@@ -113,7 +113,7 @@ def standing(forecast: Forecast) -> Standing:
     road, ego = forecast.road, forecast.ego
     columns = road.columns
     right, left, _, _ = forecast.slices[0]
-    fixed = forecast.potholes | forecast.barriers
+    fixed = forecast.fixed
     ways = ways_past(
         columns, road.rows, fixed | locked_in(right | left, fixed, road.left_edge, road.right_edge)
     )

@@ -9,11 +9,11 @@ from __future__ import annotations
 from dataclasses import fields
 
 from sim.actions import Prefer, Scenario, Set, WorldAction
-from sim.config import Config
+from sim.config import COUNTS, Config
 from sim.session.errors import EditError
-from sim.session.scenario import ROADS, TRAFFIC, configured
+from sim.session.scenario import ROADS, TRAFFIC, configured, default_counts
 from sim.session.settings import preferring, setting
-from sim.world.layouts import has_barriers
+from sim.types import KINDS
 
 _GROUND = ("columns", "rows", "seed")
 _SET_AFTER = (
@@ -73,17 +73,21 @@ def _scenario(config: Config) -> Scenario:
     preset = ROADS[config.road]
     spawn = preset.spawn_probability if config.traffic is None else TRAFFIC[config.traffic]
     # A probability that is set later takes the place of an exact number.
-    vehicles = config.vehicles if config.spawn_probability == spawn else None
-    potholes = config.potholes if config.pothole_probability == preset.pothole_probability else None
-    barriers = 0 if has_barriers(config.layout) else preset.barriers
+    changed = set()
+    if config.spawn_probability != spawn:
+        changed.add("spawn_probability")
+    if config.pothole_probability != preset.pothole_probability:
+        changed.add("pothole_probability")
+    counts = {
+        COUNTS[kind]: None if KINDS[kind].probability in changed else getattr(config, COUNTS[kind])
+        for kind in COUNTS
+    }
+    default = default_counts(config.road, config.layout)
     return Scenario(
         road=config.road,
         layout=config.layout,
         traffic=config.traffic,
-        potholes=potholes,
-        vehicles=vehicles,
-        barriers=None if config.barriers == barriers else config.barriers,
-        pedestrians=None if config.pedestrians == preset.pedestrians else config.pedestrians,
+        **{name: None if count == default[name] else count for name, count in counts.items()},
         planner=None if config.planner == Config().planner else config.planner,  # type: ignore[arg-type]
         sensor=None if config.sensor == "perfect" else config.sensor,
     )

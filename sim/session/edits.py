@@ -33,21 +33,13 @@ from sim.session.locate import PlaceError, nearest_first, place_for_adding, plac
 from sim.session.scenario import configured, unavailable
 from sim.session.settings import NEEDS_A_NEW_ROAD, preferring, setting, vehicles_for
 from sim.state import SimState, next_episode, reconfigure, restart_episode
-from sim.types import PLACEABLE, Kind, Outcome
+from sim.types import KINDS, PLACEABLE, Kind, Outcome
 from sim.world import Thing, World
+from sim.world.boards import BOARDED
 from sim.world.grid import Board, bits, board_of
 
 MAX_QUEUE = 100
 """How many moves of a person may wait."""
-
-PLURALS = {
-    Kind.POTHOLE: "potholes",
-    Kind.BARRIER: "barriers",
-    Kind.VEHICLE: "vehicles",
-    Kind.PEDESTRIAN: "pedestrians",
-    Kind.AV: "avs",
-}
-"""How counts are called in changes and configurations."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,11 +156,9 @@ def _placed(state: SimState, action: Add | SetCount, kind: Kind, cells: list[int
     right = board_of([cell for cell in cells if heading.below(2, cell)]) if kind.moves else 0
     after = replace(
         world,
-        potholes=world.potholes | (board if kind is Kind.POTHOLE else 0),
-        barriers=world.barriers | (board if kind is Kind.BARRIER else 0),
-        pedestrians=world.pedestrians | (board if kind is Kind.PEDESTRIAN else 0),
         right=world.right | right,
         left=world.left | (board & ~right if kind.moves else 0),
+        boards=world.boards.with_kind(kind, world.boards[kind] | board) if kind in BOARDED else world.boards,
         movers={**world.movers, **table} if kind.moves else world.movers,
         hazards=world.hazards if kind.moves else {**world.hazards, **table},
         numbered=last,
@@ -293,9 +283,10 @@ def _refuse_what_is_gone(action: Add | Remove | SetCount | Drive) -> None:
 
 def _refuse_occupied(world: World, kind: Kind, cell: int) -> None:
     """One cell was named: only a pothole under a mover may share it."""
-    blocked = world.occupied & ~world.moving if kind is Kind.POTHOLE else world.occupied
+    holds = KINDS[kind].holds_movers
+    blocked = world.occupied & ~world.moving if holds else world.occupied
     bit = 1 << cell
-    if not bit & blocked and not (kind is Kind.POTHOLE and bit & world.disabled):
+    if not bit & blocked and not (holds and bit & world.disabled):
         return
     column, row = world.road.cell(cell)
     if bit & world.board(Kind.AV):
@@ -321,7 +312,7 @@ def differences(before: SimState, after: SimState) -> tuple[Change, ...]:
     counts = after.world.counts()
     for kind, count in before.world.counts().items():
         if count != counts[kind]:
-            changes.append(Change(PLURALS[kind], count, counts[kind]))
+            changes.append(Change(KINDS[kind].plural, count, counts[kind]))
     if before.config is not after.config:
         for field in fields(Config):
             was, now = getattr(before.config, field.name), getattr(after.config, field.name)
@@ -337,7 +328,7 @@ def differences(before: SimState, after: SimState) -> tuple[Change, ...]:
 def _noun(count: int, kind: str) -> str:
     if kind == "everything":
         return "thing" if count == 1 else "things"
-    return kind if count == 1 else PLURALS[Kind(kind)]
+    return kind if count == 1 else KINDS[Kind(kind)].plural
 
 
 def _many(count: int, kind: str) -> str:

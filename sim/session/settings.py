@@ -10,10 +10,11 @@ from __future__ import annotations
 from typing import Any, Final, get_args
 
 from sim.actions import Adjust, Preference, Set, Traffic, Wish
-from sim.config import RANGES, Config, ConfigError
+from sim.config import COUNTS, RANGES, Config, ConfigError
 from sim.planner_names import PROMISED
 from sim.session.errors import EditError
 from sim.session.scenario import TRAFFIC
+from sim.types import KINDS, Kind
 from sim.world.layouts import vehicles_on_average
 
 NEEDS_A_NEW_ROAD: Final = frozenset(("columns", "rows", "seed"))
@@ -32,7 +33,10 @@ STEPS: Final[dict[str, float]] = {
 """How far "up" and "down" go, for every number that can be set."""
 AS_IT_IS: Final = {"sensor": "perfect", "weather": "clear", "time_of_day": "day", "dynamics": "grid"}
 """Settings that this version has in one form only."""
-_COUNTS: Final = {"spawn_probability": "vehicles", "pothole_probability": "potholes", "traffic": "vehicles"}
+_COUNTS: Final = {
+    **{probability: name for kind, name in COUNTS.items() if (probability := KINDS[kind].probability)},
+    "traffic": COUNTS[Kind.VEHICLE],
+}
 """Exact numbers that a probability takes the place of."""
 _LEVELS: Final = get_args(Traffic)
 

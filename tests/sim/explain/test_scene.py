@@ -14,6 +14,7 @@ from sim.perceive import perceive
 from sim.state import SimState, commit
 from sim.types import Kind, Move
 from sim.world import World
+from sim.world.boards import NO_BOARDS, Boards
 from tests.sim.roads import road, run_on, worlds
 
 
@@ -83,10 +84,10 @@ def test_no_further_than_the_next_rows_is_looked_for_what_would_be_met() -> None
 def test_what_the_sensors_miss_is_not_seen_and_what_they_imagine_is() -> None:
     state = run_on(road("........", "...o....", "........", "...A...."))
     percept = perceive(state.world, state.config)
-    blind = replace(percept, potholes=0, hazards={})
+    blind = replace(percept, boards=NO_BOARDS, hazards={})
     assert describe_percept(blind, state.config).seen == ()
     index = state.world.road.index((3, 2))
-    ghost = replace(blind, barriers=1 << index, hazards={index: "barrier-9"})
+    ghost = replace(blind, boards=Boards.of({Kind.BARRIER: 1 << index}), hazards={index: "barrier-9"})
     (thing,) = describe_percept(ghost, state.config, {"barrier-9": 0.7}).seen
     assert (thing.id, thing.kind, thing.likelihood, thing.ticks) == ("barrier-9", Kind.BARRIER, 0.7, 1)
 

@@ -17,6 +17,7 @@ from sim.search.passages import locked_in, ways_past
 from sim.state import SimState, decide, step
 from sim.types import Move, Outcome
 from sim.world import World
+from sim.world.boards import Boards
 from sim.world.grid import board_of
 from tests.sim.roads import road, run_on, worlds
 
@@ -149,11 +150,9 @@ def mirrored(world: World) -> World:
     return replace(
         world,
         avs=tuple(turned(cell) for cell in world.avs),
-        potholes=board(world.potholes),
-        barriers=board(world.barriers),
         right=board(world.left),
         left=board(world.right),
-        pedestrians=board(world.pedestrians),
+        boards=Boards.in_order([board(cells) for cells in world.boards.by_kind]),
         movers={turned(cell): name for cell, name in world.movers.items()},
         hazards={turned(cell): name for cell, name in world.hazards.items()},
     )

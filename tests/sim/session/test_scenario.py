@@ -7,6 +7,7 @@ import pytest
 from sim.actions import RoadType, Scenario, Traffic
 from sim.config import Config, ConfigError
 from sim.session.scenario import ROADS, TRAFFIC, configured
+from sim.types import Kind
 
 USED = Config(
     columns=6,
@@ -39,13 +40,18 @@ def test_a_type_of_road_brings_its_furniture(road: RoadType) -> None:
         preset.spawn_probability,
         preset.pothole_probability,
     )
-    assert (config.pedestrians, config.barriers) == (preset.pedestrians, preset.barriers)
+    assert (config.pedestrians, config.barriers) == tuple(
+        preset.counts.get(kind, 0) for kind in (Kind.PEDESTRIAN, Kind.BARRIER)
+    )
     bare = configured(Config(), Scenario(road=road, pedestrians=0, barriers=0))
     assert (bare.pedestrians, bare.barriers) == (0, 0)
 
 
 def test_the_presets_differ_as_their_words_do() -> None:
-    assert ROADS["city"].pedestrians > ROADS["rural"].pedestrians > ROADS["highway"].pedestrians == 0
+    city, rural, highway = (
+        ROADS[road].counts.get(Kind.PEDESTRIAN, 0) for road in ("city", "rural", "highway")
+    )
+    assert city > rural > highway == 0
     assert ROADS["rural"].pothole_probability > ROADS["city"].pothole_probability
     assert ROADS["city"].pothole_probability > ROADS["highway"].pothole_probability
     default = Config()
