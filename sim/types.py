@@ -37,6 +37,11 @@ def kind_of(name: str) -> Kind:
     return Kind(name.rpartition("-")[0])
 
 
+def phantom_id(kind: Kind, number: int) -> str:
+    """The id of something a sensor reports that is not there ("pothole-p1"): never that of a real thing."""
+    return f"{kind}-p{number}"
+
+
 HAZARDS = (Kind.POTHOLE, Kind.BARRIER)
 MOVERS = (Kind.VEHICLE, Kind.PEDESTRIAN)
 PLACEABLE = (*HAZARDS, *MOVERS)

@@ -11,8 +11,7 @@ from service.narrate.sayings import Sayings
 from service.sessions.facts import Asked
 from service.wire.scene import scene_json
 from sim.explain.scene import Detection, Scene, describe_percept
-from sim.perceive import perceive
-from sim.state import SimState
+from sim.state import SimState, sense
 from sim.types import PLACEABLE, Kind, Outcome
 
 MAX_TOLD: Final = 3
@@ -32,7 +31,7 @@ class Scenes:
         """See `Answerer.answer`."""
         run = asked.timeline.state
         kind = None if asked.ask.kind is None else Kind(asked.ask.kind)
-        scene = describe_percept(perceive(run.world, run.config), run.config)
+        scene = describe_percept(sense(run)[0], run.config)
         text = self.text(scene, run, kind)
         found = scene_json(scene, kind, run.config.cell_m, run.config.step_seconds)
         return plain(self._sayings, asked.ask, run, text) | found

@@ -25,8 +25,7 @@ from typing import Final, TypeAlias
 
 from sim.config import Config
 from sim.explain.facts import QuestionError
-from sim.forecast import predict
-from sim.perceive import perceive
+from sim.forecast import Forecast
 from sim.plan import Decision
 from sim.planner_names import BUILT_IN, WEIGHING
 from sim.randomness import Stream
@@ -288,7 +287,7 @@ class _Futures:
         for (gives, chance), (brakes, other) in product(giving, braking):
             drawing = self._drawing(world, gives, brakes)
             if self._known:
-                forecast = predict(perceive(world, drawing), 1)
+                forecast = Forecast.of_truth(world, drawing, 1)
                 standing = forecast.standing
                 key: object = forecast.slices[0], None if standing is None else standing.slices[0]
             else:
@@ -347,7 +346,7 @@ def _share(drawn: Board, near: Board) -> float:
 def _hopeful(state: SimState) -> list[Board]:
     """The cells from which the goal may still be reached in time, by ticks from now."""
     limit = steps_left(state.config, state.world.episode_tick)
-    return cells_that_may_arrive(predict(perceive(state.world, state.config), max(1, limit)), limit)
+    return cells_that_may_arrive(Forecast.of_truth(state.world, state.config, max(1, limit)), limit)
 
 
 def _pick(ways: list[tuple[float, _Node]], draw: float) -> _Node:

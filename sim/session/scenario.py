@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Final
 
+from sim import sensor_names
 from sim.actions import RoadType, Scenario, Traffic
 from sim.config import Config, ConfigError, Problem, barriers_refused
 from sim.planner_names import PROMISED
@@ -45,7 +46,7 @@ def unavailable(scenario: Scenario) -> Problem | None:
         return Problem("weather", f"Weather other than clear ({scenario.weather})")
     if scenario.time_of_day not in (None, "day"):
         return Problem("time_of_day", f"Another time of day than day ({scenario.time_of_day})")
-    if scenario.sensor not in (None, "perfect"):
+    if scenario.sensor is not None and scenario.sensor not in sensor_names.names():
         return Problem("sensor", f"A sensor other than the perfect one ({scenario.sensor})")
     if scenario.planner in PROMISED:
         return Problem("planner", f"The planner {scenario.planner}")
