@@ -5,8 +5,8 @@ world an episode began with. Here each such part has a number, given when it is 
 again when it is read. Boards are hexadecimal, since JSON readers take no whole numbers of that size. Leaves
 out what is to be made of it, and whether it can be trusted.
 
-The belief of a stateless sensor is nothing and takes no room. A belief that is something is of a form that only
-its sensor knows: such a state is not written (`BeliefError`), and comes back by a replay of its session.
+A stateless sensor has no belief, and nothing is written for it. Any other belief has a form that only its
+sensor knows: such a state is not written (`BeliefError`), and comes back by a replay of its session.
 """
 
 from __future__ import annotations
