@@ -1,8 +1,8 @@
 """What was at stake: where the other move would have led, run to the end, beside where this one leads.
 
 After its first move each future goes on as it would: the planner decides, nobody speaks. Ticks lost
-are those of the best way on after each move (`sim.oracle`), whatever the planner makes of it. Decisions on the
-way are made of what is seen, and their outcomes of what is there.
+are those of the best way on after each move (`sim.oracle`), whatever the planner makes of it. On the way it
+is decided by what is seen, and judged by what is there.
 """
 
 from __future__ import annotations

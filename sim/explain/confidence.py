@@ -11,8 +11,9 @@ A future in which the vehicle is proved to be shut off from the goal, by hazards
 before it, is followed no further: it does not arrive, however it ends.
 
 Every step is the session's own (`sim.state.advance`) with the draws of its tick set. Work is limited by
-decisions taken and never by the clock, so the same moment has the same answer everywhere. What the
-sensor will show is not left to chance: it draws as it does in this session. Not foreseen: what a person will do. In manual mode it is told how it goes if the vehicle drives from here on by itself.
+decisions taken and never by the clock, so the same moment has the same answer everywhere. What the sensor
+will show is not left to chance: it draws as it does in this session. Not foreseen: what a person will do.
+In manual mode it is told how it goes if the vehicle drives from here on by itself.
 """
 
 from __future__ import annotations

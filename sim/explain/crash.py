@@ -6,8 +6,8 @@ saved it is looked for backwards along the way that was driven: the last tick at
 the goal, the move that was made there, and one that leads there. Where somebody may give way by chance, or
 the road was changed meanwhile, nothing is claimed about earlier ticks.
 
-A crash may hang on what is there and was not detected, and on what was detected and is not there. So a thing is
-taken away from the road and from what is seen at once.
+A crash may hang on what is there and was not detected, and on what was detected and is not there. So a thing
+is taken away from the road and from what is seen at once.
 """
 
 from __future__ import annotations

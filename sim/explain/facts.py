@@ -58,7 +58,7 @@ class Cause:
     each_enough: bool = False
     """whether each of a group of several would have been enough by itself"""
     real: bool = True
-    """whether it was there, in the cell in which it was seen; False for what the sensor made up or misplaced"""
+    """whether it was there, in the cell in which it was seen; False for what a sensor made up or misplaced"""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,8 +1,8 @@
 """Running one decision again with something otherwise, remembering what was run.
 
-There are two kinds of intervention. One is on what is *seen*: something had not been detected, all else as it
-is. The other is on what *is*: something had never been there, or a person had changed the road first; then the
-sensor looks again, with the belief it had. With perfect sight both come to the same.
+There are two kinds of intervention. One is on what is *seen*: something had not been detected, all else as
+it is. The other is on what *is*: something had never been there, or a person had changed the road first; then
+the sensor looks again, with the belief it had. With perfect sight both come to the same.
 """
 
 from __future__ import annotations

@@ -1,11 +1,11 @@
 """What a decision hangs on: a smallest set of things and wishes that brings it about, each tried by removal.
 
-Causes are looked for among what was *seen*: a thing that was not detected has no part in the decision, and one
-that was imagined has. A set is *enough* if, with nothing else seen on the road, the move is the same; the causes are such a set
-from which nothing can be spared. A cause is *necessary* if taking it away, and nothing else, changes
-the move. One that is not has a stand-in (the decision is overdetermined): then the causes are looked
-for among the necessary things first, and if those are not enough, the cause is told with its group,
-the things that must go together for the move to change.
+Causes are looked for among what was *seen*: a thing that was not detected has no part in the decision, and
+one that was imagined has. A set is *enough* if, with nothing else seen on the road, the move is the same;
+the causes are such a set from which nothing can be spared. A cause is *necessary* if taking it away, and
+nothing else, changes the move. One that is not has a stand-in (the decision is overdetermined): then the
+causes are looked for among the necessary things first, and if those are not enough, the cause is told with
+its group, the things that must go together for the move to change.
 
 This is the but-for test and its repair for overdetermination as in Halpern & Pearl, "Causes and
 explanations: a structural-model approach" (British Journal for the Philosophy of Science, 2005), with
