@@ -26,8 +26,7 @@ from bench import peers
 from bench.c_loop import CLoop
 from sim.batch import Batch, BatchPlanner
 from sim.config import Config
-from sim.forecast import predict
-from sim.perceive import perceive
+from sim.forecast import Forecast
 from sim.search.reachability import shortest_plan, steps_left
 from sim.state import SimState, step
 from sim.types import Outcome
@@ -149,7 +148,7 @@ def plans() -> list[Line]:
         while run.world.outcome is Outcome.RUNNING:
             began = time.perf_counter()
             limit = steps_left(run.config, run.world.episode_tick)
-            shortest_plan(predict(perceive(run.world, run.config), limit), limit)
+            shortest_plan(Forecast.of_truth(run.world, run.config, limit), limit)
             (starts if run.world.episode_tick == 0 else along).append(time.perf_counter() - began)
             run = step(run).state
     start_us, along_us = statistics.median(starts) * 1e6, statistics.mean([*starts, *along]) * 1e6

@@ -10,8 +10,8 @@ from dataclasses import dataclass, fields, replace
 from difflib import get_close_matches
 from typing import Any, Final, Literal, get_args
 
-from sim import planner_names
-from sim.actions import MAX_THINGS, Layout, Preference, RoadType, SensorName, Traffic
+from sim import planner_names, sensor_names
+from sim.actions import MAX_THINGS, Layout, Preference, RoadType, Traffic
 from sim.randomness import MAX_SEED
 from sim.rules.versions import RULES
 from sim.types import HAZARDS, KINDS, MOVERS, PLACEABLE, Kind
@@ -63,13 +63,12 @@ CHOICES: Final[dict[str, tuple[str, ...]]] = {
     "road": get_args(RoadType),
     "layout": get_args(Layout),
     "traffic": get_args(Traffic),
-    "sensor": ("perfect",),
 }
 """The words that may stand where a word is asked for."""
 
 PROMISED: Final[dict[str, tuple[str, ...]]] = {
     "planner": planner_names.PROMISED,
-    "sensor": tuple(name for name in get_args(SensorName) if name != "perfect"),
+    "sensor": sensor_names.PROMISED,
 }
 """Values that people may ask for and this version has not."""
 
@@ -129,7 +128,8 @@ class Config:
     """how planners that weigh costs should weigh them; the balance is in `sim.search.costs`"""
     safety_buffer: int = 1
     """cells around a mover that cost something to be in, for planners that weigh costs"""
-    sensor: SensorName = "perfect"
+    sensor: str = "perfect"
+    """what the vehicle sees with (`sim.perceive`)"""
     rules: int = RULES
     """version of the rules that defaults come from (`sim.rules.versions`)"""
     solvable: bool = False
@@ -203,6 +203,8 @@ class Config:
             for name, choices in CHOICES.items()
             if getattr(self, name) not in choices and not (name in _OPTIONAL and getattr(self, name) is None)
         ]
+        if self.sensor not in sensor_names.names():
+            problems.append(_not_one_of("sensor", self.sensor, sensor_names.names()))
         planner = self.planner
         if not isinstance(planner, str) or planner in PROMISED["planner"] or not planner_names.known(planner):
             problems.append(_not_one_of("planner", planner, planner_names.names()))

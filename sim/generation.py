@@ -14,8 +14,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from sim.config import COUNTS, Config, ConfigError, Problem
-from sim.forecast import predict
-from sim.perceive import perceive
+from sim.forecast import Forecast
 from sim.randomness import Stream, fraction, scaled, word_at
 from sim.search.reachability import reachability, steps_left
 from sim.types import HAZARDS, KINDS, MOVERS, Kind
@@ -60,7 +59,7 @@ def generate(
 def drivable(world: World, config: Config) -> bool:
     """Whether row 0 can be reached in time, assuming that nobody gives way after the first tick."""
     limit = steps_left(config, world.episode_tick)
-    forecast = predict(perceive(world, config), limit)
+    forecast = Forecast.of_truth(world, config, limit)
     return reachability(forecast, 1 << world.av, limit).ticks is not None
 
 

@@ -42,6 +42,11 @@ def kind_of(name: str) -> Kind:
     return Kind(name.rpartition("-")[0])
 
 
+def phantom_id(kind: Kind, number: int) -> str:
+    """The id of something a sensor reports that is not there ("pothole-p1"): never that of a real thing."""
+    return f"{kind}-p{number}"
+
+
 class Size(NamedTuple):
     """A body's extent in cells: across the lanes and along the road."""
 

@@ -5,10 +5,9 @@ from __future__ import annotations
 from service.narrate.naming import Naming
 from service.narrate.sayings import Sayings
 from sim.forecast import predict
-from sim.perceive import perceive
 from sim.plan import Decision, Option
 from sim.plan.rule_based import Leads, Prospect, RulesPlanner, standing
-from sim.state import SimState
+from sim.state import SimState, sense
 from sim.types import Move, kind_of
 
 _OTHER_SIDE = {Move.LEFT: Move.RIGHT, Move.RIGHT: Move.LEFT}
@@ -28,7 +27,7 @@ class Outlook:
         """`run`: the moment in which the decision was taken."""
         self._sayings = sayings
         self._decision = decision
-        self._forecast = predict(perceive(run.world, run.config), 1)
+        self._forecast = predict(sense(run)[0], 1)
         self._standing = standing(self._forecast)
         self._naming = Naming(sayings, run)
         self._straight = decision.option(Move.FORWARD)

@@ -20,6 +20,9 @@ class Names(Protocol):
     def things(self, names: Sequence[str]) -> str:
         """Several things, each named."""
 
+    def imagined(self, names: Sequence[str]) -> dict[str, str]:
+        """Those of these things that were seen where they were not, and where that was."""
+
 
 _BY_KIND: Final = (
     ("words", "a"),
@@ -133,11 +136,10 @@ class Sayings:
         alike: dict[tuple[str, str], list[Option]] = {}
         for option in options:
             kind = self._kind(option)
-            key = (
-                (option.reason.value, kind)
-                if option.reason in self.words("words", "several")
-                else ("", option.move)
+            alone = option.reason not in self.words("words", "several") or (
+                tense == "then" and naming.imagined(option.causes)
             )
+            key = ("", option.move) if alone else (option.reason.value, kind)
             alike.setdefault(key, []).append(option)
         for (reason, kind), group in alike.items():
             if len(group) == 1:
@@ -154,8 +156,17 @@ class Sayings:
         kinds = sorted((kind_of(name) for name in option.causes), key=lambda kind: not kind.moves)
         return kinds[0].value if kinds else ""
 
+    def imagined(self, name: str, where: str) -> str:
+        """That a thing was seen at a place, and was not there."""
+        return self.say("words", "imagined", a=self.say("words", "a", kind_of(name)), where=where)
+
     def in_the_way(self, reason: str, move: Move, ids: Sequence[str], tense: str, naming: Names) -> str:
-        """What is in the way of a move."""
+        """What is in the way of a move; in hindsight also that it was not there."""
+        imagined = naming.imagined(ids) if tense == "then" else {}
+        if imagined:
+            told = self.joined([self.imagined(name, where) for name, where in imagined.items()])
+            rest = [name for name in ids if name not in imagined]
+            return told if not rest else self.say("words", "besides", told=told, who=naming.things(rest))
         place, who = self.move(move, "place"), naming.things(ids)
         movers = [kind_of(name) for name in ids if kind_of(name).moves]
         if reason == "mover_enters" and len(ids) > 1:

@@ -235,7 +235,7 @@ class Conditions:
             return self._say("nothing_left")
         if len(things) <= NAMED:
             if all(before.world.find(thing.id) for thing in things):
-                named = Naming(self._sayings, before).things([thing.id for thing in things])
+                named = Naming(self._sayings, before, as_seen=False).things([thing.id for thing in things])
                 return self._say("not_there", who=named)
             a = [self._sayings.say("words", "a", thing.kind) for thing in things]
             return self._say("gone", a=self._sayings.joined(a))
@@ -248,7 +248,7 @@ class Conditions:
             return self._say(
                 "more", count=action.count, things=self._sayings.things(action.kind, action.count)
             )
-        place = Naming(self._sayings, applied.state).place(applied.added[0].cell)
+        place = Naming(self._sayings, applied.state, as_seen=False).place(applied.added[0].cell)
         if action.where is None:
             return self._say("one_more", thing=self._sayings.things(action.kind, 1), place=place)
         return self._say("one_at", a=self._sayings.say("words", "a", action.kind), place=place)

@@ -11,8 +11,9 @@ A future in which the vehicle is proved to be shut off from the goal, by hazards
 before it, is followed no further: it does not arrive, however it ends.
 
 Every step is the session's own (`sim.state.advance`) with the draws of its tick set. Work is limited by
-decisions taken and never by the clock, so the same moment has the same answer everywhere. Not foreseen:
-what a person will do. In manual mode it is told how it goes if the vehicle drives from here on by itself.
+decisions taken and never by the clock, so the same moment has the same answer everywhere. What the sensor
+will show is not left to chance: it draws as it does in this session. Not foreseen: what a person will do.
+In manual mode it is told how it goes if the vehicle drives from here on by itself.
 """
 
 from __future__ import annotations
@@ -25,8 +26,8 @@ from typing import Final, TypeAlias
 
 from sim.config import Config
 from sim.explain.facts import QuestionError
-from sim.forecast import predict
-from sim.perceive import perceive
+from sim.forecast import Forecast
+from sim.perceive import Belief, sensor_named
 from sim.plan import Decision
 from sim.planner_names import BUILT_IN, WEIGHING
 from sim.randomness import Stream
@@ -35,7 +36,7 @@ from sim.search.costs import weights
 from sim.search.dead_ends import cells_that_may_arrive
 from sim.search.reachability import steps_left
 from sim.session.timeline import Timeline
-from sim.state import SimState, step
+from sim.state import SimState, StepResult, decide_on, sense, step
 from sim.statistics import wilson
 from sim.types import Mode, Move, Outcome
 from sim.world import World
@@ -192,9 +193,11 @@ class _Futures:
     start: SimState
     work: int = 0
     branched: int = 0
-    _nodes: dict[tuple[int, ...], _Node] = field(default_factory=dict)
+    _nodes: dict[tuple[Belief, ...], _Node] = field(default_factory=dict)
     _root: _Node = field(init=False)
     _known: bool = field(init=False)
+    """whether what is decided hangs only on the rows from the vehicle on"""
+    _faithful: bool = field(init=False)
     _buffer: int = field(init=False)
     _leading_on: list[Board] | None = None
     _all: Config = field(init=False)
@@ -203,8 +206,10 @@ class _Futures:
     def __post_init__(self) -> None:
         config = self.start.config
         self._root = _Node(replace(self.start, mode=Mode.AUTO))
-        # Planners of others may look at anything; the project's own at what their charges reach.
-        self._known = config.planner in BUILT_IN
+        # Planners of others may look at anything; the project's own at what their charges reach. Sensors may
+        # show anything, but for those that show the truth.
+        self._faithful = sensor_named(config.sensor).faithful
+        self._known = config.planner in BUILT_IN and self._faithful
         self._buffer = weights(config).buffer if config.planner in WEIGHING else 0
         # A tick that is drawn to be certain proves nothing about those that come again.
         self._all = config.with_parts(
@@ -288,7 +293,7 @@ class _Futures:
         for (gives, chance), (brakes, other) in product(giving, braking):
             drawing = self._drawing(world, gives, brakes)
             if self._known:
-                forecast = predict(perceive(world, drawing), 1)
+                forecast = Forecast.of_truth(world, drawing, 1)
                 standing = forecast.standing
                 key: object = forecast.slices[0], None if standing is None else standing.slices[0]
             else:
@@ -310,14 +315,32 @@ class _Futures:
 
     def _step(self, state: SimState, config: Config) -> _Node:
         self.work += 1
-        tick = step(replace(state, config=config))
+        tick, belief = self._taken(state, config)
         if tick.decision is not None and tick.decision.fault is not None:
             # It may answer the next time, or cost a new process each time: neither is to be built upon.
             raise QuestionError("confidence_fault", planner=tick.decision.planner, fault=tick.decision.fault)
-        after = replace(tick.state, config=self.start.config)
+        after = replace(tick.state, config=self.start.config, belief=belief)
         return self._nodes.setdefault(self._key(after), _Node(after))
 
-    def _key(self, state: SimState) -> tuple[int, ...]:
+    def _taken(self, state: SimState, config: Config) -> tuple[StepResult, Belief]:
+        """A tick in which movers react as this configuration draws it, and the belief after it.
+
+        The draws of a sensor are the session's own, not those of the seed that has these movers react.
+        """
+        drawn = replace(state, config=config)
+        if self._faithful or config is self.start.config:
+            tick = step(drawn)
+            return tick, tick.state.belief
+        percept, belief = sense(state)
+        moving = percept.right | percept.left
+        seen = replace(
+            percept,
+            yielding=yielding_movers(state.world, config) & moving,
+            attentive=attentive_movers(state.world, config) & moving,
+        )
+        return step(drawn, decide_on(drawn, seen)), belief
+
+    def _key(self, state: SimState) -> tuple[Belief, ...]:
         """Equal for moments from which everything goes on alike."""
         world = state.world
         ahead = world.road.all
@@ -330,6 +353,7 @@ class _Futures:
             tuple(Outcome).index(world.outcome),
             *world.avs,
             *(board & ahead for board in boards),
+            state.belief,
         )
 
 
@@ -352,7 +376,7 @@ def _share(drawn: Board, near: Board) -> float:
 def _hopeful(state: SimState) -> list[Board]:
     """The cells from which the goal may still be reached in time, by ticks from now."""
     limit = steps_left(state.config, state.world.episode_tick)
-    return cells_that_may_arrive(predict(perceive(state.world, state.config), max(1, limit)), limit)
+    return cells_that_may_arrive(Forecast.of_truth(state.world, state.config, max(1, limit)), limit)
 
 
 def _pick(ways: list[tuple[float, _Node]], draw: float) -> _Node:

@@ -107,8 +107,10 @@ def story(state: SimState) -> EpisodeRollout:
     return summarize(state, list(rollout(state)))
 
 
-def rollout(state: SimState) -> Iterator[tuple[SimState, StepResult]]:
+def rollout(state: SimState, first: Decision | None = None) -> Iterator[tuple[SimState, StepResult]]:
     """Each tick to the end of the episode, with the run before it; a result that stands is waited out first.
+
+    `first`: what is decided in the first tick, where that is not what the state itself leads to.
 
     A tick whose planner did not answer in time is the last: a session would hand over to a person there.
     So is that of one that has failed `MAX_FAULTS` times running; and on long roads a planner that searches is
@@ -117,7 +119,8 @@ def rollout(state: SimState) -> Iterator[tuple[SimState, StepResult]]:
     work = faults = 0
     started = state.world.outcome is Outcome.RUNNING
     while state.world.outcome is Outcome.RUNNING or not started:
-        tick = step(state)
+        tick = step(state, first)
+        first = None
         yield state, tick
         faults = faults + 1 if tick.decision is not None and tick.decision.fault is not None else 0
         if faults == MAX_FAULTS or (tick.decision is not None and tick.decision.timed_out):

@@ -9,11 +9,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
+from sim.config import Config
 from sim.fast_replace import fast_constructor
 from sim.forecast.rollout import RollOut
-from sim.perceive import Percept
+from sim.perceive import Percept, perceive_truth
 from sim.rules.traffic import Steps, free_steps, spread, spread_back, swap_conflicts
 from sim.types import HAZARDS, Kind, Move
+from sim.world import World
 from sim.world.boards import Boards
 from sim.world.grid import Board, Road
 
@@ -57,6 +59,14 @@ class Forecast:
     """whether bodies collide by what they sweep within a tick"""
     hazards: Mapping[int, str]
     slices: RollOut
+
+    @staticmethod
+    def of_truth(world: World, config: Config, horizon: int, ego: int = 0) -> Forecast:
+        """What follows from what *is*, whatever the sensors show: the ground of every proof.
+
+        `horizon` is in ticks, at least one; `ego` numbers the autonomous vehicles from 0.
+        """
+        return predict(perceive_truth(world, config, ego), horizon)
 
     @property
     def potholes(self) -> Board:

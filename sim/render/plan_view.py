@@ -14,13 +14,12 @@ from typing import Final
 import pygame
 
 from sim.forecast import predict
-from sim.perceive import perceive
 from sim.plan import Decision, Measure, Option
 from sim.render import theme
 from sim.render.sprites import av_sprite, sprite_of
 from sim.render.text import cut, width_of, wrapped, written
 from sim.render.theme import Colour
-from sim.state import SimState
+from sim.state import SimState, sense
 from sim.types import HAZARDS, MARKED, MOVERS, Cell, Kind, Move
 
 ACROSS: Final = 9
@@ -83,7 +82,7 @@ def _grid(state: SimState, decision: Decision | None, px: int) -> pygame.Surface
         pygame.draw.rect(picture, _faint(tint), spot.inflate(-1, -1))
         picture.blit(sprite, sprite.get_rect(center=spot.center))
     if decision is not None:
-        ahead = predict(perceive(world, state.config), 1).slices.movers(0)
+        ahead = predict(sense(state)[0], 1).slices.movers(0)
         going = {name: road.cell(index) for index, name in ahead.items()}
         for thing in things:
             end = going.get(thing.id)

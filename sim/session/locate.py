@@ -29,10 +29,15 @@ class Place:
 
 def nearest_first(cells: Iterable[int], world: World) -> list[int]:
     """Cell indices by distance from the vehicle; among equals its own lane, then ahead, first."""
-    column, row = world.road.cell(world.av)
+    return nearest_to(world.av, cells, world.road)
+
+
+def nearest_to(ego: int, cells: Iterable[int], road: Road) -> list[int]:
+    """Cell indices by distance from the cell `ego`; among equals its own lane, then ahead, first."""
+    column, row = road.cell(ego)
 
     def key(index: int) -> tuple[int, int, bool, int]:
-        c, r = world.road.cell(index)
+        c, r = road.cell(index)
         return max(abs(c - column), abs(r - row)), abs(c - column), r > row, index
 
     return sorted(cells, key=key)

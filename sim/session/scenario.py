@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final
 
+from sim import sensor_names
 from sim.actions import Layout, RoadType, Scenario, Traffic
 from sim.config import COUNTS, Config, ConfigError, Problem, barriers_refused
 from sim.planner_names import PROMISED
@@ -51,7 +52,7 @@ def unavailable(scenario: Scenario) -> Problem | None:
         return Problem("weather", f"Weather other than clear ({scenario.weather})")
     if scenario.time_of_day not in (None, "day"):
         return Problem("time_of_day", f"Another time of day than day ({scenario.time_of_day})")
-    if scenario.sensor not in (None, "perfect"):
+    if scenario.sensor is not None and scenario.sensor not in sensor_names.names():
         return Problem("sensor", f"A sensor other than the perfect one ({scenario.sensor})")
     if scenario.planner in PROMISED:
         return Problem("planner", f"The planner {scenario.planner}")

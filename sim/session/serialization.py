@@ -4,6 +4,9 @@ Worlds that follow each other share most of what they are made of: configuration
 world an episode began with. Here each such part has a number, given when it is first met, and is one object
 again when it is read. Boards are hexadecimal, since JSON readers take no whole numbers of that size. Leaves
 out what is to be made of it, and whether it can be trusted.
+
+A stateless sensor has no belief, and nothing is written for it. Any other belief has a form that only its
+sensor knows: such a state is not written (`BeliefError`), and comes back by a replay of its session.
 """
 
 from __future__ import annotations
@@ -16,6 +19,7 @@ from typing import Any, TypeVar
 from sim.config import COUNTS, Config
 from sim.episode_record import EpisodeRecord, sake_of
 from sim.metrics import Metrics
+from sim.perceive import NO_BELIEF
 from sim.repetition import Situation, Watch
 from sim.state import SimState
 from sim.types import MARKED, Kind, Mode, Move, Outcome
@@ -28,6 +32,10 @@ Part = TypeVar("Part")
 _CONFIG = tuple(field.name for field in fields(Config))
 _ALWAYS = {name for name in _CONFIG if name not in COUNTS.values()}
 _METRICS = tuple(field.name for field in fields(Metrics))
+
+
+class BeliefError(ValueError):
+    """A state whose sensor holds a belief, which cannot be written; a replay comes to it again."""
 
 
 class Pool:
@@ -58,7 +66,7 @@ class Packer:
         self._digests = blake2b(digest_size=16)
 
     def run(self, state: SimState) -> int:
-        """The number of a run."""
+        """The number of a run. Raises `BeliefError`."""
         return self._runs.number(state, self._run)
 
     def packed(self) -> dict[str, Any]:
@@ -81,6 +89,8 @@ class Packer:
         return self._configs.number(config, _config)
 
     def _run(self, state: SimState) -> list[Any]:
+        if state.belief is not NO_BELIEF:
+            raise BeliefError(f"the belief of the sensor {state.config.sensor} is rebuilt by replay alone")
         record = state.record
         return [
             self.config(state.config),

@@ -16,13 +16,12 @@ from dataclasses import dataclass
 from sim.actions import WorldAction
 from sim.config import Config
 from sim.events import Event, EventType
-from sim.perceive import perceive
 from sim.plan import Decision
 from sim.plan.safe_planning import failed_decision, is_foreign, recorded_decision
 from sim.session.edits import Applied, apply
 from sim.session.move_log import MoveLog
 from sim.session.persistent_list import PersistentList
-from sim.state import SimState, StepResult, decide, step
+from sim.state import SimState, StepResult, decide, sense, step
 
 SNAPSHOT_TICKS = 128
 """Work between two snapshots, in ticks that are driven again; twice that each time there are too many."""
@@ -266,9 +265,9 @@ class Timeline:
         if tick < self.tick and is_foreign(config.planner):
             move = self._track.planned(tick)
             if move is not None:
-                return recorded_decision(perceive(state.world, config), config, move)
+                return recorded_decision(sense(state)[0], config, move)
             if self._track.failed(tick):
-                return failed_decision(perceive(state.world, config), config)
+                return failed_decision(sense(state)[0], config)
         return decide(state)
 
     def led_to(self, state: SimState) -> StepResult:

@@ -43,7 +43,7 @@ def test_the_defaults_are_the_source_s_table_and_the_rules_of_version_2() -> Non
 
 
 def test_every_field_has_a_range_or_a_choice_and_nothing_else_has() -> None:
-    assert sorted([*RANGES, *CHOICES, *LISTS, *SWITCHES, "planner"]) == sorted(
+    assert sorted([*RANGES, *CHOICES, *LISTS, *SWITCHES, "planner", "sensor"]) == sorted(
         field.name for field in fields(Config)
     )
 

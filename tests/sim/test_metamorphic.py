@@ -9,9 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from sim.config import Config
-from sim.forecast import predict
+from sim.forecast import Forecast
 from sim.oracle import least_ticks
-from sim.perceive import perceive
 from sim.plan import Decision, planner_named
 from sim.state import SimState, commit, decide, step
 from sim.types import Kind, Move, Outcome
@@ -63,7 +62,7 @@ def decision(state: SimState, planner: str) -> Decision:
     found = planner_named(planner)
     assert found is not None
     return found.decide(
-        predict(perceive(state.world, state.config), found.horizon(state.config)), state.config
+        Forecast.of_truth(state.world, state.config, found.horizon(state.config)), state.config
     )
 
 

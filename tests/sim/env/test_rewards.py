@@ -13,7 +13,7 @@ import pytest
 from sim.config import Config
 from sim.env import RoadEnv
 from sim.env.observation import VEHICLE
-from sim.perceive import perceive
+from sim.perceive import perceive_truth
 from sim.plan.safe_planning import plan_safely
 from sim.state import SimState, apply_move
 from sim.types import Move
@@ -43,7 +43,7 @@ def played(env: RoadEnv, seed: int, policy: Policy) -> tuple[list[float], list[i
 def by_planner(name: str) -> Policy:
     def policy(state: SimState, _: Any) -> int:
         config = state.config.with_parts(planner=name)
-        return MOVES.index(plan_safely(perceive(state.world, config), config).move)
+        return MOVES.index(plan_safely(perceive_truth(state.world, config), config).move)
 
     return policy
 

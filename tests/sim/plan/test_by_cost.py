@@ -12,8 +12,7 @@ from hypothesis import strategies as st
 from sim.actions import Preference
 from sim.batch import Batch
 from sim.config import Collision, Config
-from sim.forecast import predict
-from sim.perceive import perceive
+from sim.forecast import Forecast
 from sim.plan import Decision, planner_named
 from sim.rules.versions import RULES
 from sim.search.costs import BALANCED, weights
@@ -46,7 +45,7 @@ def decision(state: SimState, planner: str) -> Decision:
     found = planner_named(planner)
     assert found is not None
     return found.decide(
-        predict(perceive(state.world, state.config), found.horizon(state.config)), state.config
+        Forecast.of_truth(state.world, state.config, found.horizon(state.config)), state.config
     )
 
 
@@ -203,7 +202,7 @@ def test_a_smooth_ride_turns_less() -> None:
 def test_the_fastest_takes_the_least_ticks() -> None:
     for seed in range(12):
         state = SimState.start(Config(seed=seed, potholes=50, preferences=("fastest",), planner="astar"))
-        forecast = predict(perceive(state.world, state.config), 301)
+        forecast = Forecast.of_truth(state.world, state.config, 301)
         least = reachability(forecast, 1 << state.world.av, 301).ticks
         while state.world.outcome is Outcome.RUNNING:
             state = step(state).state
