@@ -15,10 +15,9 @@ from sim.fast_replace import fast_constructor, field_setter
 from sim.generation import GenerationError, generate
 from sim.metrics import Metrics
 from sim.perceive import perceive
-from sim.plan import Decision
+from sim.plan import Decision, traits_of
 from sim.plan.manual_override import override
 from sim.plan.safe_planning import hold_position, is_foreign, plan_safely
-from sim.planner_names import LOCAL
 from sim.repetition import NOTHING_KEPT, Watch, update_watch
 from sim.transition import transition
 from sim.types import Mode, Move, Outcome
@@ -161,7 +160,7 @@ def apply_move(state: SimState, move: Move, *, by_person: bool, fault: str | Non
 
 def _recurs(config: Config) -> bool:
     """Whether a situation that repeats ends the episode."""
-    return config.repetition and config.planner in LOCAL and config.certain
+    return config.repetition and traits_of(config.planner).local and config.certain
 
 
 def next_episode(state: SimState) -> tuple[SimState, Event]:

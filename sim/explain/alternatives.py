@@ -10,8 +10,7 @@ from dataclasses import dataclass, replace
 
 from sim.explain.rollout import rollout
 from sim.oracle.lower_bounds import PATIENCE, least_ticks
-from sim.plan import Decision
-from sim.planner_names import LOCAL
+from sim.plan import Decision, traits_of
 from sim.repetition import NOTHING_KEPT, Situation, situation
 from sim.search.reactive import ImpatientError
 from sim.state import SimState
@@ -76,7 +75,8 @@ def _end(state: SimState) -> Future | None:
     if state.mode is Mode.MANUAL and state.world.outcome is Outcome.RUNNING:
         return None
     # With `repetition` the run itself ends there.
-    recurs = state.config.planner in LOCAL and state.config.certain and not state.config.repetition
+    config = state.config
+    recurs = traits_of(config.planner).local and config.certain and not config.repetition
     seen: set[Situation] = set()
     last = state
     if state.world.outcome is Outcome.RUNNING:

@@ -55,6 +55,11 @@ class Forecast:
     slices: RollOut
 
     @property
+    def percept(self) -> Percept:
+        """What the forecast was made from: headings, pedestrians, ids, and all else that is seen."""
+        return self.slices.percept
+
+    @property
     def fixed(self) -> Board:
         """Every pothole and barrier."""
         return self.potholes | self.barriers

@@ -26,12 +26,12 @@ class RollOut(Sequence[Motion]):
         "_horizon",
         "_left",
         "_pedestrians",
-        "_percept",
         "_right",
         "_slices",
         "_stands",
         "_tables",
         "_walked",
+        "percept",
     )
 
     def __init__(self, percept: Percept, horizon: int, *, stands: bool = False) -> None:
@@ -41,7 +41,8 @@ class RollOut(Sequence[Motion]):
         """
         if horizon < 1:
             raise ValueError("a horizon is at least one tick")
-        self._percept = percept
+        self.percept = percept
+        """what it was made from"""
         self._horizon = horizon
         self._stands = stands
         self._fixed = percept.potholes | percept.barriers
@@ -74,7 +75,7 @@ class RollOut(Sequence[Motion]):
     def movers(self, ahead: int) -> Mapping[int, str]:
         """Who is expected in which cell, `ahead` + 1 ticks from now."""
         while len(self._tables) <= ahead:
-            before = self._tables[-1] if self._tables else self._percept.movers
+            before = self._tables[-1] if self._tables else self.percept.movers
             self._tables.append(cached_shift_table(before, self[len(self._tables)]))
         return self._tables[ahead]
 
@@ -85,7 +86,7 @@ class RollOut(Sequence[Motion]):
 
     def if_standing(self) -> RollOut | None:
         """The roll-out where the vehicle does not move in the first tick; None where that changes nothing."""
-        percept, motion = self._percept, self[0]
+        percept, motion = self.percept, self[0]
         held = percept.attentive & (motion.came_right >> 1 | motion.came_left << 1)
         if self._stands or not held or not motion.occupied >> percept.ego & 1:
             return None
@@ -93,7 +94,7 @@ class RollOut(Sequence[Motion]):
         return None if other[0] == motion else other
 
     def _next(self) -> Motion:
-        percept, ahead = self._percept, len(self._slices)
+        percept, ahead = self.percept, len(self._slices)
         road = percept.road
         walking = pedestrians_walk(percept.episode_tick + ahead)
         # Only the first tick is asked for again: when it comes.
