@@ -13,7 +13,7 @@ from typing import Any, Final, get_args
 
 from service.actions import ACTIONS
 from sim.actions import SensorName, TimeOfDay, Traffic, Weather
-from sim.planner_names import BUILT_IN, PROMISED
+from sim.planner_names import ALIASES, BUILT_IN, PROMISED
 
 MAY: Final = frozenset(
     (
@@ -83,7 +83,7 @@ def _type(part: Json) -> str:
     if "const" in part:
         return json.dumps(part["const"])
     if "enum" in part:
-        return " | ".join(json.dumps(value) for value in part["enum"])
+        return " | ".join(json.dumps(value) for value in part["enum"] if value not in ALIASES)
     if "properties" in part:
         return _object(part)
     if part["type"] == "array":

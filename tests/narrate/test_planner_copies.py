@@ -74,7 +74,7 @@ def narrator() -> Narrator:
     """One that knows the copies by the words of the originals."""
     sayings = Sayings.load()
     words = sayings.words("words", "planners")
-    words |= {f"{PREFIX}{name}": words[name] for name in planner_names.BUILT_IN}
+    words |= {f"{PREFIX}{name}": words[name] for name in planner_names.BUILT_IN if name in words}
     return Narrator(sayings)
 
 
@@ -212,7 +212,7 @@ def test_work_is_counted_alike(name: str) -> None:
             timeline.advance()
         counted.append((timeline.worked, timeline.work_since(0), [shot.tick for shot in timeline._snapshots]))
     assert counted[0] == counted[1]
-    assert counted[0][0] == 300 * (1 if name in ("rules", "priority") else 16)
+    assert counted[0][0] == 300 * registry.traits_of(name).work
 
 
 def test_a_batch_says_whom_it_is_driven_by() -> None:

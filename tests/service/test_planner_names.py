@@ -41,10 +41,10 @@ def test_the_lists_are_one() -> None:
     assert not set(names()) & set(ALIASES)
     assert set(ALIASES.values()) <= set(BUILT_IN)
     assert WORDS["planner"] == (*BUILT_IN, *PROMISED)
-    assert set(Sayings.load().words("words", "planners")) == set(BUILT_IN)
+    assert set(Sayings.load().words("words", "planners")) <= set(BUILT_IN)
     for code in ("en", "de"):
         words = yaml.safe_load((prompts_folder() / f"language/{code}/lexicon/values.yaml").read_text())
-        assert set(words["planner"]) == {*BUILT_IN, *PROMISED}
+        assert set(words["planner"]) <= {*BUILT_IN, *PROMISED}
 
 
 @pytest.mark.parametrize("name", GOOD)

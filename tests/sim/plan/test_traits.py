@@ -103,6 +103,14 @@ def test_a_planner_that_looks_one_tick_ahead_asks_for_no_more(name: str) -> None
     assert (horizons == {1}) is not traits_of(name).plans_to_goal
 
 
+def test_budgets_are_as_measured() -> None:
+    """Snapshots and answers hang on these; bench/ says what decisions take."""
+    budgets = {name: (traits_of(name).work, traits_of(name).decisions_per_answer) for name in BUILT_IN}
+    quick, search, weighed = (1, 450), (16, 450), (16, 240)
+    wanted = {"rules": quick, "priority": quick, "bfs": search, "astar": weighed, "dijkstra": weighed}
+    assert budgets.items() >= wanted.items()
+
+
 def test_of_a_planner_that_is_not_known_nothing_is_supposed() -> None:
     assert traits_of("telepathy") == UNKNOWN == Traits()
     claims = UNKNOWN.local, UNKNOWN.forward_only, UNKNOWN.weighs_costs, UNKNOWN.by_passages, UNKNOWN.quick
