@@ -122,7 +122,7 @@ def loops() -> list[Line]:
 def plans() -> list[Line]:
     """Microseconds for a plan, from the start of a default road and along a run."""
     lines = []
-    limits_us: tuple[tuple[BatchPlanner, float], ...] = (("exact", 2.0), ("weighted", 20.0))
+    limits_us: tuple[tuple[BatchPlanner, float], ...] = (("bfs", 2.0), ("weighted", 20.0))
     for planner, limit_us in limits_us:
         batch = Batch([Config(seed=seed) for seed in range(WORLDS)], after="stop")
         batch.moves(planner)
@@ -166,7 +166,7 @@ def plans() -> list[Line]:
 def live() -> list[Line]:
     """A tick of one live world with its full trace."""
     lines = []
-    limits_us = {"priority": 150.0, "astar": 3000.0, "dijkstra": None, "exact": None}
+    limits_us = {"priority": 150.0, "astar": 3000.0, "dijkstra": None, "bfs": None}
     for planner, limit_us in limits_us.items():
         times = []
         for seed in range(60):
@@ -200,7 +200,7 @@ def loading() -> list[Line]:
         "import time; t = time.perf_counter()\n"
         "from sim.batch import Batch; from sim.config import Config\n"
         "b = Batch([Config(seed=s) for s in range(64)], after='restart'); b.run(1)\n"
-        "b.moves('exact'); b.moves('weighted')\n"
+        "b.moves('bfs'); b.moves('weighted')\n"
         "print(time.perf_counter() - t)"
     )
     with tempfile.TemporaryDirectory() as folder:

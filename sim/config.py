@@ -124,6 +124,7 @@ class Config:
     """the family of roads (`sim.world.layouts`), drawn until one can be driven; None: things are scattered"""
     traffic: Traffic | None = None
     planner: str = "rules"
+    """an older name is taken for the present one (`sim.planner_names.ALIASES`)"""
     preferences: tuple[Preference, ...] = ()
     """how planners that weigh costs should weigh them; the balance is in `sim.search.costs`"""
     safety_buffer: int = 1
@@ -137,6 +138,7 @@ class Config:
     seed: int = 0
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "planner", planner_names.canonical(self.planner))
         problems = tuple(self._problems())
         if problems:
             raise ConfigError(problems)

@@ -1,10 +1,10 @@
 """Notices that a vehicle is in a cycle: a situation repeats, and so everything after it repeats as well.
 
 This holds where the future is certain and the planner decides from what the vehicle's own row and the one
-ahead hold, besides what never moves (`planner_names.LOCAL`). Movers keep to their rows and the vehicle never
-goes back, so while it stays in its row nothing else has a part in what happens. A situation is compared with
-one kept from before, which is renewed after 1, 2, 4, ... ticks, so that a cycle is found within three times
-its length.
+ahead hold, besides what never moves (`local` in `sim.plan.protocol.Traits`). Movers keep to their rows and
+the vehicle never goes back, so while it stays in its row nothing else has a part in what happens. A situation
+is compared with one kept from before, which is renewed after 1, 2, 4, ... ticks, so that a cycle is found
+within three times its length.
 Source: Brent, "An improved Monte Carlo factorization algorithm" (BIT, 1980), section 2.
 """
 

@@ -15,10 +15,9 @@ from sim.fast_replace import fast_constructor, field_setter
 from sim.generation import GenerationError, generate
 from sim.metrics import Metrics
 from sim.perceive import NO_BELIEF, Belief, Percept, perceive, sensor_named
-from sim.plan import Decision
+from sim.plan import Decision, traits_of
 from sim.plan.manual_override import override
 from sim.plan.safe_planning import hold_position, is_foreign, plan_safely
-from sim.planner_names import LOCAL
 from sim.repetition import NOTHING_KEPT, Watch, update_watch
 from sim.transition import transition
 from sim.types import Mode, Move, Outcome
@@ -187,7 +186,7 @@ def _recurs(config: Config) -> bool:
 
 def repeats_for_ever(config: Config) -> bool:
     """Whether a situation that has repeated goes on repeating: nothing else has a part in what is decided."""
-    return config.planner in LOCAL and config.certain and sensor_named(config.sensor).faithful
+    return traits_of(config.planner).local and config.certain and sensor_named(config.sensor).faithful
 
 
 def next_episode(state: SimState) -> tuple[SimState, Event]:

@@ -38,6 +38,7 @@ from service.problems import (
 from service.sessions.utterance import Outcome, Utterance
 from sim.actions import Prefer, Set
 from sim.config import LISTS, Config, ConfigError
+from sim.planner_names import canonical
 from sim.session.saved_config import defaults_under
 from sim.session.settings import NEEDS_A_NEW_ROAD, STEPS
 
@@ -118,7 +119,9 @@ def actions_for(config: Config, patch: Mapping[str, Any], most_cells: int) -> li
     wanted = {name: _wanted(value, defaults.get(name)) for name, value in patch.items()}
     now = asdict(config)
     changed = {
-        name: value for name, value in wanted.items() if name not in now or not _same(now[name], value)
+        name: value
+        for name, value in wanted.items()
+        if name not in now or not _same(now[name], canonical(value) if name == "planner" else value)
     }
     problems = {name: message for name in changed if (message := _unchangeable(name, wanted[name], wanted))}
     fitting = {name: value for name, value in changed.items() if name not in problems}

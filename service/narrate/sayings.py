@@ -11,6 +11,7 @@ import yaml
 
 from service.resources import prompts_folder
 from sim.plan import Option
+from sim.planner_names import canonical
 from sim.types import KINDS, PLACEABLE, Cell, Move, kind_of
 
 
@@ -119,7 +120,7 @@ class Sayings:
 
     def planner(self, name: str, form: str = "name") -> str:
         """A planner as people know it, as `name` or after `with`; one of another package by its own name."""
-        known = self._words["planners"].get(name)
+        known = self._words["planners"].get(canonical(name))
         return name if known is None else str(known[form])
 
     def where(self, cell: Cell) -> str:

@@ -25,7 +25,7 @@ from sim.actions import (
 from sim.explain import QuestionError
 from sim.explain.rollout import EpisodeRollout
 from sim.explain.what_if import Difference, WhatIf, what_if
-from sim.planner_names import WEIGHING
+from sim.plan import traits_of
 from sim.session.edits import Applied
 from sim.session.errors import EditError
 from sim.session.settings import AS_IT_IS
@@ -136,7 +136,7 @@ class WhatIfs:
         """Wishes are nothing to a planner that does not weigh."""
         planner = found.done[-1].state.config.planner
         wished = any(isinstance(each.action, Prefer) for each in found.done)
-        if not wished or planner in WEIGHING or found.real.by_hand:
+        if not wished or traits_of(planner).weighs_costs or found.real.by_hand:
             return []
         return [self._sayings.say("replies", "weighs_nothing", planner=planner)]
 

@@ -72,6 +72,7 @@ from sim.batch.roads import begin_all, renew
 from sim.batch.tick import END_FIELD, MAX_TICKS_A_CALL, MOVE_FIELD, ticks_kernel
 from sim.config import COUNTS, Config
 from sim.generation import GenerationError, assign_ids
+from sim.planner_names import Alias, canonical
 from sim.randomness import Stream
 from sim.repetition import Watch
 from sim.search.costs import weights
@@ -85,11 +86,12 @@ After = Literal["next", "restart", "stop"]
 """What follows an end: the next road as live, once the result has stood; the lane's first road, at once;
 or nothing."""
 
-BatchPlanner = Literal["priority", "exact", "weighted", "astar", "dijkstra"]
-"""The rule; the least ticks; the least cost by three names, since `astar` and `dijkstra` decide the same."""
+BatchPlanner = Literal["priority", "bfs", "weighted", "astar", "dijkstra", Alias]
+"""The rule; the least ticks, by an older name as well; the least cost by three names, since `astar` and
+`dijkstra` decide the same."""
 
 _KERNELS: Final[dict[str, Any]] = {
-    "exact": exact_moves,
+    "bfs": exact_moves,
     "weighted": weighted_moves,
     "astar": weighted_moves,
     "dijkstra": weighted_moves,
@@ -221,7 +223,7 @@ class Batch:
 
         Raises `ValueError` for a planner that there is not, less than 0 ticks, and less than 1 thread.
         """
-        _known(planner)
+        planner = _known(planner)
         if ticks < 0:
             raise ValueError(f"a batch runs 0 ticks or more, not {ticks}")
         _some(threads)
@@ -236,7 +238,7 @@ class Batch:
 
         Raises `ValueError` unless made with `after="stop"`, and as `run` does.
         """
-        _known(planner)
+        planner = _known(planner)
         _some(threads)
         if self.after != "stop":
             raise ValueError('only a batch made with after="stop" has an end')
@@ -270,7 +272,7 @@ class Batch:
         return self._plan(planner, threads)[0]
 
     def least(self, planner: BatchPlanner, *, threads: int = 1) -> NDArray[np.int64]:
-        """Least ticks (`exact`) or least cost (`weighted`) to the goal (shape: lanes).
+        """Least ticks (`bfs`) or least cost (`weighted`) to the goal (shape: lanes).
 
         −1 where no way leads there, 0 where a result stands. Raises `ValueError` as `moves` does.
         """
@@ -372,7 +374,7 @@ class Batch:
         return self._lane_values(EPISODE_TICK).astype(np.int64)
 
     def observe(self) -> NDArray[np.uint8]:
-        """Every lane's cells (shape: lanes, 7, rows, columns; planes as in `sim.env.observation`)."""
+        """Every lane's cells (shape: lanes, 7, rows, columns; planes as in `sim.perceive.observe`)."""
         columns, rows = self.layout.columns, self.layout.rows
         out = np.empty((len(self), 7, rows, columns), np.uint8)
         observe(self._state, self._lanes, len(self), columns, rows, out)
@@ -436,7 +438,7 @@ class Batch:
             ticks -= now
 
     def _plan(self, planner: BatchPlanner, threads: int) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:
-        _known(planner)
+        planner = _known(planner)
         _some(threads)
         if planner not in _KERNELS:
             raise ValueError(f"{planner!r} decides within the tick; use run")
@@ -576,10 +578,13 @@ def _listed(names: Sequence[str]) -> str:
     return f"{', '.join(names[:-1])} or {names[-1]}"
 
 
-def _known(planner: str) -> None:
-    """Raises `ValueError` for a planner that decides for no batch."""
-    if planner not in get_args(BatchPlanner):
-        raise ValueError(f"a batch is driven by {_listed(get_args(BatchPlanner))}, not by {planner!r}")
+def _known(planner: str) -> BatchPlanner:
+    """The present name of a planner. Raises `ValueError` for one that decides for no batch."""
+    found: BatchPlanner = canonical(planner)
+    if found != "priority" and found not in _KERNELS:
+        there = _listed(["priority", *_KERNELS])
+        raise ValueError(f"a batch is driven by {there}, not by {planner!r}")
+    return found
 
 
 def _not_known(kind: Kind) -> str:

@@ -1,8 +1,6 @@
 """What a learner is shown, the same for one world and for many.
 
-*Planes* (uint8, 0 or 1): potholes, barriers, movers heading right, movers heading left, pedestrians, the
-vehicle, and in every cell whether pedestrians step in this tick. With courtesy 0 the next observation follows
-from the whole road's planes and the action alone.
+The *planes* of a road are those that planners can have as well (`sim.perceive.observe`).
 
 A *window* is the part around the vehicle, with an eighth plane: cells that are not on the road.
 
@@ -23,31 +21,25 @@ from numpy.typing import NDArray
 
 from sim.config import Config
 from sim.env.options import one_of, whole
-from sim.rules.kinds import PERIODS
-from sim.rules.traffic import steps_in_tick
-from sim.types import HAZARDS, MARKED, Kind
-from sim.world import World
-from sim.world.grid import bits
-
-_ORDER: Final = (*HAZARDS, "right", "left", *MARKED, Kind.AV, "stepping", "off_road")
-POTHOLES, BARRIERS, RIGHT, LEFT, PEDESTRIANS, VEHICLE, STEPPING, OFF_ROAD = (
-    _ORDER.index(name)
-    for name in (
-        Kind.POTHOLE,
-        Kind.BARRIER,
-        "right",
-        "left",
-        Kind.PEDESTRIAN,
-        Kind.AV,
-        "stepping",
-        "off_road",
-    )
+from sim.perceive.observe import (
+    BARRIERS,
+    LEFT,
+    ORDER,
+    PEDESTRIANS,
+    PLANES,
+    POTHOLES,
+    RIGHT,
+    STEPPING,
+    VEHICLE,
+    Planes,
 )
-"""Planes by number; the last only in windows. Kinds that come later have planes between these."""
-PLANES: Final = OFF_ROAD
+from sim.types import HAZARDS, MARKED, Kind
+
+OFF_ROAD: Final = PLANES
+"""One plane more, in windows only."""
 _OF_BATCH: Final = (POTHOLES, BARRIERS, RIGHT, LEFT, PEDESTRIANS, VEHICLE, STEPPING)
 _LATER: Final = tuple(
-    (180 if kind.fixed else 20, _ORDER.index(kind))
+    (180 if kind.fixed else 20, ORDER.index(kind))
     for kind in (*HAZARDS, *MARKED)
     if kind not in (Kind.POTHOLE, Kind.BARRIER, Kind.PEDESTRIAN)
 )
@@ -58,26 +50,6 @@ KINDS: Final = ("planes", "image", "image_first")
 
 MIN_IMAGE_PX: Final = 36
 MAX_WINDOW: Final = 512
-
-Planes = NDArray[np.uint8]
-
-
-def observed(world: World) -> Planes:
-    """One world's planes (shape: 7, rows, columns)."""
-    road = world.road
-    planes = np.zeros((PLANES, road.rows, road.columns), np.uint8)
-    boards = (
-        *(world.board(kind) for kind in HAZARDS),
-        world.right,
-        world.left,
-        *(world.board(kind) for kind in MARKED),
-        world.board(Kind.AV),
-    )
-    for plane, board in zip(planes, boards, strict=False):
-        for cell in bits(board):
-            plane.flat[cell] = 1
-    planes[STEPPING] = steps_in_tick(PERIODS[Kind.PEDESTRIAN], world.episode_tick)
-    return planes
 
 
 def of_batch(planes: Planes) -> Planes:

@@ -28,8 +28,7 @@ from sim.config import Config
 from sim.explain.facts import QuestionError
 from sim.forecast import Forecast
 from sim.perceive import Belief, sensor_named
-from sim.plan import Decision
-from sim.planner_names import BUILT_IN, WEIGHING
+from sim.plan import Decision, Traits, traits_of
 from sim.randomness import Stream
 from sim.rules.yielding import attentive_movers, yielding_movers
 from sim.search.costs import weights
@@ -42,15 +41,11 @@ from sim.types import Mode, Move, Outcome
 from sim.world import World
 from sim.world.grid import Board, bits, board_of
 
-WORK: Final = {"priority": 450, "rules": 450, "exact": 450, "astar": 240, "dijkstra": 240}
-"""Decisions taken for one answer, by planner; a few more where the last future is run to its end."""
-OTHER_WORK: Final = 120
-"""The same for planners that are not the project's own."""
 WALK_SHARE: Final = 2 / 3
 """How much of the work goes into walking the whole tree before futures are drawn instead."""
-PATIENCE: Final = {"priority": 40, "rules": 40}
-"""Decisions after which futures are looked at for whether they are shut off; at once where not named, as a
-decision then costs as much as the look."""
+PROOF_AFTER: Final = 40
+"""Decisions of a quick planner after which futures are looked at for whether they are shut off; at once with
+any other, whose decision costs as much as the look."""
 MAX_FUTURES: Final = 200
 
 
@@ -195,6 +190,7 @@ class _Futures:
     branched: int = 0
     _nodes: dict[tuple[Belief, ...], _Node] = field(default_factory=dict)
     _root: _Node = field(init=False)
+    _traits: Traits = field(init=False)
     _known: bool = field(init=False)
     """whether what is decided hangs only on the rows from the vehicle on"""
     _faithful: bool = field(init=False)
@@ -206,11 +202,11 @@ class _Futures:
     def __post_init__(self) -> None:
         config = self.start.config
         self._root = _Node(replace(self.start, mode=Mode.AUTO))
-        # Planners of others may look at anything; the project's own at what their charges reach. Sensors may
-        # show anything, but for those that show the truth.
+        # Sensors may show anything, but for those that show the truth.
+        self._traits = traits_of(config.planner)
         self._faithful = sensor_named(config.sensor).faithful
-        self._known = config.planner in BUILT_IN and self._faithful
-        self._buffer = weights(config).buffer if config.planner in WEIGHING else 0
+        self._known = self._traits.forward_only and self._faithful
+        self._buffer = weights(config).buffer if self._traits.weighs_costs else 0
         # A tick that is drawn to be certain proves nothing about those that come again.
         self._all = config.with_parts(
             courtesy=1.0, attentive=1.0, repetition=config.repetition and config.certain
@@ -257,14 +253,14 @@ class _Futures:
 
     @property
     def _limit(self) -> int:
-        return WORK.get(self.start.config.planner, OTHER_WORK)
+        return self._traits.decisions_per_answer
 
     def _end(self, node: _Node) -> End | None:
         world = node.state.world
         ticks = world.tick - self.start.world.tick
         if world.outcome is not Outcome.RUNNING:
             return world.outcome, ticks
-        if self.work < PATIENCE.get(self.start.config.planner, 0):
+        if self._traits.quick and self.work < PROOF_AFTER:
             return None  # most are done by now, and the proof would cost more than they did
         if self._leading_on is None:
             self._leading_on = _hopeful(self.start)

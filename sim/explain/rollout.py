@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 from sim.episode_record import Sake, sake
-from sim.plan import Decision
+from sim.plan import Decision, traits_of
 from sim.state import SimState, StepResult, step
 from sim.types import Mode, Move, Outcome
 from sim.world import Cause
@@ -28,9 +28,6 @@ ticks.
 
 MAX_FAULTS: Final = 20
 """After so many failures one after the other no answer is expected of a planner any more."""
-
-AT_SIGHT: Final = frozenset(("priority", "rules"))
-"""Planners that look one tick ahead, on a road of any size."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,7 +132,8 @@ def rollout(state: SimState, first: Decision | None = None) -> Iterator[tuple[Si
 def _work(state: SimState) -> int:
     """How much is looked through in a tick of a run."""
     road = state.world.road
-    return 0 if state.config.planner in AT_SIGHT else road.columns * road.rows * road.rows
+    plans_to_goal = traits_of(state.config.planner).plans_to_goal
+    return road.columns * road.rows * road.rows if plans_to_goal else 0
 
 
 def summarize(state: SimState, ticks: list[tuple[SimState, StepResult]]) -> EpisodeRollout:

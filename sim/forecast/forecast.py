@@ -79,6 +79,11 @@ class Forecast:
         return self.boards[Kind.BARRIER]
 
     @property
+    def percept(self) -> Percept:
+        """What the forecast was made from: headings, pedestrians, ids, and all else that is seen."""
+        return self.slices.percept
+
+    @property
     def fixed(self) -> Board:
         """Everything that does not move."""
         return self.boards.fixed

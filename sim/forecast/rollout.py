@@ -26,12 +26,12 @@ class RollOut(Sequence[Motion]):
         "_fixed",
         "_horizon",
         "_left",
-        "_percept",
         "_right",
         "_shifted",
         "_slices",
         "_stands",
         "_tables",
+        "percept",
     )
 
     def __init__(self, percept: Percept, horizon: int, *, stands: bool = False) -> None:
@@ -41,7 +41,8 @@ class RollOut(Sequence[Motion]):
         """
         if horizon < 1:
             raise ValueError("a horizon is at least one tick")
-        self._percept = percept
+        self.percept = percept
+        """what it was made from"""
         self._horizon = horizon
         self._stands = stands
         boards = percept.boards
@@ -75,7 +76,7 @@ class RollOut(Sequence[Motion]):
     def movers(self, ahead: int) -> Mapping[int, str]:
         """Who is expected in which cell, `ahead` + 1 ticks from now."""
         while len(self._tables) <= ahead:
-            before = self._tables[-1] if self._tables else self._percept.movers
+            before = self._tables[-1] if self._tables else self.percept.movers
             self._tables.append(cached_shift_table(before, self[len(self._tables)]))
         return self._tables[ahead]
 
@@ -89,7 +90,7 @@ class RollOut(Sequence[Motion]):
 
     def if_standing(self) -> RollOut | None:
         """The roll-out where the vehicle does not move in the first tick; None where that changes nothing."""
-        percept, motion = self._percept, self[0]
+        percept, motion = self.percept, self[0]
         held = percept.attentive & (motion.came_right >> 1 | motion.came_left << 1)
         if self._stands or not held or not motion.occupied >> percept.ego & 1:
             return None
@@ -97,7 +98,7 @@ class RollOut(Sequence[Motion]):
         return None if other[0] == motion else other
 
     def _next(self) -> Motion:
-        percept, ahead = self._percept, len(self._slices)
+        percept, ahead = self.percept, len(self._slices)
         road = percept.road
         boards = self.boards(ahead - 1) if ahead else percept.boards
         # Only the first tick is asked for again: when it comes.

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from sim.actions import WorldAction
 from sim.config import Config
 from sim.events import Event, EventType
-from sim.plan import Decision
+from sim.plan import Decision, traits_of
 from sim.plan.safe_planning import failed_decision, is_foreign, recorded_decision
 from sim.session.edits import Applied, apply
 from sim.session.move_log import MoveLog
@@ -38,10 +38,6 @@ THINGS_AN_ACTION = 10
 ROAD_WORK, ROAD_CELLS = 4, 80
 """What drawing a road costs, and the cells that cost one such tick more."""
 
-SEARCH_WORK = 16
-"""What a tick costs with a planner that searches, or one that is not known here."""
-
-_SIMPLE_PLANNERS = frozenset(("priority", "rules", "dwa"))
 _DRAWN = frozenset((EventType.EPISODE_STARTED, EventType.ROAD_KEPT))
 
 RECENT_RUNS = 8
@@ -341,7 +337,7 @@ def _answered(tick: StepResult) -> StepResult:
 
 
 def _tick_work(state: SimState) -> int:
-    return 1 if state.config.planner in _SIMPLE_PLANNERS else SEARCH_WORK
+    return traits_of(state.config.planner).work
 
 
 def _action_work(applied: Applied) -> int:

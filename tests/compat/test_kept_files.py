@@ -20,6 +20,7 @@ import pytest
 from service.api.views import PREFIX
 from service.app import create_app
 from service.settings import Settings
+from sim.planner_names import canonical
 from sim.session.timeline import Timeline
 from tests.compat.make import summed
 
@@ -114,7 +115,7 @@ async def check_onwards(service: Opened, session: str, wanted: Json) -> None:
     """Where it stands, how it goes on, and what it is when its latest change is taken back there."""
     state = await service.ask(session, "state")
     stood = {name: state[name] for name in ("tick", "digest", "episode", "planner", "metrics")}
-    assert stood == {name: wanted[name] for name in stood}
+    assert stood == {name: canonical(wanted[name]) for name in stood}
     then = wanted["then"]
     await service.ask(session, "step", ticks=then["ticks"])
     timeline = await service.timeline(session)

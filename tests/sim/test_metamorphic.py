@@ -81,7 +81,7 @@ def test_a_mirrored_road_runs_as_the_mirror_image(world: World, moves: list[Move
 @given(worlds())
 def test_a_mirrored_decision_weighs_the_same(world: World) -> None:
     state, image = run_on(world), run_on(mirror(world))
-    for planner in ("priority", "astar", "exact"):
+    for planner in ("priority", "astar", "bfs"):
         here, there = decision(state, planner), decision(image, planner)
         for move in Move:
             option, other = here.option(move), there.option(MIRRORED.get(move, move))
@@ -152,7 +152,7 @@ def test_what_is_behind_changes_nothing(world: World) -> None:
     ]
     state, without = run_on(world), run_on(world.without(frozenset(names)))
     assert least_ticks(state) == least_ticks(without)
-    for planner in ("priority", "exact"):
+    for planner in ("priority", "bfs"):
         here, there = decision(state, planner), decision(without, planner)
         assert here == there
     for _ in range(6):

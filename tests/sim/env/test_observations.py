@@ -10,7 +10,8 @@ import pytest
 from gymnasium import spaces
 
 from sim.env import RoadEnv, RoadVectorEnv
-from sim.env.observation import MIN_IMAGE_PX, OFF_ROAD, PLANES, STEPPING, VEHICLE
+from sim.env.observation import MIN_IMAGE_PX, OFF_ROAD
+from sim.perceive.observe import PLANES, STEPPING, VEHICLE
 
 pytestmark = pytest.mark.xdist_group("compiled")
 

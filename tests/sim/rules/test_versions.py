@@ -32,7 +32,7 @@ def test_parts_without_a_version_have_the_first_defaults() -> None:
 
 
 def test_what_parts_name_stays() -> None:
-    named = {"planner": "exact", "attentive": 0.5, "rules": 1}
+    named = {"planner": "bfs", "attentive": 0.5, "rules": 1}
     assert completed(named) == {**FIRST_DEFAULTS, **named}
 
 
@@ -87,7 +87,7 @@ def test_a_newer_version_is_refused_in_a_sentence() -> None:
 @pytest.mark.parametrize("rules", [*range(FIRST, RULES + 1)])
 def test_a_scenario_goes_back_to_the_defaults_of_its_version(rules: int) -> None:
     """A planner that is not named is the default one, and the rules themselves stay."""
-    begun = new_config({"rules": rules, "planner": "exact"})
+    begun = new_config({"rules": rules, "planner": "bfs"})
     renewed = configured(begun, Scenario(road="highway"))
     defaults = defaults_under(rules)
     assert renewed.planner == defaults.planner
