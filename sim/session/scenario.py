@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from sim.actions import RoadType, Scenario, Traffic
-from sim.config import Config, ConfigError, Problem, barriers_refused
+from sim.config import Config, ConfigError, Problem
 from sim.planner_names import PROMISED
 from sim.rules.versions import default_under
 from sim.world.layouts import has_barriers
@@ -39,22 +39,22 @@ TRAFFIC: Final[dict[Traffic, float]] = {"none": 0.0, "light": 0.34, "normal": 0.
 _PLANNER: Final = Config().planner
 
 
-def unavailable(scenario: Scenario) -> Problem | None:
-    """The first thing named that this version has not, and what it is called; None if it has all."""
+def find_unavailable(scenario: Scenario) -> Problem | None:
+    """The first thing a scenario names that this version lacks; None if it has all."""
     if scenario.weather not in (None, "clear"):
-        return Problem("weather", f"Weather other than clear ({scenario.weather})")
+        return Problem("weather", "weather_not_available", value=scenario.weather)
     if scenario.time_of_day not in (None, "day"):
-        return Problem("time_of_day", f"Another time of day than day ({scenario.time_of_day})")
+        return Problem("time_of_day", "time_of_day_not_available", value=scenario.time_of_day)
     if scenario.sensor not in (None, "perfect"):
-        return Problem("sensor", f"A sensor other than the perfect one ({scenario.sensor})")
+        return Problem("sensor", "sensor_not_available", value=scenario.sensor)
     if scenario.planner in PROMISED:
-        return Problem("planner", f"The planner {scenario.planner}")
+        return Problem("planner", "planner_not_available", value=scenario.planner)
     if scenario.avs:
-        return Problem("avs", "A second autonomous vehicle")
+        return Problem("avs", "second_vehicle_not_available")
     return None
 
 
-def configured(config: Config, scenario: Scenario) -> Config:
+def config_of_scenario(config: Config, scenario: Scenario) -> Config:
     """The configuration of a scenario, everything it does not name at its default under the same rules.
 
     Raises `ConfigError` where the road cannot hold what was asked.
@@ -63,7 +63,7 @@ def configured(config: Config, scenario: Scenario) -> Config:
     barriers = preset.barriers
     if has_barriers(scenario.layout):
         if scenario.barriers is not None:
-            raise ConfigError((Problem("barriers", barriers_refused(scenario.layout)),))
+            raise ConfigError((Problem("barriers", "must_not_be_counted", layout=scenario.layout),))
         barriers = 0
     spawn = TRAFFIC[scenario.traffic] if scenario.traffic else preset.spawn_probability
     return config.with_parts(
