@@ -69,7 +69,7 @@ class Refusals:
 
     def _slots(self, facts: Mapping[str, Any]) -> dict[str, Any]:
         """The facts as they are said, and the forms that depend on them."""
-        slots = {name: self._told(name, value) for name, value in facts.items()}
+        slots: dict[str, Any] = {name: self._told(name, value) for name, value in facts.items()}
         if "kind" in facts:
             slots["things"] = slots["kind"]["one" if facts.get("count") == 1 else "many"]
         for name, form in self._data["forms"].items():

@@ -26,7 +26,7 @@ PROBLEMS: Final[Mapping[str, tuple[str, ...]]] = MappingProxyType(
         "not_a_setting_but_near": ("near",),
         "too_many": ("room",),
         "no_drivable_road": ("draws",),
-        "not_a_setting_of_an_environment": (),
+        "is_given_to_reset": (),
         "weather_not_available": ("value",),
         "time_of_day_not_available": ("value",),
         "sensor_not_available": ("value",),
