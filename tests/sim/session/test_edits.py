@@ -299,7 +299,7 @@ def test_what_cannot_be_removed(action: Remove, code: str, field: str, facts: di
 
 def test_the_autonomous_vehicle_is_no_thing_to_be_removed() -> None:
     error = refusal(FULL, Remove(kind="everything", count=1, where=Where(id="av-1")))
-    assert (error.code, error.facts) == ("no_such_thing", {"id": "av-1"})
+    assert (error.code, error.facts) == ("of_another_kind", {"id": "av-1", "kind": "everything"})
 
 
 # Exact numbers

@@ -65,7 +65,7 @@ def test_a_new_thing_is_not_placed_by_an_id() -> None:
 
 
 def test_more_autonomous_vehicles_are_refused() -> None:
-    assert refusal(EMPTY, Scenario(avs=1)).code == "not-available"
+    assert refusal(EMPTY, Scenario(avs=1)).category == "not-available"
     assert apply(EMPTY, Scenario(avs=0)).state.world.count(Kind.AV) == 1
 
 
