@@ -8,10 +8,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from difflib import get_close_matches
+from types import MappingProxyType
 from typing import Any, Final, Literal, get_args
 
 from sim import planner_names, sensor_names
 from sim.actions import MAX_THINGS, Layout, Preference, RoadType, Traffic
+from sim.codes import PROBLEMS, check_facts, plain_text
 from sim.randomness import MAX_SEED
 from sim.rules.versions import RULES
 from sim.types import HAZARDS, KINDS, MOVERS, PLACEABLE, Kind
@@ -19,21 +21,34 @@ from sim.world.grid import Road
 from sim.world.layouts import has_barriers, least_room
 
 
-@dataclass(frozen=True, slots=True)
 class Problem:
-    """One thing wrong with one field, in words for a person."""
+    """One thing wrong with one field: a code of `sim.codes.PROBLEMS` and its facts."""
 
-    field: str
-    message: str
-    available: bool = True
-    """False where the value is one that this version knows by name only"""
+    __slots__ = ("code", "facts", "field")
+
+    def __init__(self, field: str, code: str, **facts: Any) -> None:
+        check_facts(code, facts, PROBLEMS.get(code))
+        self.field = field
+        self.code = code
+        self.facts: Mapping[str, Any] = MappingProxyType(facts)
+
+    @property
+    def available(self) -> bool:
+        """False where the value is one that this version knows by name only."""
+        return "not_available" not in self.code
+
+    def __str__(self) -> str:
+        return plain_text(self.code, self.facts)
+
+    def __repr__(self) -> str:
+        return f"Problem({self.field}: {self})"
 
 
 class ConfigError(ValueError):
     """A configuration that cannot be; `problems` names each bad field."""
 
     def __init__(self, problems: tuple[Problem, ...]) -> None:
-        super().__init__("; ".join(f"{problem.field}: {problem.message}" for problem in problems))
+        super().__init__("; ".join(f"{problem.field}: {problem}" for problem in problems))
         self.problems = problems
 
 
@@ -150,7 +165,7 @@ class Config:
                 parts[name] = tuple(parts[name])
         unknown = sorted(set(parts) - {field.name for field in fields(self)})
         if unknown:
-            raise ConfigError(tuple(Problem(name, _unknown(name)) for name in unknown))
+            raise ConfigError(tuple(_unknown(name) for name in unknown))
         return replace(self, **parts)
 
     @property
@@ -193,10 +208,11 @@ class Config:
                 continue
             allowed = int if name in _WHOLE else (int, float)
             if isinstance(value, bool) or not isinstance(value, allowed):
-                problems.append(Problem(name, f"must be a {'whole ' if name in _WHOLE else ''}number"))
+                problems.append(
+                    Problem(name, "must_be_a_whole_number" if name in _WHOLE else "must_be_a_number")
+                )
             elif not low <= value <= high:
-                most = high if isinstance(high, int) else f"{high:g}"
-                problems.append(Problem(name, f"must be between {low:g} and {most}"))
+                problems.append(Problem(name, "must_be_between", low=low, high=high))
         return problems
 
     def _word_problems(self) -> list[Problem]:
@@ -214,9 +230,9 @@ class Config:
             words = getattr(self, name)
             fit = isinstance(words, tuple) and all(word in choices for word in words)
             if not fit or len(set(words)) < len(words):
-                problems.append(Problem(name, f"must be a list of any of {', '.join(choices)}, each once"))
+                problems.append(Problem(name, "must_be_a_list_of", choices=choices))
         problems += [
-            Problem(name, "must be true or false")
+            Problem(name, "must_be_true_or_false")
             for name in _SWITCHES
             if not isinstance(getattr(self, name), bool)
         ]
@@ -224,7 +240,7 @@ class Config:
 
     def _room_problems(self) -> list[Problem]:
         if has_barriers(self.layout) and self.barriers:
-            return [Problem("barriers", barriers_refused(self.layout))]
+            return [Problem("barriers", "must_not_be_counted", layout=self.layout)]
         room = least_room(self.layout, self.columns, self.rows)
         counts = {
             COUNTS[kind]: getattr(self, COUNTS[kind]) or 0
@@ -239,7 +255,7 @@ class Config:
             return []
         largest = max(counts, key=lambda name: counts[name])
         left = max(0, room - drawn - sum(counts.values()) + counts[largest])
-        return [Problem(largest, f"too many for this road: there is room for {left}")]
+        return [Problem(largest, "too_many", room=left)]
 
 
 _NUMBERS: Final = tuple(field.name for field in fields(Config) if field.name in RANGES)
@@ -250,19 +266,20 @@ COUNTS: Final[Mapping[Kind, str]] = {
 """The field of the exact number of each kind; a kind without one is only put on a road by hand."""
 
 
-def barriers_refused(layout: Layout | None) -> str:
-    """Why a number of barriers cannot be asked for on a road of this layout."""
-    return f"follow from the layout {layout} and cannot be counted; leave them out, or the layout"
-
-
-def _unknown(name: str) -> str:
-    """That a setting is none, and which may have been meant."""
+def _unknown(name: str) -> Problem:
+    """That a setting does not exist, and which may have been meant."""
     near = get_close_matches(str(name).lower(), [field.name for field in fields(Config)], n=1)
-    return "is not a setting of a road" + (f"; did you mean {near[0]}" if near else "")
+    if near:
+        return Problem(name, "not_a_setting_but_near", near=near[0])
+    return Problem(name, "not_a_setting")
 
 
 def _not_one_of(name: str, value: object, choices: tuple[str, ...]) -> Problem:
-    there = f"must be one of {', '.join(choices)}" if len(choices) > 1 else f"must be {choices[0]}"
-    if value in PROMISED.get(name, ()):
-        return Problem(name, f"{there}; {value} is not available yet", available=False)
-    return Problem(name, there)
+    promised = value in PROMISED.get(name, ())
+    if len(choices) > 1:
+        if promised:
+            return Problem(name, "not_available_one_of", choices=choices, value=value)
+        return Problem(name, "must_be_one_of", choices=choices)
+    if promised:
+        return Problem(name, "not_available_must_be", choice=choices[0], value=value)
+    return Problem(name, "must_be", choice=choices[0])

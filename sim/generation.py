@@ -36,8 +36,7 @@ class GenerationError(ConfigError):
     """No road that can be driven was found among `MAX_ATTEMPTS` draws."""
 
     def __init__(self) -> None:
-        message = f"no drivable road was found in {MAX_ATTEMPTS} draws; ask for fewer hazards"
-        super().__init__((Problem("solvable", message),))
+        super().__init__((Problem("solvable", "no_drivable_road", draws=MAX_ATTEMPTS),))
 
 
 def generate(

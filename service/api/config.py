@@ -35,6 +35,7 @@ from service.problems import (
     TooLarge,
     UnknownSession,
 )
+from service.refusals import refusals
 from service.sessions.utterance import Outcome, Utterance
 from sim.actions import Prefer, Set
 from sim.config import LISTS, Config, ConfigError
@@ -105,7 +106,7 @@ async def patch(
         sequences = terms(told).sequences
         if sequences is not None:
             terms(told).check(session.sequence)
-        return _told((), "Nothing was changed: it is so already.", session.sequence)
+        return _told((), refusals().session("as_it_is"), session.sequence)
     try:
         done = tuple(action for _, action in actions)
         return told(await here.listener.do(session, Utterance(actions=done), terms=terms(told)))
@@ -131,7 +132,7 @@ def actions_for(config: Config, patch: Mapping[str, Any], most_cells: int) -> li
             for name in {"columns", "rows"} & set(fitting):
                 problems[name] = f"makes a road of more than {most_cells} cells, the most there can be here"
     except ConfigError as error:
-        problems |= {each.field: each.message for each in error.problems}
+        problems |= {each.field: refusals().problem(each) for each in error.problems}
     if problems:
         raise invalid(FieldProblem(name, problems[name]) for name in sorted(problems))
     # What begins a new road comes last, so that it is made with all that was asked for.

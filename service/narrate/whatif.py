@@ -6,6 +6,7 @@ from service.actions import Ask
 from service.narrate.answering import Json, not_so, plain
 from service.narrate.naming import Naming
 from service.narrate.sayings import Sayings
+from service.refusals import refusals
 from service.sessions.facts import Asked
 from service.sessions.pace import sets_pace
 from service.wire.future import what_if_json
@@ -58,8 +59,9 @@ class WhatIfs:
         except QuestionError as error:
             return plain(self._sayings, ask, timeline.state, not_so(self._sayings, error.code, error.facts))
         except EditError as error:
-            told = plain(self._sayings, ask, timeline.state, self._say("cannot", message=error.message))
-            return told | {"evidence": {"code": error.code, "field": error.field, "message": error.message}}
+            message = refusals().edit(error)
+            told = plain(self._sayings, ask, timeline.state, self._say("cannot", message=message))
+            return told | {"evidence": {"code": error.category, "field": error.field, "message": message}}
         text = self._text(ask, found)
         if len(actions) < len(change):
             text = f"{text} {self._say('rest_aside')}"

@@ -9,6 +9,7 @@ from typing import Final
 
 import pygame
 
+from service.refusals import refusals
 from service.sessions.pace import said
 from service.window import look
 from service.window.canvas import Canvas
@@ -185,7 +186,8 @@ class Window:
         try:
             self.game = Game(self._config_of(asked), loaded, self.panels)
         except GenerationError as error:
-            self.start.message, self.start.waiting = error.problems[0].message.capitalize() + ".", False
+            told = refusals().problem(error.problems[0])
+            self.start.message, self.start.waiting = f"{told.capitalize()}.", False
             return
         self._showing = Showing(self.game.session, now_s)
         self._controls = Controls(self.game, self.console, self.panels)

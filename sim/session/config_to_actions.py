@@ -1,7 +1,7 @@
 """A configuration as actions: what would have to be said, on a new road, to get it.
 
-The way back from `configured` and `setting`, checked by going forward again: it is exact, or not given.
-Leaves out what nothing that can be said changes (the size of a cell, the reset delay, what is visible).
+Inverts `config_of_scenario` and `change_setting`; the result is checked by applying it, so it is exact or not
+given. Omits what nothing that can be said changes (cell size, reset delay, what is visible).
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ from dataclasses import fields
 from sim.actions import Prefer, Scenario, Set, WorldAction
 from sim.config import COUNTS, Config
 from sim.session.errors import EditError
-from sim.session.scenario import ROADS, TRAFFIC, configured, default_counts
-from sim.session.settings import preferring, setting
+from sim.session.scenario import ROADS, TRAFFIC, config_of_scenario, default_counts
+from sim.session.settings import add_preference, change_setting
 from sim.types import KINDS
 
 _GROUND = ("columns", "rows", "seed")
@@ -43,12 +43,12 @@ def config_to_actions(config: Config) -> tuple[WorldAction, ...]:
     scenario = _scenario(config)
     if scenario != Scenario():
         actions.append(scenario)
-    now = configured(now, scenario)
+    now = config_of_scenario(now, scenario)
     for name in _SET_AFTER:
         now = _set(now, name, config, actions)
     for wish in config.preferences:
         actions.append(Prefer(preference=wish))
-        now = preferring(now, wish)
+        now = add_preference(now, wish)
     for field in fields(Config):
         if getattr(now, field.name) != getattr(config, field.name):
             raise UndescribableError(field.name)
@@ -61,7 +61,7 @@ def _set(now: Config, name: str, config: Config, actions: list[WorldAction]) -> 
         return now
     action = Set(parameter=name, value=value)  # type: ignore[arg-type]
     try:
-        after = setting(now, action)
+        after = change_setting(now, action)
     except EditError:
         raise UndescribableError(name) from None
     actions.append(action)

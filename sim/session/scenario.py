@@ -12,7 +12,7 @@ from typing import Final
 
 from sim import sensor_names
 from sim.actions import Layout, RoadType, Scenario, Traffic
-from sim.config import COUNTS, Config, ConfigError, Problem, barriers_refused
+from sim.config import COUNTS, Config, ConfigError, Problem
 from sim.planner_names import PROMISED
 from sim.rules.versions import default_under
 from sim.types import KINDS, Kind
@@ -46,18 +46,18 @@ TRAFFIC: Final[dict[Traffic, float]] = {"none": 0.0, "light": 0.34, "normal": 0.
 _PLANNER: Final = Config().planner
 
 
-def unavailable(scenario: Scenario) -> Problem | None:
-    """The first thing named that this version has not, and what it is called; None if it has all."""
+def find_unavailable(scenario: Scenario) -> Problem | None:
+    """The first thing a scenario names that this version lacks; None if it has all."""
     if scenario.weather not in (None, "clear"):
-        return Problem("weather", f"Weather other than clear ({scenario.weather})")
+        return Problem("weather", "weather_not_available", value=scenario.weather)
     if scenario.time_of_day not in (None, "day"):
-        return Problem("time_of_day", f"Another time of day than day ({scenario.time_of_day})")
+        return Problem("time_of_day", "time_of_day_not_available", value=scenario.time_of_day)
     if scenario.sensor is not None and scenario.sensor not in sensor_names.names():
-        return Problem("sensor", f"A sensor other than the perfect one ({scenario.sensor})")
+        return Problem("sensor", "sensor_not_available", value=scenario.sensor)
     if scenario.planner in PROMISED:
-        return Problem("planner", f"The planner {scenario.planner}")
+        return Problem("planner", "planner_not_available", value=scenario.planner)
     if scenario.avs:
-        return Problem("avs", "A second autonomous vehicle")
+        return Problem("avs", "second_vehicle_not_available")
     return None
 
 
@@ -72,14 +72,14 @@ def default_counts(road: RoadType | None, layout: Layout | None) -> dict[str, in
     return counts
 
 
-def configured(config: Config, scenario: Scenario) -> Config:
+def config_of_scenario(config: Config, scenario: Scenario) -> Config:
     """The configuration of a scenario, everything it does not name at its default under the same rules.
 
     Raises `ConfigError` where the road cannot hold what was asked.
     """
     preset = ROADS[scenario.road]
     if has_barriers(scenario.layout) and scenario.barriers is not None:
-        raise ConfigError((Problem("barriers", barriers_refused(scenario.layout)),))
+        raise ConfigError((Problem("barriers", "must_not_be_counted", layout=scenario.layout),))
     counts = default_counts(scenario.road, scenario.layout)
     for name in counts:
         if (count := getattr(scenario, name)) is not None:

@@ -51,7 +51,7 @@ class PlannerSilentError(Exception):
     """A planner from another package did not answer in time."""
 
     def __init__(self, planner: str, fault: str) -> None:
-        super().__init__(f"The planner {planner} {fault}")
+        super().__init__(f"{planner}: {fault}")
         self.planner = planner
         self.fault = fault
 

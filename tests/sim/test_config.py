@@ -23,7 +23,7 @@ WIDE = {"columns": 64, "rows": 512}
 def problems(**parts: Any) -> dict[str, str]:
     with pytest.raises(ConfigError) as refused:
         Config(**parts)
-    told = {problem.field: problem.message for problem in refused.value.problems}
+    told = {problem.field: str(problem) for problem in refused.value.problems}
     assert len(told) == len(refused.value.problems), "one problem a field"
     assert all(f"{field}: {message}" in str(refused.value) for field, message in told.items())
     return told
