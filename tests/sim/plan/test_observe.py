@@ -11,7 +11,7 @@ from sim.batch import Batch
 from sim.config import Config
 from sim.env import RoadEnv
 from sim.forecast import predict
-from sim.perceive import perceive
+from sim.perceive import perceive_truth
 from sim.perceive.observe import PLANES, STEPPING, observe
 from sim.state import SimState, step
 from sim.types import Outcome
@@ -24,7 +24,7 @@ def test_a_planner_sees_what_an_environment_shows(seed: int) -> None:
     env, batch = RoadEnv(parts), Batch([state.config])
     shown, _ = env.reset(seed=seed)
     while state.world.outcome is Outcome.RUNNING:
-        planes = observe(predict(perceive(state.world, state.config), 1).percept)
+        planes = observe(predict(perceive_truth(state.world, state.config), 1).percept)
         assert planes.shape == (PLANES, 12, 6)
         assert planes.tobytes() == shown.tobytes()
         assert (batch.observe()[0] == planes).all()

@@ -8,7 +8,7 @@ import pytest
 
 from sim.config import Config
 from sim.forecast import Forecast, predict
-from sim.perceive import Percept, perceive
+from sim.perceive import Percept
 from sim.plan import Traits, planner_named, traits_of
 from sim.plan.conformance import moments
 from sim.plan.protocol import UNKNOWN
@@ -34,7 +34,7 @@ def seen(name: str) -> list[tuple[Percept, Config]]:
     states = [state for state in roads if state.config.columns * state.config.rows <= limit]
     assert len(states) > 30
     return [
-        (perceive(state.world, config), config)
+        (perceive_truth(state.world, config), config)
         for state in states
         for config in [state.config.with_parts(planner=name)]
     ]
@@ -120,7 +120,7 @@ def test_of_a_planner_that_is_not_known_nothing_is_supposed() -> None:
 
 def test_a_forecast_hands_on_what_it_was_made_from() -> None:
     for state in moments(4, 3):
-        percept = perceive(state.world, state.config)
+        percept = perceive_truth(state.world, state.config)
         forecast: Forecast = predict(percept, 2)
         assert forecast.percept is percept
         assert forecast.standing is None or forecast.standing.percept is percept
