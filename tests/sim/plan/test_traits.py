@@ -8,7 +8,7 @@ import pytest
 
 from sim.config import Config
 from sim.forecast import Forecast, predict
-from sim.perceive import Percept
+from sim.perceive import Percept, perceive_truth
 from sim.plan import Traits, planner_named, traits_of
 from sim.plan.conformance import moments
 from sim.plan.protocol import UNKNOWN
