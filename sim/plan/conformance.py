@@ -22,7 +22,8 @@ from typing import Any, Final
 from sim.config import Config
 from sim.forecast import predict
 from sim.perceive import Percept, perceive
-from sim.plan.registry import Planner, planner_named
+from sim.plan.protocol import Planner
+from sim.plan.registry import planner_named
 from sim.plan.sandbox.answer import (
     FAULTS,
     Answer,
