@@ -29,7 +29,7 @@ class Intervention:
         """A moment in which a decision is taken (not while a result stands), and that decision."""
         self.state = state
         self.decision = decision
-        self.factors = factors(decision, state.config)
+        self.factors = factors(state.config)
         self.count = 0
         self._known: dict[tuple[str, frozenset[str]], Move] = {}
 
