@@ -25,7 +25,7 @@ PlannerName = Literal[BuiltIn, Alias, Promised]
 """What may be said in an action; planners of other packages are set by their own names."""
 
 BUILT_IN: Final[tuple[str, ...]] = get_args(BuiltIn)
-ALIASES: Final[dict[Alias, BuiltIn]] = {"exact": "bfs"}
+ALIASES: Final[dict[str, BuiltIn]] = {"exact": "bfs"}
 PROMISED: Final[tuple[str, ...]] = get_args(Promised)
 RESERVED: Final = (*BUILT_IN, *ALIASES, *PROMISED, "manual")
 """Names that no other package may take; `manual` is a person."""
@@ -95,4 +95,4 @@ def canonical(name: Any) -> Any:
     `Config` asks this, and so everything that is driven, told or kept has the present name. What was said
     stays in the log as it was said.
     """
-    return ALIASES.get(name, name) if isinstance(name, str) else name  # type: ignore[call-overload]
+    return ALIASES.get(name, name) if isinstance(name, str) else name

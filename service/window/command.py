@@ -34,7 +34,7 @@ def play(
     scenario: Annotated[
         str | None, typer.Option(help='The road in a sentence: "a highway with 10 potholes".')
     ] = None,
-    planner: Annotated[str | None, typer.Option(help="Who decides.", show_default="priority")] = None,
+    planner: Annotated[str | None, typer.Option(help="Who decides.", show_default=Config().planner)] = None,
     size: Annotated[str, typer.Option(help="Width and height of the window in pixels.")] = SIZE,
 ) -> None:
     """Open the road in a window: drive, watch it drive, talk to it. No service is needed.

@@ -38,7 +38,7 @@ class Intervention:
         self.percept = sense(state)[0]
         """what was seen when it was taken"""
         self.faithful = sensor_named(state.config.sensor).faithful
-        self.factors = factors(decision, state.config)
+        self.factors = factors(state.config)
         self.count = 0
         self._known: dict[tuple[str, frozenset[str]], Move] = {}
 

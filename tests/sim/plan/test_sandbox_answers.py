@@ -12,9 +12,11 @@ from sim import planner_names
 from sim.config import Config
 from sim.forecast import predict
 from sim.perceive import Percept, perceive_truth
+from sim.plan import traits_of
 from sim.plan.conformance import check_apart, claimed, moments
 from sim.plan.decision import Measure
 from sim.plan.priority import PriorityPlanner
+from sim.plan.protocol import UNKNOWN
 from sim.plan.sandbox.answer import FaultError, decision_of, parsed
 from sim.plan.sandbox.codec import asked, percept_of, percept_values, question
 from sim.state import SimState
@@ -140,3 +142,10 @@ def test_names_of_ours_are_not_to_be_had() -> None:
     assert "name is one of Roadtalk's own" in claimed("astar")[0].what
     assert "name is one of Roadtalk's own" in claimed("AStar")[0].what
     assert claimed("never") == []
+
+
+@pytest.mark.usefixtures("installed")
+def test_what_a_package_claims_of_its_planner_is_not_believed() -> None:
+    assert any(getattr(kind, "traits", UNKNOWN).local for kind in HOSTILE.values())
+    assert {traits_of(name) for name in HOSTILE} == {UNKNOWN}
+    assert traits_of("astar") != UNKNOWN  # whoever else asks for the name
