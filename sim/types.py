@@ -121,11 +121,11 @@ KINDS: Final[Mapping[Kind, KindSpec]] = MappingProxyType(
 """Every kind, in the order that counts are told in. A mover is blocked by everything; everything blocks the
 ego. An ego points up the road, an obstacle vehicle across it."""
 
-PLACEABLE: Final = tuple(kind for kind in KINDS if kind is not Kind.AV)
+PLACEABLE: Final[tuple[Kind, ...]] = tuple(kind for kind in KINDS if kind is not Kind.AV)
 """The kinds that may be added to and removed from a road, in the order counts are told."""
-HAZARDS: Final = tuple(kind for kind in PLACEABLE if KINDS[kind].period is None)
-MOVERS: Final = tuple(kind for kind in PLACEABLE if KINDS[kind].period is not None)
-MARKED: Final = tuple(kind for kind in MOVERS if kind is not Kind.VEHICLE)
+HAZARDS: Final[tuple[Kind, ...]] = tuple(kind for kind in PLACEABLE if KINDS[kind].period is None)
+MOVERS: Final[tuple[Kind, ...]] = tuple(kind for kind in PLACEABLE if KINDS[kind].period is not None)
+MARKED: Final[tuple[Kind, ...]] = tuple(kind for kind in MOVERS if kind is not Kind.VEHICLE)
 """The movers that have a board of their own: a mover on none of these boards is an obstacle vehicle."""
 
 

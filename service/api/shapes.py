@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -30,7 +30,8 @@ class Answered(BaseModel):
 
 
 if TYPE_CHECKING:
-    MoverKind = HazardKind = Kind
+    MoverKind: TypeAlias = Kind
+    HazardKind: TypeAlias = Kind
 else:
     MoverKind, HazardKind = Literal[MOVERS], Literal[HAZARDS]
 

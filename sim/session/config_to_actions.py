@@ -7,6 +7,7 @@ given. Omits what nothing that can be said changes (cell size, reset delay, what
 from __future__ import annotations
 
 from dataclasses import fields
+from typing import Any
 
 from sim.actions import Prefer, Scenario, Set, WorldAction
 from sim.config import COUNTS, Config
@@ -78,16 +79,17 @@ def _scenario(config: Config) -> Scenario:
         changed.add("spawn_probability")
     if config.pothole_probability != preset.pothole_probability:
         changed.add("pothole_probability")
-    counts = {
+    counts: dict[str, Any] = {
         COUNTS[kind]: None if KINDS[kind].probability in changed else getattr(config, COUNTS[kind])
         for kind in COUNTS
     }
     default = default_counts(config.road, config.layout)
+    counts = {name: None if count == default[name] else count for name, count in counts.items()}
     return Scenario(
         road=config.road,
         layout=config.layout,
         traffic=config.traffic,
-        **{name: None if count == default[name] else count for name, count in counts.items()},
+        **counts,
         planner=None if config.planner == Config().planner else config.planner,  # type: ignore[arg-type]
         sensor=None if config.sensor == "perfect" else config.sensor,
     )

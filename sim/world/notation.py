@@ -40,14 +40,18 @@ def _signs() -> Iterator[tuple[str, tuple[str, ...]]]:
     yield KINDS[Kind.AV].signs[0], (Kind.AV,)
     for kind in HAZARDS:
         yield KINDS[kind].signs[0], (kind,)
-    held_by = next(kind for kind in HAZARDS if KINDS[kind].holds_movers)
-    for holding in ((), (held_by,)):
-        for kind in MOVERS:
-            for sign, heading in zip(KINDS[kind].signs[2 * len(holding) :], ("right", "left"), strict=False):
-                yield sign, (heading, kind, *holding)
+    holding = next(kind for kind in HAZARDS if KINDS[kind].holds_movers)
+    for kind in MOVERS:
+        right, left, *_ = KINDS[kind].signs
+        yield right, ("right", kind)
+        yield left, ("left", kind)
+    for kind in MOVERS:
+        *_, right, left = KINDS[kind].signs
+        yield right, ("right", kind, holding)
+        yield left, ("left", kind, holding)
 
 
-_SIGNS = dict(_signs())
+_SIGNS: dict[str, tuple[str, ...]] = dict(_signs())
 _SIGN_OF = {frozenset(parts): sign for sign, parts in _SIGNS.items()}
 
 

@@ -118,9 +118,7 @@ def document() -> dict[str, Any]:
                 places += [round(pose.column - MIDDLE[0], 9), round(pose.row - MIDDLE[1], 9)]
         listed.append([case.kind, case.move, *case.offset, case.step, places])
     return {
-        "sizes": {
-            kind: [float(side) for side in SIZES[kind]] for kind in (Kind.AV, *MOVERS, *reversed(HAZARDS))
-        },
+        "sizes": {kind: [float(side) for side in SIZES[kind]] for kind in kinds},
         "phases": PHASES,
         "cases": listed,
     }

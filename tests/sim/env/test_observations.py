@@ -50,7 +50,7 @@ def test_a_window_is_what_is_around_the_vehicle(window: Any) -> None:
                 expected = (
                     planes[:, there, beside]
                     if on_road
-                    else np.eye(PLANES, dtype=int)[STEPPING] * planes[6, 0, 0]
+                    else np.eye(PLANES, dtype=int)[STEPPING] * planes[STEPPING, 0, 0]
                 )
                 assert (seen[:PLANES, down, along] == expected).all()
         assert seen[VEHICLE, ahead, side] == 1

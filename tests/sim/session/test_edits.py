@@ -245,7 +245,7 @@ def test_what_is_removed(action: Remove, gone: list[Cell]) -> None:
 
 def test_removing_everything_leaves_the_vehicle_alone() -> None:
     applied = apply(FULL, Remove(kind="everything", count="all"))
-    assert counts_of(applied.state.world) == (0, 0, 0, 0)
+    assert set(counts_of(applied.state.world)) == {0}
     assert applied.state.world.avs == FULL.world.avs
     assert {change.path for change in applied.changes} == {"potholes", "barriers", "vehicles", "pedestrians"}
     assert all(change.after == 0 for change in applied.changes)
