@@ -146,6 +146,10 @@ class Narrator:
         form = "one" if len(event.ids) == 1 else "many"
         return self._sayings.say("log", "no_way", "without", form, who=self._sayings.joined(event.ids))
 
+    def planner(self, name: str) -> str:
+        """A planner as people know it."""
+        return self._sayings.planner(name)
+
     def silent(self, planner: str, fault: str) -> str:
         """What is said when a planner did not answer in time and a person is to drive."""
         return self._sayings.say("log", "events", "planner_silent", planner=planner, fault=fault)

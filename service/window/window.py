@@ -281,7 +281,8 @@ class Window:
         session, run = self.game.session, self._showing.after
         match name:
             case "road":
-                driver = "by hand" if run.mode is Mode.MANUAL else run.config.planner
+                planner = self.game.loaded.words.planner(run.config.planner)
+                driver = "by hand" if run.mode is Mode.MANUAL else planner
                 standing = "paused" if session.paused else said(session.pace)
                 return f"{standing}  ·  {driver}  ·  seed {run.config.seed}"
             case "plan":

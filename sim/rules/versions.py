@@ -11,6 +11,8 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any, Final, TypeVar
 
+from sim.codes import plain_text
+
 Value = TypeVar("Value")
 
 RULES: Final = 2
@@ -34,7 +36,7 @@ class NewerRulesError(ValueError):
     """Something was made under rules that this program does not know."""
 
     def __init__(self, rules: int) -> None:
-        super().__init__(f"made under rules {rules}; this version knows rules up to {RULES}")
+        super().__init__(plain_text("newer_rules", {"rules": rules, "known": RULES}))
         self.rules = rules
         self.known = RULES
 

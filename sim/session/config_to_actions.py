@@ -31,7 +31,7 @@ class UndescribableError(ValueError):
     """Nothing that can be said makes this configuration; `field` is the first that differs."""
 
     def __init__(self, field: str) -> None:
-        super().__init__(f"nothing that can be said sets {field} so")
+        super().__init__(f"undescribable: {field}")
         self.field = field
 
 

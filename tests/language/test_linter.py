@@ -52,11 +52,11 @@ def test_a_saying_that_does_not_parse_is_found(copy: Path) -> None:
 
 
 def test_a_saying_that_is_refused_is_found_and_no_suggestion(copy: Path) -> None:
-    """Suggestions are made of sayings, and a refusal names suggestions: one that is refused must end there."""
+    """A refusal names suggestions, which are made of sayings: reading a refused one must not begin again."""
     impossible = "  odd: {say: [paint the log], needs: odd_word view, do: {do: step, ticks: -3}}\n"
     append(copy / "en" / "frames/views.yaml", impossible)
     append(copy / "en" / "lexicon/values.yaml", "odd_word: paint\n")
-    language = Language.load(folder=copy, offered=lambda action: True)
+    language = Language.load(folder=copy, offered=lambda _: True)
     assert language.suggestions.nearest("paint the log", language.concepts("paint the log"))
     refused = language.parse("paint the log")
     assert isinstance(refused, Refused)
