@@ -85,5 +85,5 @@ def _scenario(config: Config) -> Scenario:
         barriers=None if config.barriers == barriers else config.barriers,
         pedestrians=None if config.pedestrians == preset.pedestrians else config.pedestrians,
         planner=None if config.planner == Config().planner else config.planner,  # type: ignore[arg-type]
-        sensor=None if config.sensor == "perfect" else config.sensor,
+        sensor=None if config.sensor == "perfect" else config.sensor,  # type: ignore[arg-type]
     )
