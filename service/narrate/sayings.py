@@ -165,9 +165,11 @@ class Sayings:
         """What is in the way of a move; in hindsight also that it was not there."""
         imagined = naming.imagined(ids) if tense == "then" else {}
         if imagined:
-            told = self.joined([self.imagined(name, where) for name, where in imagined.items()])
+            phrases = self.joined([self.imagined(name, where) for name, where in imagined.items()])
             rest = [name for name in ids if name not in imagined]
-            return told if not rest else self.say("words", "besides", told=told, who=naming.things(rest))
+            return (
+                phrases if not rest else self.say("words", "besides", told=phrases, who=naming.things(rest))
+            )
         place, who = self.move(move, "place"), naming.things(ids)
         movers = [kind_of(name) for name in ids if kind_of(name).moves]
         if reason == "mover_enters" and len(ids) > 1:

@@ -188,7 +188,7 @@ class _Futures:
     start: SimState
     work: int = 0
     branched: int = 0
-    _nodes: dict[tuple[Belief, ...], _Node] = field(default_factory=dict)
+    _nodes: dict[tuple[int, ...], list[_Node]] = field(default_factory=dict)
     _root: _Node = field(init=False)
     _traits: Traits = field(init=False)
     _known: bool = field(init=False)
@@ -316,7 +316,12 @@ class _Futures:
             # It may answer the next time, or cost a new process each time: neither is to be built upon.
             raise QuestionError("confidence_fault", planner=tick.decision.planner, fault=tick.decision.fault)
         after = replace(tick.state, config=self.start.config, belief=belief)
-        return self._nodes.setdefault(self._key(after), _Node(after))
+        alike = self._nodes.setdefault(self._key(after), [])
+        for node in alike:
+            if node.state.belief == belief:
+                return node
+        alike.append(_Node(after))
+        return alike[-1]
 
     def _taken(self, state: SimState, config: Config) -> tuple[StepResult, Belief]:
         """A tick in which movers react as this configuration draws it, and the belief after it.
@@ -336,8 +341,8 @@ class _Futures:
         )
         return step(drawn, decide_on(drawn, seen)), belief
 
-    def _key(self, state: SimState) -> tuple[Belief, ...]:
-        """Equal for moments from which everything goes on alike."""
+    def _key(self, state: SimState) -> tuple[int, ...]:
+        """Equal for moments from which everything goes on alike, where their beliefs are equal too."""
         world = state.world
         ahead = world.road.all
         if self._known:
@@ -349,7 +354,6 @@ class _Futures:
             tuple(Outcome).index(world.outcome),
             *world.avs,
             *(board & ahead for board in boards),
-            state.belief,
         )
 
 

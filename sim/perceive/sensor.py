@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
 from typing import Final, Protocol, TypeAlias
 
 from sim.config import Config
 from sim.perceive.percept import Percept
 from sim.world import World
 
-Belief: TypeAlias = Hashable
-"""What a sensor carries from tick to tick: any value that never changes; equal beliefs look on alike."""
+Belief: TypeAlias = object
+"""What a sensor carries from tick to tick: any value that never changes; from equal ones it goes on alike."""
 
 NO_BELIEF: Final = None
 """The belief at the beginning of an episode, and always that of a stateless sensor."""

@@ -91,5 +91,5 @@ def _scenario(config: Config) -> Scenario:
         traffic=config.traffic,
         **counts,
         planner=None if config.planner == Config().planner else config.planner,  # type: ignore[arg-type]
-        sensor=None if config.sensor == "perfect" else config.sensor,
+        sensor=None if config.sensor == "perfect" else config.sensor,  # type: ignore[arg-type]
     )

@@ -109,6 +109,7 @@ def document() -> dict[str, Any]:
     are seen, from the cell the vehicle started in.
     """
     listed = []
+    kinds = (Kind.AV, *MOVERS, *reversed(HAZARDS))
     for case in cases():
         before, after = worlds(case)
         places = []
