@@ -166,9 +166,9 @@ class Sayings:
         imagined = naming.imagined(ids) if tense == "then" else {}
         if imagined:
             phrases = self.joined([self.imagined(name, where) for name, where in imagined.items()])
-            rest = [name for name in ids if name not in imagined]
+            real = [name for name in ids if name not in imagined]
             return (
-                phrases if not rest else self.say("words", "besides", told=phrases, who=naming.things(rest))
+                phrases if not real else self.say("words", "besides", told=phrases, who=naming.things(real))
             )
         place, who = self.move(move, "place"), naming.things(ids)
         movers = [kind_of(name) for name in ids if kind_of(name).moves]

@@ -46,7 +46,7 @@ def keeping(percept: Percept, kept: Board) -> Percept:
         percept,
         right=percept.right & kept,
         left=percept.left & kept,
-        pedestrians=percept.pedestrians & kept,
+        boards=percept.boards.within(percept.boards.fixed, kept),
         yielding=percept.yielding & kept,
         attentive=percept.attentive & kept,
         movers={cell: name for cell, name in percept.movers.items() if kept >> cell & 1},
