@@ -126,9 +126,11 @@ class Sayings:
         imagined = naming.imagined(ids) if tense == "then" else {}
         if imagined:
             phrases = self.joined([self.imagined(name, where) for name, where in imagined.items()])
-            rest = [name for name in ids if name not in imagined]
+            others = [name for name in ids if name not in imagined]
             return (
-                phrases if not rest else self.say("words", "besides", told=phrases, who=naming.things(rest))
+                phrases
+                if not others
+                else self.say("words", "besides", told=phrases, who=naming.things(others))
             )
         place, who = self.move(move, "place"), naming.things(ids)
         movers = [kind_of(name) for name in ids if kind_of(name).moves]

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
+from sim.fast_replace import field_setter
 from sim.types import Kind
 from sim.world import Thing
 from sim.world.grid import Board, Road
@@ -71,15 +72,29 @@ class Percept:
         hazards = {index: name for index, name in self.hazards.items() if kept(name)}
         moving = sum(1 << index for index in movers)
         fixed = sum(1 << index for index in hazards)
-        return replace(
+        return _cut_down(
             self,
-            potholes=self.potholes & fixed,
-            barriers=self.barriers & fixed,
-            right=self.right & moving,
-            left=self.left & moving,
-            pedestrians=self.pedestrians & moving,
-            yielding=self.yielding & moving,
-            attentive=self.attentive & moving,
-            movers=movers,
-            hazards=hazards,
+            self.potholes & fixed,
+            self.barriers & fixed,
+            self.right & moving,
+            self.left & moving,
+            self.pedestrians & moving,
+            self.yielding & moving,
+            self.attentive & moving,
+            movers,
+            hazards,
         )
+
+
+_cut_down = field_setter(
+    Percept,
+    "potholes",
+    "barriers",
+    "right",
+    "left",
+    "pedestrians",
+    "yielding",
+    "attentive",
+    "movers",
+    "hazards",
+)
