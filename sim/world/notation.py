@@ -69,7 +69,7 @@ def write(world: World) -> str:
         f"from {world.episode_start} {world.outcome}{ended}"
     ]
     alone = [cell for cell in world.avs if cell not in shared]
-    boards = {
+    boards: dict[str, Board] = {
         "right": world.right,
         "left": world.left,
         Kind.AV: board_of(alone),
