@@ -20,8 +20,9 @@ from sim.config import Config
 from sim.forecast import predict
 from sim.perceive import perceive
 from sim.search.reachability import reachability, steps_left
-from sim.state import SimState, step
+from sim.state import SimState
 from sim.statistics import wilson
+from sim.transition import step
 from sim.types import Move, Outcome
 
 PLANNERS = ("rules", "priority")

@@ -20,7 +20,8 @@ from sim.forecast import predict
 from sim.generation import generate
 from sim.perceive import perceive
 from sim.search.reachability import shortest_plan, steps_left
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 
 SIZES = ((8, 30), (16, 120), (64, 512))
 MOVERS = (1, 10, 50, 100, 500)

@@ -37,6 +37,11 @@ def kind_of(name: str) -> Kind:
     return Kind(name.rpartition("-")[0])
 
 
+def ego_id(number: int) -> str:
+    """The id of the ego at a place of `World.avs` (from 0)."""
+    return f"{Kind.AV}-{number + 1}"
+
+
 HAZARDS = (Kind.POTHOLE, Kind.BARRIER)
 MOVERS = (Kind.VEHICLE, Kind.PEDESTRIAN)
 PLACEABLE = (*HAZARDS, *MOVERS)

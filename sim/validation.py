@@ -9,7 +9,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
-from sim.commit import commit
+from sim.commit import commit, moves_with
 from sim.config import Config
 from sim.judge import collisions, outcome
 from sim.types import Cell, Kind, Move, Outcome, kind_of
@@ -109,7 +109,7 @@ def _of_plan(world: World, plan: Iterable[Move], config: Config) -> Iterator[Def
         if world.road.moved(world.av, move) is None:
             yield Defect("off_road", world.tick, cell=world.road.cell(world.av))
             continue
-        after = commit(world, move, config)
+        after = commit(world, moves_with(world, move), config)
         for crash in collisions(world, after, config.collision):
             yield Defect(f"{crash.how}_{crash.kind}", after.tick, crash.ids, crash.cell)
         # What was hit is noted, the plan goes on.

@@ -6,7 +6,6 @@ import secrets
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Query, Request, Response
-from sim.rules.versions import NewerRulesError
 
 from service import actions as contract
 from service.api import bodies, examples, schemas
@@ -40,6 +39,7 @@ from service.store import EntryRecord
 from sim.actions import Scenario
 from sim.config import Config, ConfigError, Problem
 from sim.generation import GenerationError
+from sim.rules.versions import NewerRulesError
 from sim.session.saved_config import new_config, saved_config
 from sim.session.scenario import configured, unavailable
 

@@ -5,13 +5,12 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import Any
 
-from sim.rules.versions import note_on
-
 from service.sessions.session import Session
 from service.sessions.words import Words
 from service.store import SessionRecord
 from service.wire.decision import decision_json
 from sim.plan import Decision
+from sim.rules.versions import note_on
 from sim.session.timeline import Timeline
 from sim.state import SimState
 

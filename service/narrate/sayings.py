@@ -10,7 +10,7 @@ import yaml
 
 from service.resources import prompts_folder
 from sim.plan import Option
-from sim.types import Cell, Move, kind_of
+from sim.types import Cell, Kind, Move, kind_of
 
 
 class Names(Protocol):
@@ -117,6 +117,8 @@ class Sayings:
 
     def in_the_way(self, reason: str, move: Move, ids: Sequence[str], tense: str, naming: Names) -> str:
         """What is in the way of a move."""
+        if not reason.startswith("ego_"):  # where movers or hazards are in the way, they are told alone
+            ids = [name for name in ids if kind_of(name) is not Kind.AV]
         place, who = self.move(move, "place"), naming.things(ids)
         movers = [kind_of(name) for name in ids if kind_of(name).moves]
         if reason == "mover_enters" and len(ids) > 1:

@@ -61,4 +61,5 @@ class Asking:
 def decides(run: SimState) -> bool:
     """Whether a planner of another package decides the next move."""
     by_hand = bool(run.queue) or run.mode is Mode.MANUAL
-    return not by_hand and run.world.outcome is Outcome.RUNNING and is_foreign(run.config.planner)
+    alone = len(run.world.avs) == 1  # of several egos one decides after the other
+    return alone and not by_hand and run.world.outcome is Outcome.RUNNING and is_foreign(run.config.planner)

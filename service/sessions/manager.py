@@ -15,7 +15,6 @@ from functools import partial
 
 import structlog
 from anyio import to_thread
-from sim.rules.versions import NewerRulesError
 
 from service import actions as contract
 from service.actions import Action
@@ -42,6 +41,7 @@ from service.sessions.waking import woken
 from service.store import EntryRecord, KeptAnswer, MomentRecord, SessionRecord, StoreError
 from sim.actions import Set
 from sim.config import Config, ConfigError
+from sim.rules.versions import NewerRulesError
 from sim.session.timeline import Timeline
 
 _LOG = structlog.get_logger(__name__)

@@ -12,7 +12,8 @@ from sim.config import Config, ConfigError
 from sim.render import render, theme
 from sim.render.text import cut, wrapped, written
 from sim.render.theme import MAX_SIDE_PX
-from sim.state import SimState, StepResult, step
+from sim.state import SimState, StepResult
+from sim.transition import step
 
 DEFAULT_POTHOLES: Final = 10
 MOST_DIGITS: Final = 4
@@ -72,7 +73,7 @@ class Start:
             self.message = "; ".join(problem.message for problem in error.problems).capitalize() + "."
             return
         self.message = "" if self.text else "A number, please: 0 is one too."
-        self._before, self._tick = None, StepResult(run, None, ())
+        self._before, self._tick = None, StepResult(run, {}, ())
 
     def draw(self, screen: pygame.Surface, now_s: float) -> None:
         """All of the window."""

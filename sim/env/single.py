@@ -17,7 +17,8 @@ from sim.env.observation import Observer, observed
 from sim.env.options import one_of, refuse_unknown, reset_options, road_config, switch
 from sim.env.reward import Rewards
 from sim.env.seeds import DRAWN_BELOW, checked_seed, folded
-from sim.state import SimState, apply_move, next_episode
+from sim.state import FIRST, SimState, next_episode
+from sim.transition import transition
 from sim.types import Outcome
 from sim.world import notation
 
@@ -116,7 +117,7 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
         if before.road.moved(before.av, MOVES[number]) is None:
             number = STAY
         # As a person's move: what repeats then proves nothing about a planner.
-        self._run = apply_move(state, MOVES[number], by_person=True)
+        self._run = transition(state, {FIRST: MOVES[number]}, by_person=(FIRST,)).state
         after = self._run.world
         arrived, crashed = after.outcome is Outcome.SUCCESS, after.outcome is Outcome.CRASH
         columns = before.road.columns

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from sim.commit import moves_with
 from sim.explain.rollout import rollout
 from sim.oracle.lower_bounds import PATIENCE, least_ticks
 from sim.plan import Decision
@@ -15,7 +16,7 @@ from sim.planner_names import LOCAL
 from sim.repetition import NOTHING_KEPT, Situation, situation
 from sim.search.reactive import ImpatientError
 from sim.state import SimState
-from sim.transition import transition
+from sim.transition import next_world
 from sim.types import Mode, Move, Outcome
 
 
@@ -68,7 +69,8 @@ def _compared(other: SimState, real: SimState) -> tuple[int | None, bool]:
 
 def after_move(state: SimState, move: Move) -> SimState:
     """The state after a move, judged."""
-    return replace(state, world=transition(state.world, move, state.config), queue=(), watch=NOTHING_KEPT)
+    world = next_world(state.world, moves_with(state.world, move), state.config, state.parked)
+    return replace(state.with_ego(queue=(), watch=NOTHING_KEPT), world=world)
 
 
 def _end(state: SimState) -> Future | None:

@@ -10,7 +10,7 @@ not, futures are drawn from it, with seeds of their own, and the share has Wilso
 A future in which the vehicle is proved to be shut off from the goal, by hazards or by movers in the rows
 before it, is followed no further: it does not arrive, however it ends.
 
-Every step is the session's own (`sim.state.advance`) with the draws of its tick set. Work is limited by
+Every step is the session's own (`sim.transition.step`) with the draws of its tick set. Work is limited by
 decisions taken and never by the clock, so the same moment has the same answer everywhere. Not foreseen:
 what a person will do. In manual mode it is told how it goes if the vehicle drives from here on by itself.
 """
@@ -35,8 +35,9 @@ from sim.search.costs import weights
 from sim.search.dead_ends import cells_that_may_arrive
 from sim.search.reachability import steps_left
 from sim.session.timeline import Timeline
-from sim.state import SimState, step
+from sim.state import SimState
 from sim.statistics import wilson
+from sim.transition import step
 from sim.types import Mode, Move, Outcome
 from sim.world import World
 from sim.world.grid import Board, bits, board_of
@@ -202,7 +203,7 @@ class _Futures:
 
     def __post_init__(self) -> None:
         config = self.start.config
-        self._root = _Node(replace(self.start, mode=Mode.AUTO))
+        self._root = _Node(self.start.with_ego(mode=Mode.AUTO))
         # Planners of others may look at anything; the project's own at what their charges reach.
         self._known = config.planner in BUILT_IN
         self._buffer = weights(config).buffer if config.planner in WEIGHING else 0

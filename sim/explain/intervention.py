@@ -7,11 +7,12 @@ from dataclasses import replace
 
 from sim.actions import Add, Where, WorldAction
 from sim.config import Config
+from sim.decide import decide
 from sim.explain.factors import factors, is_factor, without
 from sim.explain.facts import QuestionError
 from sim.plan import Decision
 from sim.session.edits import apply
-from sim.state import SimState, decide
+from sim.state import SimState
 from sim.types import Cell, Move
 from sim.world import World
 

@@ -7,12 +7,13 @@ may say meanwhile is left out: a story is told as if nothing were said any more.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Final
 
 from sim.episode_record import DetourReason, sake
 from sim.plan import Decision
-from sim.state import SimState, StepResult, step
+from sim.state import SimState, StepResult
+from sim.transition import step
 from sim.types import Mode, Move, Outcome
 from sim.world import Cause
 
@@ -190,7 +191,7 @@ def route_ahead(state: SimState, ticks: int = NEXT_TICKS) -> RouteAhead:
     """
     offered = state.mode is Mode.MANUAL and not state.queue
     chance = not state.config.certain
-    seen = replace(state, mode=Mode.AUTO) if offered else state
+    seen = state.with_ego(mode=Mode.AUTO) if offered else state
     decisions: list[Decision] = []
     detours: list[Detour] = []
     after = seen

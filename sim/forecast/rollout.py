@@ -1,9 +1,13 @@
 """Movers rolled out by the rules, as far ahead as is read and no further than was asked for.
 
 The roll-out assumes that movers do not react to the vehicle after the first tick: nobody gives way and
-nobody brakes. With perfect sight and no courtesy it *is* what happens along every way that meets nothing,
-since a mover only brakes for a vehicle that stands where it would be hit. `if_standing` is the roll-out where
-it brakes in the first tick.
+nobody brakes, but for other egos. With perfect sight and no courtesy it *is* what happens along every way
+that meets nothing, since a mover only brakes for a vehicle that stands where it would be hit. `if_standing`
+is the roll-out where it brakes in the first tick.
+
+Other egos make the move they have announced and then stand where it leads, as far as is known. Movers brake
+for those that stand: in the first tick those that are attentive then, later all. A mover that would not brake
+ends the episode, so that what comes after it does not matter.
 """
 
 from __future__ import annotations
@@ -14,7 +18,8 @@ from typing import overload
 from sim.perceive import Percept
 from sim.rules.traffic import Motion, brake, move_movers, pedestrians_walk, shift_board
 from sim.rules.traffic_cache import cached_move_movers, cached_shift_table
-from sim.world.grid import Board
+from sim.types import Move
+from sim.world.grid import Board, board_of
 
 
 class RollOut(Sequence[Motion]):
@@ -29,6 +34,7 @@ class RollOut(Sequence[Motion]):
         "_percept",
         "_right",
         "_slices",
+        "_standing",
         "_stands",
         "_tables",
         "_walked",
@@ -50,6 +56,7 @@ class RollOut(Sequence[Motion]):
         self._walked: list[Board] = []
         self._tables: list[Mapping[int, str]] = []
         self._right, self._left, self._pedestrians = percept.right, percept.left, percept.pedestrians
+        self._standing: Board | None = None
 
     def __len__(self) -> int:
         return self._horizon
@@ -83,6 +90,15 @@ class RollOut(Sequence[Motion]):
         self[ahead]  # rolls out that far
         return self._walked[ahead]
 
+    @property
+    def standing(self) -> Board:
+        """The cells that other egos stand in after the first tick."""
+        if self._standing is None:
+            road = self._percept.road
+            ends = [(other.cell, road.moved(other.cell, other.move)) for other in self._percept.egos]
+            self._standing = board_of([cell if end is None else end for cell, end in ends])
+        return self._standing
+
     def if_standing(self) -> RollOut | None:
         """The roll-out where the vehicle does not move in the first tick; None where that changes nothing."""
         percept, motion = self._percept, self[0]
@@ -110,8 +126,18 @@ class RollOut(Sequence[Motion]):
         )
         if self._stands and not ahead:
             motion = brake(motion, 1 << percept.ego, percept.attentive)
+        if percept.egos:
+            motion = self._braked_for_egos(motion, ahead)
         self._right, self._left = motion.right, motion.left
         if self._pedestrians:
             self._pedestrians = shift_board(self._pedestrians, motion)
         self._walked.append(self._pedestrians)
         return motion
+
+    def _braked_for_egos(self, motion: Motion, ahead: int) -> Motion:
+        """The motion of a tick with the movers that brake for other egos."""
+        percept = self._percept
+        if ahead:
+            return brake(motion, self.standing, percept.road.all)
+        staying = board_of([other.cell for other in percept.egos if other.move is Move.STAY])
+        return brake(motion, staying, percept.attentive)

@@ -3,7 +3,7 @@
 Camera, lidar, radar, weather and night come behind this door; today there is the perfect sensor.
 """
 
-from sim.perceive.percept import Percept
+from sim.perceive.percept import OtherEgo, Percept
 from sim.perceive.perfect import perceive
 
-__all__ = ["Percept", "perceive"]
+__all__ = ["OtherEgo", "Percept", "perceive"]

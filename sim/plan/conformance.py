@@ -36,7 +36,8 @@ from sim.plan.sandbox.answer import (
 )
 from sim.plan.sandbox.codec import asked, question
 from sim.planner_names import installed, refused
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Move, Outcome
 
 MAX_TOLD = 20
