@@ -1,7 +1,7 @@
 """What a lane crashed into, read off the world after the crash and the move that led to it.
 
-Lanes keep no world before the present one. The cell of a thing that was hit tells all; a mover that was
-passed through, or cut off a diagonal, stands where such a one would after the tick, and faces the way it came.
+Lanes keep no world before the present one. The cell of a thing that was hit tells all. A mover passed
+through, or that cut off a diagonal, stands where such a one does after the tick and faces the way it came.
 """
 
 from __future__ import annotations

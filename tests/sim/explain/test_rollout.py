@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
 
 from sim.actions import Add
@@ -80,7 +78,7 @@ def test_a_search_on_a_very_long_road_is_cut_short() -> None:
 @pytest.mark.parametrize("mode", Mode)
 def test_the_way_ahead_is_the_way_taken(mode: Mode) -> None:
     for seed in range(20):
-        state = replace(SimState.start(Config(seed=seed, potholes=20)), mode=mode)
+        state = SimState.start(Config(seed=seed, potholes=20)).with_ego(mode=mode)
         way = route_ahead(state)
         assert way.offered is (mode is Mode.MANUAL)
         runs = driven(state.with_ego(mode=Mode.AUTO))
