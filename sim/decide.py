@@ -45,15 +45,12 @@ def decide_each(state: SimState, decided: Mapping[str, Decision] = _NOTHING) -> 
 
     Empty once the episode has ended. Egos that have arrived decide nothing.
     """
-    world, config = state.world, state.config
+    world = state.world
     if world.outcome is not Outcome.RUNNING:
         return {}
     if len(world.avs) == 1:
         ego = state.ego()
-        if ego.planner is not None:
-            config = state.config_of(ego.id)
-        known = decided.get(ego.id) if decided else None
-        return {ego.id: _step(ego, perceive(world, config), config, known)}
+        return {ego.id: decide_alone(state, ego, decided.get(ego.id))}
     parked, announced = state.parked, dict[int, Move]()
     steps: dict[str, EgoStep] = {}
     for number in deciding_order(world.avs):
@@ -66,6 +63,15 @@ def decide_each(state: SimState, decided: Mapping[str, Decision] = _NOTHING) -> 
             move = step.decision.move
         announced[number] = move
     return {id: steps[id] for id in state.egos if id in steps}
+
+
+def decide_alone(state: SimState, ego: Ego, known: Decision | None = None) -> EgoStep:
+    """What the only ego of a road sees, expects and decides; `known`: the decision, if it is known already.
+
+    The episode must not have ended.
+    """
+    config = state.config if ego.planner is None else state.config_of(ego.id)
+    return _step(ego, perceive(state.world, config), config, known)
 
 
 def percept_of(state: SimState, moves: Mapping[str, Move], id: str | None = None) -> Percept:

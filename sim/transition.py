@@ -10,7 +10,7 @@ from dataclasses import replace
 
 from sim.commit import commit
 from sim.config import Config
-from sim.decide import decide_each
+from sim.decide import decide_alone, decide_each
 from sim.ego import Ego
 from sim.events import Event, EventType
 from sim.fast_replace import fast_constructor, field_setter
@@ -112,14 +112,16 @@ def _one_moved(
 
 def step(state: SimState, decided: Mapping[str, Decision] = _NO_DECISIONS) -> StepResult:
     """One tick: every ego decides, then all move. `decided`: decisions that are known already, by ego id."""
-    if state.world.outcome is not Outcome.RUNNING:
+    world = state.world
+    if world.outcome is not Outcome.RUNNING:
         return hold_result(state)
-    steps = decide_each(state, decided)
-    if len(state.world.avs) == 1:
-        ((id, one),) = steps.items()
-        decision = one.decision
+    if len(world.avs) == 1:
+        ego = state.ego()
+        alone = decide_alone(state, ego, decided.get(ego.id))
+        decision = alone.decision
         by_person = decision.asked is not None
-        return _one_moved(state, state.egos[id], decision.move, steps, by_person, decision.fault)
+        return _one_moved(state, ego, decision.move, {ego.id: alone}, by_person, decision.fault)
+    steps = decide_each(state, decided)
     made = {id: each.decision for id, each in steps.items()}
     return transition(
         state,

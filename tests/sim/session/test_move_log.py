@@ -15,7 +15,7 @@ from sim.plan.decision import Option
 from sim.plan.safe_planning import hold_position, plan_safely
 from sim.session.move_log import BLOCK, MoveLog
 from sim.session.timeline import Timeline
-from sim.state import FIRST, EgoStep, SimState
+from sim.state import FIRST
 from sim.transition import step, transition
 from sim.types import Mode, Move, Outcome
 
@@ -82,11 +82,10 @@ def test_nothing_is_decided_again(monkeypatch: pytest.MonkeyPatch) -> None:
         seen.append(timeline.state)
         timeline.advance()
 
-    def standing_only(state: SimState, _: object) -> dict[str, EgoStep]:
-        assert state.world.outcome is not Outcome.RUNNING, "while a result stands there is nothing to decide"
-        return {}
+    def refused(*_: object) -> None:
+        raise AssertionError("while a result stands there is nothing to decide, and all else is known")
 
-    monkeypatch.setattr("sim.transition.decide_each", standing_only)
+    monkeypatch.setattr("sim.transition.decide_alone", refused)
     assert [timeline.at(tick) for tick in range(100)] == seen
     timeline.rewind(37)
     assert timeline.state == seen[37]
