@@ -22,6 +22,7 @@ from sim.session.timeline import Timeline
 from sim.state import SimState, StepResult
 from sim.transition import step, transition
 from sim.types import Kind, Mode, Move, Outcome
+from sim.validation import validate_world
 from sim.world import World
 from sim.world.grid import bits
 from tests.sim import twin
@@ -132,6 +133,7 @@ def test_nobody_drives_into_a_parked_ego(planner: str) -> None:
             assert egos_apart(before.world, after)
             if after.cause is not None:
                 assert after.cause.kind is not Kind.AV
+        assert validate_world(after) == ()
         arrived += after.outcome is Outcome.SUCCESS
     assert arrived > PLANNERS[planner] / 2
 
@@ -149,6 +151,7 @@ def test_egos_that_drive_never_meet(planner: str, collision: str) -> None:
             together += any(
                 after.road.columns + 1 >= abs(one - other) for one, other in combinations(after.avs, 2)
             )
+        assert validate_world(after) == ()
         arrived += after.outcome is Outcome.SUCCESS
     assert arrived > roads / 3
     assert together > roads
