@@ -24,15 +24,16 @@ from tests.sim.roads import road, run_on
 BARE = ("........",) * 12
 PROGRAM = """
 from sim.config import Config
-from sim.state import Run, advance
+from sim.state import SimState
+from sim.transition import step
 from sim.render import encode, render
 import hashlib
-run = Run.start(Config(seed=4, potholes=24, pedestrians=12, barriers=8))
+state = SimState.start(Config(seed=4, potholes=24, pedestrians=12, barriers=8))
 for _ in range(9):
-    before = run.world
-    tick = advance(run)
-    run = tick.run
-picture = render("road", run, before=before, decision=tick.decision, phase=0.4)
+    before = state.world
+    tick = step(state)
+    state = tick.state
+picture = render("road", state, before=before, decision=tick.decision, phase=0.4)
 print(hashlib.sha256(encode(picture)).hexdigest())
 """
 
