@@ -82,7 +82,9 @@ def test_two_autonomous_vehicles_in_one_cell_or_swapped() -> None:
     passed = Cause("swap", Kind.AV, ("av-1", "av-2"), (4, 3), "av-2")
     assert collisions(both, av_at(both, (5, 3), (5, 3)), "swept") == (met,)
     assert collisions(both, av_at(both, (5, 3), (4, 3)), "swept") == (passed,)
-    assert collisions(both, av_at(both, (5, 2), (4, 3)), "swept") == ()
+    freed = Cause("cross", Kind.AV, ("av-1", "av-2"), (4, 3), "av-2")
+    assert collisions(both, av_at(both, (5, 2), (4, 3)), "swept") == (freed,)
+    assert collisions(both, av_at(both, (5, 2), (4, 3)), "cell") == ()
     assert collisions(both, both, "swept") == ()
 
 
