@@ -19,8 +19,9 @@ from typing import Any
 from sim.config import Config
 from sim.forecast import Forecast
 from sim.search.reachability import reachability, steps_left
-from sim.state import SimState, step
+from sim.state import SimState
 from sim.statistics import wilson
+from sim.transition import step
 from sim.types import Move, Outcome
 
 PLANNERS = ("rules", "priority")

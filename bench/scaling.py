@@ -19,7 +19,8 @@ from sim.config import Config
 from sim.forecast import Forecast
 from sim.generation import generate
 from sim.search.reachability import shortest_plan, steps_left
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 
 SIZES = ((8, 30), (16, 120), (64, 512))
 MOVERS = (1, 10, 50, 100, 500)

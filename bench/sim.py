@@ -28,7 +28,8 @@ from sim.batch import Batch, BatchPlanner
 from sim.config import Config
 from sim.forecast import Forecast
 from sim.search.reachability import shortest_plan, steps_left
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Outcome
 from tests.sim import twin
 

@@ -10,14 +10,16 @@ from sim.rules.traffic_cache import cached_move_movers, cached_shift_table
 from sim.rules.yielding import attentive_movers, yielding_movers
 from sim.types import Move
 from sim.world import World
+from sim.world.grid import Board
 
 _moved = field_setter(World, "tick", "avs", "right", "left", "boards", "movers")
 
 
-def commit(world: World, move: Move, config: Config) -> World:
+def commit(world: World, moves: tuple[Move, ...], config: Config) -> World:
     """Everything moved at once, nothing judged: the world one tick later.
 
-    Raises `ValueError` where the move leads off the road.
+    `moves` are in the order of `World.avs`. Where there are several egos, one in row 0 has arrived and stays.
+    Raises `ValueError` where a move leads off the road, and where there are not as many as egos.
     """
     road = world.road
     boards = world.boards
@@ -31,17 +33,44 @@ def commit(world: World, move: Move, config: Config) -> World:
         road.left_edge,
         road.right_edge,
     )
-    if move is Move.STAY and motion.occupied >> world.av & 1:
-        motion = brake(motion, 1 << world.av, attentive_movers(world, config))
-    target = road.moved(world.av, move)
-    if target is None:
-        raise ValueError(f"{move} leads off the road")
+    avs = world.avs
+    if len(avs) == 1:
+        (cell,), (move,) = avs, moves
+        target = road.moved(cell, move)
+        if target is None:
+            raise ValueError(f"{move} leads off the road")
+        targets: tuple[int, ...] = (target,)
+        standing = 1 << cell if move is Move.STAY else 0
+    else:
+        targets, standing = _several(world, moves)
+    if standing and motion.occupied & standing:
+        motion = brake(motion, standing, attentive_movers(world, config))
     return _moved(
         world,
         world.tick + 1,
-        (target, *world.avs[1:]),
+        targets,
         motion.right,
         motion.left,
         shift_boards(boards, motion),
         cached_shift_table(world.movers, motion),
     )
+
+
+def moves_with(world: World, move: Move, number: int = 0) -> tuple[Move, ...]:
+    """The moves in the order of `World.avs` where one ego makes this move and all others stay."""
+    if len(world.avs) == 1:
+        return (move,)
+    return tuple(move if each == number else Move.STAY for each in range(len(world.avs)))
+
+
+def _several(world: World, moves: tuple[Move, ...]) -> tuple[tuple[int, ...], Board]:
+    """Where several egos go, and the cells of those that stay."""
+    targets, standing = [], 0
+    for cell, move in zip(world.avs, moves, strict=True):
+        target = cell if cell < world.road.columns else world.road.moved(cell, move)
+        if target is None:
+            raise ValueError(f"{move} leads off the road")
+        targets.append(target)
+        if target == cell:
+            standing |= 1 << cell
+    return tuple(targets), standing

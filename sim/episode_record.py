@@ -64,17 +64,18 @@ class EpisodeRecord:
         before: World,
         after: World,
         move: Move,
-        *,
         edits: int,
         certain: bool,
         by_person: bool,
         faulty: bool,
         ended: bool,
+        number: int = 0,
     ) -> EpisodeRecord:
-        """With one more move made."""
+        """With one more move made by ego `number`. To stay after it has arrived is no detour."""
         sakes = self.sakes
-        if move is not Move.FORWARD:
-            sakes = _counted(sakes, sake(before, after, by_person=by_person, faulty=faulty)[0])
+        if move is not Move.FORWARD and (len(before.avs) == 1 or before.avs[number] >= before.road.columns):
+            reason, _ = sake(before, after, by_person=by_person, faulty=faulty, number=number)
+            sakes = _counted(sakes, reason)
         return _gone_on(
             before if self.start is None else self.start,
             edits,
@@ -98,11 +99,13 @@ def sake_of(word: str) -> Sake:
     return DetourReason(word) if word in _REASONS else Kind(word)
 
 
-def sake(before: World, after: World, *, by_person: bool, faulty: bool) -> tuple[Sake, tuple[str, ...]]:
-    """For whose sake a move that was made was not straight on, and who would have been met there."""
+def sake(
+    before: World, after: World, *, by_person: bool, faulty: bool, number: int = 0
+) -> tuple[Sake, tuple[str, ...]]:
+    """For whose sake a move of ego `number` was not straight on, and who would have been met there."""
     if by_person or faulty:
         return (DetourReason.YOU if by_person else DetourReason.PLANNER), ()
-    ahead = before.av - before.road.columns
+    ahead = before.avs[number] - before.road.columns
     met = tuple(table[ahead] for table in (before.hazards, after.movers) if ahead in table)
     return (kind_of(met[0]), met) if met else (DetourReason.BETTER, ())
 

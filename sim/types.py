@@ -42,6 +42,11 @@ def kind_of(name: str) -> Kind:
     return Kind(name.rpartition("-")[0])
 
 
+def ego_id(number: int) -> str:
+    """The id of the ego at a place of `World.avs` (from 0)."""
+    return f"{Kind.AV}-{number + 1}"
+
+
 def phantom_id(kind: Kind, number: int) -> str:
     """The id of something a sensor reports that is not there ("pothole-p1"): never that of a real thing."""
     return f"{kind}-p{number}"

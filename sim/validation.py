@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import combinations
 
-from sim.commit import commit
+from sim.commit import commit, moves_with
 from sim.config import Config
 from sim.judge import collisions, outcome
 from sim.types import HAZARDS, KINDS, MARKED, MOVERS, Cell, Move, Outcome, kind_of
@@ -34,7 +34,7 @@ def validate_world(world: World) -> tuple[Defect, ...]:
 
 
 def validate_plan(world: World, plan: Iterable[Move], config: Config) -> tuple[Defect, ...]:
-    """Every way in which playing these moves is no way to row 0.
+    """Every way in which playing these moves is no way to row 0 for the first ego; others stay.
 
     A step off the road is left out and the plan goes on; after a collision it goes on as well, so that
     all that is wrong is listed. Codes: `off_road`; `hit_…`, `swap_…` and `cross_…` with what was met;
@@ -97,7 +97,8 @@ def _of_state(world: World) -> Iterator[Defect]:
         yield Defect("end_without_outcome" if world.ended is not None else "outcome_without_end", tick)
     if (world.outcome is Outcome.CRASH) is not (world.cause is not None):
         yield Defect("crash_without_cause" if world.cause is None else "cause_without_crash", tick)
-    if world.outcome is Outcome.SUCCESS and any(index >= road.columns for index in world.avs):
+    # Egos that are parked do not hold a success up, and a world does not know them.
+    if world.outcome is Outcome.SUCCESS and all(index >= road.columns for index in world.avs):
         yield Defect("not_at_goal", tick)
     if not 0 <= world.episode_start <= tick:
         yield Defect("began_later", tick)
@@ -111,11 +112,11 @@ def _of_plan(world: World, plan: Iterable[Move], config: Config) -> Iterator[Def
         if world.road.moved(world.av, move) is None:
             yield Defect("off_road", world.tick, cell=world.road.cell(world.av))
             continue
-        after = commit(world, move, config)
+        after = commit(world, moves_with(world, move), config)
         for crash in collisions(world, after, config.collision):
             yield Defect(f"{crash.how}_{crash.kind}", after.tick, crash.ids, crash.cell)
         # What was hit is noted, the plan goes on.
-        result = outcome(after, (), config.max_ticks)
+        result = outcome(after, (), config.max_ticks, range(1, len(world.avs)))
         if result is Outcome.STUCK and not arrived:
             yield Defect("too_long", after.tick)
         arrived = arrived or result is Outcome.SUCCESS

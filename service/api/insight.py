@@ -20,11 +20,12 @@ from service.api.shapes import Answered, CellPair, Decision
 from service.api.views import told_decision
 from service.problems import FieldProblem, Invalid, NotRestorable, UnknownSession
 from service.sessions.elsewhere import QUESTION_S, asks_others, off_loop
+from sim.decide import sense
 from sim.forecast import predict
 from sim.oracle.regret import regret
 from sim.plan import Decision as Taken
 from sim.session.timeline import Timeline
-from sim.state import SimState, sense
+from sim.state import SimState
 from sim.types import Move
 
 router = APIRouter(tags=["watching"], route_class=StrictRoute)

@@ -12,8 +12,9 @@ from collections.abc import Hashable, Sequence
 from functools import lru_cache
 
 from service.narrate.sayings import Sayings
+from sim.decide import sense
 from sim.perceive import sensor_named
-from sim.state import SimState, sense
+from sim.state import SimState
 from sim.types import Cell, Kind
 
 

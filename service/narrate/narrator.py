@@ -14,10 +14,11 @@ from service.narrate.outlook import outlook
 from service.narrate.replies import Replies
 from service.narrate.sayings import Sayings
 from service.sessions.facts import Answerable, Fact, Lesson
+from sim.decide import sense
 from sim.events import Event, EventType
 from sim.perceive import sensor_named
 from sim.plan import Decision, Measure, Option
-from sim.state import SimState, sense
+from sim.state import SimState
 from sim.types import Move
 
 REMEMBERED = 4_096

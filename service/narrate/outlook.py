@@ -6,10 +6,11 @@ from __future__ import annotations
 
 from service.narrate.naming import Naming
 from service.narrate.sayings import Sayings
+from sim.decide import sense
 from sim.forecast import predict
 from sim.plan import Decision, Option, traits_of
 from sim.plan.rule_based import Leads, Prospect, standing
-from sim.state import SimState, sense
+from sim.state import SimState
 from sim.types import Move, kind_of
 
 _OTHER_SIDE = {Move.LEFT: Move.RIGHT, Move.RIGHT: Move.LEFT}

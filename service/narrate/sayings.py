@@ -12,7 +12,7 @@ import yaml
 from service.resources import prompts_folder
 from sim.plan import Option
 from sim.planner_names import canonical
-from sim.types import KINDS, PLACEABLE, Cell, Move, kind_of
+from sim.types import KINDS, PLACEABLE, Cell, Kind, Move, kind_of
 
 
 class Names(Protocol):
@@ -163,6 +163,8 @@ class Sayings:
 
     def in_the_way(self, reason: str, move: Move, ids: Sequence[str], tense: str, naming: Names) -> str:
         """What is in the way of a move; in hindsight also that it was not there."""
+        if not reason.startswith("ego_"):  # where movers or hazards are in the way, they are told alone
+            ids = [name for name in ids if kind_of(name) is not Kind.AV]
         imagined = naming.imagined(ids) if tense == "then" else {}
         if imagined:
             phrases = self.joined([self.imagined(name, where) for name, where in imagined.items()])

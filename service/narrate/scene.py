@@ -10,9 +10,10 @@ from service.narrate.naming import Naming
 from service.narrate.sayings import Sayings
 from service.sessions.facts import Asked
 from service.wire.scene import misperception_json, scene_json
+from sim.decide import sense
 from sim.explain.misperception import Misperception, misperception
 from sim.explain.scene import Detection, Scene, describe_percept
-from sim.state import SimState, sense
+from sim.state import SimState
 from sim.types import PLACEABLE, Kind, Outcome
 
 MAX_TOLD: Final = 3

@@ -11,12 +11,13 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from contextlib import suppress
 
+from sim.decide import sense
 from sim.perceive import Percept
 from sim.plan import Decision
 from sim.plan.safe_planning import is_foreign, plan_answered
 from sim.plan.sandbox.answer import Answer
 from sim.plan.sandbox.client import ask
-from sim.state import SimState, sense
+from sim.state import SimState
 from sim.types import Mode, Outcome
 
 
@@ -61,4 +62,5 @@ class Asking:
 def decides(run: SimState) -> bool:
     """Whether a planner of another package decides the next move."""
     by_hand = bool(run.queue) or run.mode is Mode.MANUAL
-    return not by_hand and run.world.outcome is Outcome.RUNNING and is_foreign(run.config.planner)
+    alone = len(run.world.avs) == 1  # of several egos one decides after the other
+    return alone and not by_hand and run.world.outcome is Outcome.RUNNING and is_foreign(run.config.planner)

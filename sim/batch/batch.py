@@ -6,7 +6,7 @@ leaves out is a person: queued moves, manual mode and edits.
 
 Structure: a block of worlds is kept in the processor's nearest cache for many ticks
 (`sim.batch.layout`), one compiled call does all ticks of all worlds (`sim.batch.tick`). Guarantee: the
-same states as `sim.state.advance`, bit for bit, every tick. Idea: worlds as arrays of machine words, as
+same states as `sim.transition.step`, bit for bit, every tick. Idea: worlds as arrays of machine words, as
 in Waymax (Gulino et al., 2023) and Craftax (Matthews et al., 2024), with the set operations of chess
 engines in place of floating point.
 """
@@ -25,6 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.batch.backward_dp import weighted_moves
+from sim.batch.causes import cause_of_crash
 from sim.batch.layout import (
     ASKED,
     ATTENTIVE,
@@ -77,7 +78,7 @@ from sim.randomness import Stream
 from sim.repetition import Watch
 from sim.search.costs import weights
 from sim.state import SimState
-from sim.types import KINDS, MARKED, PLACEABLE, Kind, Outcome
+from sim.types import KINDS, MARKED, PLACEABLE, Kind, Move, Outcome
 from sim.world import World
 from sim.world.boards import Boards
 from sim.world.grid import Board, bits
@@ -102,6 +103,7 @@ _KINDS: Final = (Kind.POTHOLE, Kind.BARRIER, Kind.VEHICLE, Kind.PEDESTRIAN)
 """The kinds that the kernels know."""
 _UNKNOWN: Final = tuple(kind for kind in PLACEABLE if kind not in _KINDS)
 _OUTCOMES: Final = tuple(Outcome)
+_MOVES: Final = tuple(Move)
 _NEXT, _THIS = 1, 2
 _STATE: Final = ("_state", "_lanes", "_wholes", "_ticks", "_counts")
 """What changes as lanes advance, unless their first roads begin again."""
@@ -397,7 +399,7 @@ class Batch:
 
         barriers = fixed & ~potholes
         vehicles = (right | left) & ~walkers
-        return World(
+        world = World(
             road=self.layout.road,
             tick=tick,
             episode=int(self.episodes[lane]),
@@ -412,6 +414,11 @@ class Batch:
             hazards=ids(Kind.POTHOLE, potholes) | ids(Kind.BARRIER, barriers),
             numbered=numbered,
         )
+        if outcome is not Outcome.CRASH:
+            return world
+        # The move is that of the tick that ended, unless others went on since.
+        move = None if since else _MOVES[int(self._lane_values(ASKED)[lane])]
+        return replace(world, cause=cause_of_crash(world, move) or cause_of_crash(world, None))
 
     def digest(self, lane: int) -> str:
         """`World.digest` of one lane."""

@@ -11,6 +11,7 @@ from gymnasium import spaces
 from numpy.typing import NDArray
 
 from sim.config import Config
+from sim.decide import sense
 from sim.env import saved_state as saving
 from sim.env.actions import MOVES, STAY, action_mask, checked_action
 from sim.env.observation import Observer
@@ -18,7 +19,8 @@ from sim.env.options import one_of, refuse_unknown, reset_options, road_config, 
 from sim.env.reward import Rewards
 from sim.env.seeds import DRAWN_BELOW, checked_seed, folded
 from sim.perceive.observe import observe
-from sim.state import SimState, apply_move, next_episode, sense
+from sim.state import FIRST, SimState, next_episode
+from sim.transition import transition
 from sim.types import Outcome
 from sim.world import notation
 
@@ -117,7 +119,7 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
         if before.road.moved(before.av, MOVES[number]) is None:
             number = STAY
         # As a person's move: what repeats then proves nothing about a planner.
-        self._run = apply_move(state, MOVES[number], by_person=True)
+        self._run = transition(state, {FIRST: MOVES[number]}, by_person=(FIRST,)).state
         after = self._run.world
         arrived, crashed = after.outcome is Outcome.SUCCESS, after.outcome is Outcome.CRASH
         columns = before.road.columns

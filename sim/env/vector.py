@@ -252,7 +252,7 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
             crashes=int(totals.crashes[lane]),
             stuck=int(totals.stuck[lane]),
         )
-        return SimState(batch.configs[lane], batch.world(lane), metrics=counted)
+        return SimState(batch.configs[lane], batch.world(lane)).with_ego(metrics=counted)
 
 
 def _of_each(seed: object) -> bool:

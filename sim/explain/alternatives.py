@@ -9,13 +9,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from sim.commit import moves_with
+from sim.decide import next_belief
 from sim.explain.rollout import rollout
 from sim.oracle.lower_bounds import PATIENCE, least_ticks
 from sim.plan import Decision
 from sim.repetition import NOTHING_KEPT, Situation, situation
 from sim.search.reactive import ImpatientError
-from sim.state import SimState, next_belief, repeats_for_ever
-from sim.transition import transition
+from sim.state import SimState
+from sim.transition import next_world, repeats_for_ever
 from sim.types import Mode, Move, Outcome
 
 
@@ -68,8 +70,9 @@ def _compared(other: SimState, real: SimState) -> tuple[int | None, bool]:
 
 def after_move(state: SimState, move: Move) -> SimState:
     """The state after a move, judged."""
-    world = transition(state.world, move, state.config)
-    return replace(state, world=world, queue=(), watch=NOTHING_KEPT, belief=next_belief(state))
+    world = next_world(state.world, moves_with(state.world, move), state.config, state.parked)
+    belief = next_belief(state)
+    return replace(state.with_ego(queue=(), watch=NOTHING_KEPT, belief=belief), world=world)
 
 
 def _end(state: SimState) -> Future | None:

@@ -10,7 +10,7 @@ not, futures are drawn from it, with seeds of their own, and the share has Wilso
 A future in which the vehicle is proved to be shut off from the goal, by hazards or by movers in the rows
 before it, is followed no further: it does not arrive, however it ends.
 
-Every step is the session's own (`sim.state.advance`) with the draws of its tick set. Work is limited by
+Every step is the session's own (`sim.transition.step`) with the draws of its tick set. Work is limited by
 decisions taken and never by the clock, so the same moment has the same answer everywhere. What the sensor
 will show is not left to chance: it draws as it does in this session. Not foreseen: what a person will do.
 In manual mode it is told how it goes if the vehicle drives from here on by itself.
@@ -25,6 +25,7 @@ from itertools import chain, combinations, count, product
 from typing import Final, TypeAlias
 
 from sim.config import Config
+from sim.decide import decide_on, sense
 from sim.explain.facts import QuestionError
 from sim.forecast import Forecast
 from sim.perceive import Belief, sensor_named
@@ -35,8 +36,9 @@ from sim.search.costs import weights
 from sim.search.dead_ends import cells_that_may_arrive
 from sim.search.reachability import steps_left
 from sim.session.timeline import Timeline
-from sim.state import SimState, StepResult, decide_on, sense, step
+from sim.state import FIRST, SimState, StepResult
 from sim.statistics import wilson
+from sim.transition import step
 from sim.types import Mode, Move, Outcome
 from sim.world import World
 from sim.world.grid import Board, bits, board_of
@@ -201,7 +203,7 @@ class _Futures:
 
     def __post_init__(self) -> None:
         config = self.start.config
-        self._root = _Node(replace(self.start, mode=Mode.AUTO))
+        self._root = _Node(self.start.with_ego(mode=Mode.AUTO))
         # Sensors may show anything, but for those that show the truth.
         self._traits = traits_of(config.planner)
         self._faithful = sensor_named(config.sensor).faithful
@@ -315,7 +317,9 @@ class _Futures:
         if tick.decision is not None and tick.decision.fault is not None:
             # It may answer the next time, or cost a new process each time: neither is to be built upon.
             raise QuestionError("confidence_fault", planner=tick.decision.planner, fault=tick.decision.fault)
-        after = replace(tick.state, config=self.start.config, belief=belief)
+        after = replace(tick.state, config=self.start.config)
+        if belief != after.belief:
+            after = after.with_ego(belief=belief)
         alike = self._nodes.setdefault(self._key(after), [])
         for node in alike:
             if node.state.belief == belief:
@@ -339,7 +343,7 @@ class _Futures:
             yielding=yielding_movers(state.world, config) & moving,
             attentive=attentive_movers(state.world, config) & moving,
         )
-        return step(drawn, decide_on(drawn, seen)), belief
+        return step(drawn, {FIRST: decide_on(drawn, seen)}), belief
 
     def _key(self, state: SimState) -> tuple[int, ...]:
         """Equal for moments from which everything goes on alike, where their beliefs are equal too."""

@@ -12,12 +12,13 @@ from dataclasses import replace
 
 from sim.actions import Add, Where, WorldAction
 from sim.config import Config
+from sim.decide import decide_on, sense
 from sim.explain.factors import factors, is_factor, removal, without
 from sim.explain.facts import Counterfactual, QuestionError
 from sim.perceive import Percept, sensor_named
 from sim.plan import Decision
 from sim.session.edits import apply
-from sim.state import SimState, decide_on, sense
+from sim.state import SimState
 from sim.types import Cell, Move
 from sim.world import Thing, World
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from sim.decide import sense
 from sim.perceive import sensor_named
-from sim.state import SimState, sense
+from sim.state import SimState
 from sim.types import Kind
 from sim.world import Thing
 

@@ -7,12 +7,13 @@ may say meanwhile is left out: a story is told as if nothing were said any more.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Final
 
 from sim.episode_record import Sake, sake
 from sim.plan import Decision, traits_of
-from sim.state import SimState, StepResult, step
+from sim.state import FIRST, SimState, StepResult
+from sim.transition import step
 from sim.types import Mode, Move, Outcome
 from sim.world import Cause
 
@@ -116,7 +117,7 @@ def rollout(state: SimState, first: Decision | None = None) -> Iterator[tuple[Si
     work = faults = 0
     started = state.world.outcome is Outcome.RUNNING
     while state.world.outcome is Outcome.RUNNING or not started:
-        tick = step(state, first)
+        tick = step(state) if first is None else step(state, {FIRST: first})
         first = None
         yield state, tick
         faults = faults + 1 if tick.decision is not None and tick.decision.fault is not None else 0
@@ -191,7 +192,7 @@ def route_ahead(state: SimState, ticks: int = NEXT_TICKS) -> RouteAhead:
     """
     offered = state.mode is Mode.MANUAL and not state.queue
     chance = not state.config.certain
-    seen = replace(state, mode=Mode.AUTO) if offered else state
+    seen = state.with_ego(mode=Mode.AUTO) if offered else state
     decisions: list[Decision] = []
     detours: list[Detour] = []
     after = seen

@@ -13,13 +13,14 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Final
 
+from sim.commit import moves_with
 from sim.episode_record import EpisodeRecord, Sake
 from sim.forecast import Forecast
 from sim.oracle.lower_bounds import can_arrive, least_ticks
 from sim.search.reachability import steps_left
 from sim.search.reactive import ImpatientError
 from sim.state import SimState
-from sim.transition import transition
+from sim.transition import next_world
 from sim.types import Move, Outcome
 from sim.world import Cause
 
@@ -85,7 +86,7 @@ def summary(state: SimState) -> Summary:
         with suppress(ImpatientError):
             best = least_ticks(_at_first(state, course), states)
     if world.outcome is Outcome.CRASH and course.last is not None:
-        before = replace(state, world=course.last, queue=())
+        before = replace(state.with_ego(queue=()), world=course.last)
         free = any(Forecast.of_truth(before.world, state.config, 1).own_steps())
         with suppress(ImpatientError):
             open_before = can_arrive(before, states) if course.certain else None
@@ -122,7 +123,7 @@ def long_to_tell(state: SimState) -> bool:
 def _at_first(state: SimState, course: EpisodeRecord) -> SimState:
     """The run as the episode began, with the present configuration."""
     assert course.start is not None
-    return replace(state, world=course.start, queue=())
+    return replace(state.with_ego(queue=()), world=course.start)
 
 
 def _open_until(state: SimState, course: EpisodeRecord) -> int | None:
@@ -152,10 +153,10 @@ def _open_until_reacting(state: SimState, course: EpisodeRecord) -> int | None:
     """
     worlds = [_at_first(state, course).world]
     for move in course.made():
-        worlds.append(transition(worlds[-1], move, state.config))
+        worlds.append(next_world(worlds[-1], moves_with(worlds[-1], move), state.config, state.parked))
     worlds.pop()  # nothing was decided in it
     first_closed = bisect_left(
-        worlds, True, key=lambda world: not can_arrive(replace(state, world=world, queue=()), STATES)
+        worlds, True, key=lambda world: not can_arrive(replace(state.with_ego(queue=()), world=world), STATES)
     )
     return first_closed - 1 if first_closed else None
 

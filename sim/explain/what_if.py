@@ -11,6 +11,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 
 from sim.actions import Add, Drive, Remove, SetCount, WorldAction
+from sim.decide import decide_on, sense
 from sim.explain.facts import QuestionError
 from sim.explain.rollout import EpisodeRollout, rollout, summarize
 from sim.oracle.lower_bounds import PATIENCE
@@ -19,7 +20,7 @@ from sim.plan import Decision
 from sim.search.reactive import ImpatientError
 from sim.session.edits import Applied, apply
 from sim.session.timeline import Timeline
-from sim.state import SimState, StepResult, decide_on, sense
+from sim.state import SimState, StepResult
 from sim.types import Move, Outcome
 
 

@@ -5,19 +5,23 @@ Risk and preferences enter as further terms beside `fixed` and the slices.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from typing import Final, Literal
 
 from sim.config import Config
 from sim.fast_replace import fast_constructor
 from sim.forecast.rollout import RollOut
-from sim.perceive import Percept, perceive_truth
+from sim.perceive import OtherEgo, Percept, perceive_truth
+from sim.rules.contacts import Denied, denied_steps, egos_touch
 from sim.rules.traffic import Steps, free_steps, spread, spread_back, swap_conflicts
 from sim.types import HAZARDS, Kind, Move
 from sim.world import World
 from sim.world.boards import Boards
-from sim.world.grid import Board, Road
+from sim.world.grid import Board, Road, bits, board_of
+
+_MOVES: Final = tuple(Move)
 
 
 class StepVerdict(StrEnum):
@@ -33,6 +37,11 @@ class StepVerdict(StrEnum):
     MOVER_SWAPS = "mover_swaps"
     MOVER_CROSSES = "mover_crosses"
     """a mover cuts off a diagonal: from that side it enters the vehicle's cell or the one straight ahead"""
+    EGO_ENTERS = "ego_enters"
+    EGO_STAYS = "ego_stays"
+    EGO_SWAPS = "ego_swaps"
+    EGO_CROSSES = "ego_crosses"
+    """another ego touches this one on the way, although both end in other cells"""
 
     @property
     def blocks(self) -> bool:
@@ -59,6 +68,8 @@ class Forecast:
     """whether bodies collide by what they sweep within a tick"""
     hazards: Mapping[int, str]
     slices: RollOut
+    egos: tuple[OtherEgo, ...] = ()
+    """the other egos: they make the move they have announced, and then stand where it leads"""
 
     @staticmethod
     def of_truth(world: World, config: Config, horizon: int, ego: int = 0) -> Forecast:
@@ -90,7 +101,43 @@ class Forecast:
 
     def blocked(self, ahead: int = 0) -> Board:
         """Every cell that anything stands in, `ahead` + 1 ticks from now."""
-        return self.fixed | self.slices[ahead].occupied
+        return self.fixed | self.slices[ahead].occupied | (self.slices.standing if self.egos else 0)
+
+    @property
+    def _rule(self) -> Literal["swept", "cell"]:
+        return "swept" if self.swept else "cell"
+
+    @property
+    def parked(self) -> Board:
+        """The cells of other egos that stay until a person asks for something."""
+        return board_of([other.cell for other in self.egos if other.parked])
+
+    def taken(self, ahead: int = 0) -> Board:
+        """The cells that other egos keep this one from entering, `ahead` ticks from now.
+
+        In the first tick those are the ends of its own steps that would touch one, later where they stand.
+        """
+        if not self.egos:
+            return 0
+        if ahead:
+            return self.slices.standing
+        ends = [self.road.moved(self.ego, move) for move in Move if self.meets_ego(move)]
+        return board_of([end for end in ends if end is not None])
+
+    def meets_ego(self, move: Move) -> bool:
+        """Whether a move in the coming tick would touch another ego."""
+        return bool(self.egos) and bool(self._denied()[_MOVES.index(move)].starts >> self.ego & 1)
+
+    def _denied(self) -> Sequence[Denied]:
+        """For each move, in the order of `Move`, what the other egos deny in the coming tick."""
+        road = self.road
+        found = [
+            denied_steps(road.columns, road.rows, other.cell, other.move, self._rule) for other in self.egos
+        ]
+        return [
+            Denied(_union(each.starts for each in of_move), _union(each.ends for each in of_move))
+            for of_move in zip(*found, strict=True)
+        ]
 
     @property
     def standing(self) -> Forecast | None:
@@ -117,6 +164,10 @@ class Forecast:
         """
         road = self.road
         right, left, came_right, came_left = self.slices[ahead]
+        if self.egos:
+            if not ahead:
+                return _union(self.steps(start))
+            right |= self.slices.standing
         return spread(
             start,
             start >> road.columns,
@@ -138,13 +189,18 @@ class Forecast:
         beside, on = spread_back(
             end, came_right, came_left, *self.cut_off(ahead), road.left_edge, road.right_edge
         )
-        return beside | on << road.columns & road.all
+        found = beside | on << road.columns & road.all
+        if not self.egos:
+            return found
+        return board_of([start for start in bits(found) if self.spread(1 << start, ahead) & end])
 
     def steps(self, start: Board, ahead: int = 0) -> Steps:
         """Where vehicles in `start` may be one tick later, `ahead` ticks from now. Nobody brakes."""
         road = self.road
         right, left, came_right, came_left = self.slices[ahead]
-        return free_steps(
+        if self.egos and ahead:
+            right |= self.slices.standing
+        found = free_steps(
             start,
             start >> road.columns,
             self.boards.fixed | right | left,
@@ -154,6 +210,15 @@ class Forecast:
             road.left_edge,
             road.right_edge,
         )
+        return self._without_egos(start, found) if self.egos and not ahead else found
+
+    def _without_egos(self, start: Board, steps: Steps) -> Steps:
+        """The steps of the coming tick that touch no other ego."""
+        free = []
+        for board, (starts, ends) in zip(steps, self._denied(), strict=True):
+            # The ends of one move are its starts moved by one offset, so bits do not mix.
+            free.append(board & ~ends if start & starts else board)
+        return Steps(*free)
 
     def own_steps(self) -> Steps:
         """Where the forecast's own vehicle may be after the coming tick; a mover may brake for it."""
@@ -195,7 +260,31 @@ class Forecast:
             who = (self.hazards[end], *who)
             if not bit & self.disabled:
                 verdict = _VERDICTS[self.boards.fixed_kind(end)]
+        if self.egos and (others := self._met_egos(start, end, ahead)):
+            who = (*who, *(other.id for other in others))
+            if verdict is StepVerdict.FREE:
+                verdict = self._ego_verdict(start, end, ahead, others[0])
         return verdict, who
+
+    def _met_egos(self, start: int, end: int, ahead: int) -> list[OtherEgo]:
+        """The other egos that a step touches, those first that end in the same cell."""
+        road = self.road
+        if ahead:
+            return [other for other in self.egos if _end(road, other) == end]
+        met = [
+            other
+            for other in self.egos
+            if egos_touch(road, (start, end), (other.cell, _end(road, other)), self._rule)
+        ]
+        return sorted(met, key=lambda other: _end(road, other) != end)
+
+    def _ego_verdict(self, start: int, end: int, ahead: int, other: OtherEgo) -> StepVerdict:
+        theirs = _end(self.road, other)
+        if theirs == end:
+            stays = ahead or other.move is Move.STAY
+            return StepVerdict.EGO_STAYS if stays else StepVerdict.EGO_ENTERS
+        swaps = other.cell == end and theirs == start
+        return StepVerdict.EGO_SWAPS if swaps else StepVerdict.EGO_CROSSES
 
     def _crossing(self, start: int, end: int, ahead: int) -> tuple[int, ...]:
         """The cells of the movers that cut off a diagonal, after the tick; empty for any other step."""
@@ -223,7 +312,21 @@ _expected = fast_constructor(
     "swept",
     "hazards",
     "slices",
+    "egos",
 )
+
+
+def _union(boards: Iterable[Board]) -> Board:
+    board = 0
+    for each in boards:
+        board |= each
+    return board
+
+
+def _end(road: Road, other: OtherEgo) -> int:
+    """The cell that another ego's announced move leads to."""
+    end = road.moved(other.cell, other.move)
+    return other.cell if end is None else end
 
 
 def predict(percept: Percept, horizon: int) -> Forecast:
@@ -240,4 +343,5 @@ def predict(percept: Percept, horizon: int) -> Forecast:
         percept.swept,
         percept.hazards,
         RollOut(percept, horizon),
+        percept.egos,
     )

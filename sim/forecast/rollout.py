@@ -1,9 +1,13 @@
 """Movers rolled out by the rules, as far ahead as is read and no further than was asked for.
 
 The roll-out assumes that movers do not react to the vehicle after the first tick: nobody gives way and
-nobody brakes. With perfect sight and no courtesy it *is* what happens along every way that meets nothing,
-since a mover only brakes for a vehicle that stands where it would be hit. `if_standing` is the roll-out where
-it brakes in the first tick.
+nobody brakes, but for other egos. With perfect sight and no courtesy it *is* what happens along every way
+that meets nothing, since a mover only brakes for a vehicle that stands where it would be hit. `if_standing`
+is the roll-out where it brakes in the first tick.
+
+Other egos make the move they have announced and then stand where it leads, as far as is known. Movers brake
+for those that stand: in the first tick those that are attentive then, later all. A mover that would not brake
+ends the episode, so that what comes after it does not matter.
 """
 
 from __future__ import annotations
@@ -15,7 +19,9 @@ from sim.perceive import Percept
 from sim.rules.kinds import resting_movers, shift_boards
 from sim.rules.traffic import Motion, brake, move_movers
 from sim.rules.traffic_cache import cached_move_movers, cached_shift_table
+from sim.types import Move
 from sim.world.boards import Boards
+from sim.world.grid import Board, board_of
 
 
 class RollOut(Sequence[Motion]):
@@ -29,6 +35,7 @@ class RollOut(Sequence[Motion]):
         "_right",
         "_shifted",
         "_slices",
+        "_standing",
         "_stands",
         "_tables",
         "percept",
@@ -52,6 +59,7 @@ class RollOut(Sequence[Motion]):
         self._shifted = [boards]
         self._tables: list[Mapping[int, str]] = []
         self._right, self._left = percept.right, percept.left
+        self._standing: Board | None = None
 
     def __len__(self) -> int:
         return self._horizon
@@ -88,6 +96,15 @@ class RollOut(Sequence[Motion]):
             self._shifted.append(shift_boards(self._shifted[-1], self[len(self._shifted) - 1]))
         return self._shifted[ahead + 1]
 
+    @property
+    def standing(self) -> Board:
+        """The cells that other egos stand in after the first tick."""
+        if self._standing is None:
+            road = self.percept.road
+            ends = [(other.cell, road.moved(other.cell, other.move)) for other in self.percept.egos]
+            self._standing = board_of([cell if end is None else end for cell, end in ends])
+        return self._standing
+
     def if_standing(self) -> RollOut | None:
         """The roll-out where the vehicle does not move in the first tick; None where that changes nothing."""
         percept, motion = self.percept, self[0]
@@ -115,5 +132,15 @@ class RollOut(Sequence[Motion]):
         )
         if self._stands and not ahead:
             motion = brake(motion, 1 << percept.ego, percept.attentive)
+        if percept.egos:
+            motion = self._braked_for_egos(motion, ahead)
         self._right, self._left = motion.right, motion.left
         return motion
+
+    def _braked_for_egos(self, motion: Motion, ahead: int) -> Motion:
+        """The motion of a tick with the movers that brake for other egos."""
+        percept = self.percept
+        if ahead:
+            return brake(motion, self.standing, percept.road.all)
+        staying = board_of([other.cell for other in percept.egos if other.move is Move.STAY])
+        return brake(motion, staying, percept.attentive)

@@ -21,12 +21,13 @@ from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import Final
 
+from sim.commit import moves_with
 from sim.forecast import Forecast
 from sim.oracle.ddmin import ddmin
 from sim.oracle.lower_bounds import can_arrive, foreseen, quickest_plan
 from sim.rules.traffic import beside
 from sim.state import SimState
-from sim.transition import transition
+from sim.transition import next_world
 from sim.types import Move, Outcome
 from sim.world.grid import Board, bits
 
@@ -77,7 +78,7 @@ def arrives(state: SimState, plan: Iterable[Move]) -> bool:
     for move in plan:
         if world.outcome is not Outcome.RUNNING or world.road.moved(world.av, move) is None:
             return False
-        world = transition(world, move, state.config)
+        world = next_world(world, moves_with(world, move), state.config, state.parked)
     return world.outcome is Outcome.SUCCESS
 
 

@@ -4,7 +4,7 @@ Camera, lidar, radar, weather and night come behind this door; today there is th
 not look through it: they stand on the truth (`perceive_truth`, `sim.forecast.Forecast.of_truth`).
 """
 
-from sim.perceive.percept import Percept
+from sim.perceive.percept import OtherEgo, Percept
 from sim.perceive.perfect import perceive_truth
 from sim.perceive.registry import perceive, register_sensor, sensor_named, unregister_sensor
 from sim.perceive.sensor import NO_BELIEF, Belief, Sensor
@@ -12,6 +12,7 @@ from sim.perceive.sensor import NO_BELIEF, Belief, Sensor
 __all__ = [
     "NO_BELIEF",
     "Belief",
+    "OtherEgo",
     "Percept",
     "Sensor",
     "perceive",

@@ -4,12 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from sim.fast_replace import field_setter
-from sim.types import Kind
+from sim.types import Kind, Move
 from sim.world import Thing
 from sim.world.boards import Boards
 from sim.world.grid import Board, Road
+
+
+class OtherEgo(NamedTuple):
+    """Another ego, as it tells of itself: announcements need no sensor."""
+
+    id: str
+    cell: int
+    """cell index now"""
+    move: Move
+    """the move it has announced for the coming tick; to stay where it has announced none"""
+    parked: bool
+    """whether it stays until a person asks for something: it has arrived, or nobody drives it"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,6 +48,8 @@ class Percept:
     """whether bodies collide by what they sweep within a tick (`Config.collision`)"""
     movers: Mapping[int, str]
     hazards: Mapping[int, str]
+    egos: tuple[OtherEgo, ...] = ()
+    """the other egos, in the order of their ids"""
 
     @property
     def potholes(self) -> Board:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Mapping
+
 from sim.config import Config
 from sim.fast_replace import fast_constructor
-from sim.perceive.percept import Percept
+from sim.perceive.percept import OtherEgo, Percept
 from sim.perceive.sensor import NO_BELIEF, Belief
 from sim.rules.yielding import attentive_movers, yielding_movers
-from sim.types import Kind
+from sim.types import Move, ego_id
 from sim.world import World
 
 _seen = fast_constructor(
@@ -26,17 +28,28 @@ _seen = fast_constructor(
     "swept",
     "movers",
     "hazards",
+    "egos",
 )
+_NOTHING: dict[int, Move] = {}
 
 
-def perceive_truth(world: World, config: Config, ego: int = 0) -> Percept:
-    """All that is, as autonomous vehicle number `ego` (from 0) sees it with perfect sight."""
+def perceive_truth(
+    world: World,
+    config: Config,
+    ego: int = 0,
+    announced: Mapping[int, Move] = _NOTHING,
+    parked: Collection[int] = (),
+) -> Percept:
+    """All that is, as ego number `ego` (from 0) sees it with perfect sight.
+
+    `announced`: the moves that other egos have told it of; `parked`: the egos that stay. Both by number.
+    """
     return _seen(
         world.road,
         world.tick,
         world.episode_tick,
         world.avs[ego],
-        f"{Kind.AV}-{ego + 1}",
+        ego_id(ego),
         world.right,
         world.left,
         world.boards,
@@ -46,6 +59,23 @@ def perceive_truth(world: World, config: Config, ego: int = 0) -> Percept:
         config.collision == "swept",
         world.movers,
         world.hazards,
+        () if len(world.avs) == 1 else other_egos(world, ego, announced, parked),
+    )
+
+
+def other_egos(
+    world: World, ego: int, announced: Mapping[int, Move], parked: Collection[int]
+) -> tuple[OtherEgo, ...]:
+    """What the other egos tell ego number `ego` of themselves; no sensor has a part in it."""
+    return tuple(
+        OtherEgo(
+            ego_id(number),
+            cell,
+            announced.get(number, Move.STAY),
+            number in parked or cell < world.road.columns,
+        )
+        for number, cell in enumerate(world.avs)
+        if number != ego
     )
 
 

@@ -20,6 +20,7 @@ from math import inf
 from typing import Any, Final
 
 from sim.config import Config
+from sim.decide import sense
 from sim.forecast import predict
 from sim.perceive import Percept
 from sim.plan.protocol import Planner
@@ -37,7 +38,8 @@ from sim.plan.sandbox.answer import (
 )
 from sim.plan.sandbox.codec import asked, question
 from sim.planner_names import installed, refused
-from sim.state import SimState, sense, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Move, Outcome
 
 MAX_TOLD = 20

@@ -123,6 +123,9 @@ def standing(forecast: Forecast) -> Standing:
     columns = road.columns
     right, left, _, _ = forecast.slices[0]
     fixed = forecast.fixed
+    if forecast.egos and (parked := forecast.parked):
+        # A mover that brakes for a parked ego stays and keeps facing it.
+        fixed |= parked | right & parked >> 1 | left & parked << 1
     ways = ways_past(
         columns, road.rows, fixed | locked_in(right | left, fixed, road.left_edge, road.right_edge)
     )

@@ -13,13 +13,14 @@ from typing import Final
 
 import pygame
 
+from sim.decide import sense
 from sim.forecast import predict
 from sim.plan import Decision, Measure, Option
 from sim.render import theme
 from sim.render.sprites import av_sprite, sprite_of
 from sim.render.text import cut, width_of, wrapped, written
 from sim.render.theme import Colour
-from sim.state import SimState, sense
+from sim.state import SimState
 from sim.types import HAZARDS, MARKED, MOVERS, Cell, Kind, Move
 
 ACROSS: Final = 9

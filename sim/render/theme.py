@@ -87,6 +87,10 @@ REASONS: Final[dict[str, str]] = {
     "mover_enters": "coming",
     "mover_swaps": "head-on",
     "mover_crosses": "cut off",
+    "ego_stays": "in the way",
+    "ego_enters": "coming",
+    "ego_swaps": "head-on",
+    "ego_crosses": "cut off",
 }
 """why a move is not taken, in a few words; who it is stands before those about movers"""
 MOVES: Final[dict[str, str]] = {

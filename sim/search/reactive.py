@@ -23,7 +23,7 @@ from sim.search.dead_ends import cells_that_may_arrive
 from sim.types import Move
 from sim.world import World
 from sim.world.boards import Boards
-from sim.world.grid import Board, bits
+from sim.world.grid import Board, bits, board_of
 
 _MOVES = tuple(Move)
 
@@ -130,13 +130,17 @@ class ReactiveSearch:
         slices = self.forecast.slices
         below = row.number * columns
         whole = (1 << columns) - 1
+        taken = self._taken(below + column, ahead)
         on_start = below - columns
         coming = slices[ahead]
         on_right, on_left = coming.came_right >> on_start & whole, coming.came_left >> on_start & whole
         cut_left = (moved.came_right | on_right) if swept else 0
         cut_right = (moved.came_left | on_left) if swept else 0
-        blocked_on = self._fixed(row.number - 1) | coming.occupied >> on_start & whole
-        own = free_steps(bit, 0, fixed | moved.occupied, moved.came_right, moved.came_left, 0, 0, 1, last)
+        blocked_on = self._fixed(row.number - 1) | (coming.occupied | taken) >> on_start & whole
+        blocked_own = fixed | taken >> below & whole
+        own = free_steps(
+            bit, 0, blocked_own | moved.occupied, moved.came_right, moved.came_left, 0, 0, 1, last
+        )
         on = free_steps(0, bit, blocked_on, 0, 0, cut_left, cut_right, 1, last)
         here = self._after(row, moved)
         front = self._entered(row.number - 1, ahead)
@@ -151,15 +155,15 @@ class ReactiveSearch:
         ):
             if end:
                 yield index, there, end.bit_length() - 1
-        if not bit & (fixed | stood.occupied):
+        if not bit & (blocked_own | stood.occupied):
             yield len(_MOVES) - 1, self._after(row, stood), column
 
     def _motions(self, row: Row, column: int, fixed: Board, ahead: int) -> tuple[Motion, Motion]:
         """The movers of the row in this tick while the vehicle leaves its cell, and while it stands."""
         world, config = self.world, self.config
         columns, bit = world.road.columns, 1 << column
-        moving = row.right | row.left
-        disabled = moving & (world.boards.holding >> row.number * columns & (1 << columns) - 1)
+        moving, whole = row.right | row.left, (1 << columns) - 1
+        disabled = moving & (world.boards.holding >> row.number * columns & whole)
         giving = braking = 0
         if moving & (bit << 1 | bit >> 1):
             giving, braking = self._reacting(row, column, ahead)
@@ -173,7 +177,22 @@ class ReactiveSearch:
             1,
             1 << columns - 1,
         )
+        if self.forecast.egos:
+            moved = brake(moved, self._others_standing(row.number, ahead), whole)
         return moved, brake(moved, bit, braking) if braking else moved
+
+    def _taken(self, cell: int, ahead: int) -> Board:
+        """The cells that other egos keep the vehicle from entering, from a cell, in this tick."""
+        forecast = self.forecast
+        return forecast.taken(ahead) if forecast.egos and (ahead or cell == forecast.ego) else 0
+
+    def _others_standing(self, number: int, ahead: int) -> Board:
+        """The columns of a row that other egos stand in throughout this tick."""
+        columns, forecast = self.world.road.columns, self.forecast
+        standing = forecast.slices.standing
+        if not ahead:
+            standing &= board_of([other.cell for other in forecast.egos])
+        return standing >> number * columns & (1 << columns) - 1
 
     def _reacting(self, row: Row, column: int, ahead: int) -> tuple[Board, Board]:
         """The movers of the row that give way, and those that brake, in this tick: as they are drawn."""

@@ -127,7 +127,7 @@ class TimeExpandedGraph:
             near.append(spread)
         cut_left, cut_right = forecast.cut_off(ahead)
         return Layer(
-            forecast.fixed | motion.occupied,
+            forecast.fixed | motion.occupied | forecast.taken(ahead),
             road.left_edge | motion.came_right,
             road.right_edge | motion.came_left,
             road.left_edge | cut_left << road.columns,

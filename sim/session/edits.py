@@ -73,7 +73,9 @@ def apply(state: SimState, action: WorldAction) -> Applied:
         events = (event,)
     done = _apply(begun, action)
     changes = () if done.state is state else differences(state, done.state)
-    after = replace(done.state, watch=NOTHING_KEPT) if done.state.watch is not NOTHING_KEPT else done.state
+    after = done.state
+    if after.watch is not NOTHING_KEPT:
+        after = after.with_ego(watch=NOTHING_KEPT)
     return Applied(done.action, after, changes, done.added, done.removed, (*events, *done.events))
 
 
@@ -91,11 +93,11 @@ def _apply(state: SimState, action: WorldAction) -> Applied:
             begun, event = restart_episode(state)
             return Applied(action, begun, events=(event,))
         case SetMode():
-            return Applied(action, replace(state, mode=action.mode, queue=()))
+            return Applied(action, state.with_ego(mode=action.mode, queue=()))
         case Drive():
             if len(state.queue) >= MAX_QUEUE:
                 raise EditError("too_many_moves", "move", most=MAX_QUEUE)
-            return Applied(action, replace(state, queue=(*state.queue, action.move)))
+            return Applied(action, state.with_ego(queue=(*state.queue, action.move)))
         case Prefer():
             return Applied(action, replace(state, config=add_preference(state.config, action.preference)))
         case Set() | Adjust():

@@ -17,11 +17,12 @@ from hashlib import blake2b
 from typing import Any, TypeVar
 
 from sim.config import COUNTS, Config
+from sim.ego import Ego
 from sim.episode_record import EpisodeRecord, sake_of
 from sim.metrics import Metrics
 from sim.perceive import NO_BELIEF
 from sim.repetition import Situation, Watch
-from sim.state import SimState
+from sim.state import FIRST, SimState
 from sim.types import MARKED, Kind, Mode, Move, Outcome
 from sim.world import Cause, World
 from sim.world.boards import Boards
@@ -64,6 +65,7 @@ class Packer:
         self._configs, self._tables, self._numbered = Pool(), Pool(), Pool()
         self._worlds, self._runs = Pool(), Pool()
         self._digests = blake2b(digest_size=16)
+        self._planners: set[str] = set()
 
     def run(self, state: SimState) -> int:
         """The number of a run. Raises `BeliefError`."""
@@ -82,24 +84,33 @@ class Packer:
 
     def planners(self) -> set[str]:
         """Every planner that one of them is driven by."""
-        return {config["planner"] for config in self._configs.values}
+        return {config["planner"] for config in self._configs.values} | self._planners
 
     def config(self, config: Config) -> int:
         """The number of a configuration."""
         return self._configs.number(config, _config)
 
     def _run(self, state: SimState) -> list[Any]:
-        if state.belief is not NO_BELIEF:
-            raise BeliefError(f"the belief of the sensor {state.config.sensor} is rebuilt by replay alone")
-        record = state.record
+        first, *others = [self._ego(ego, state.config) for ego in state.egos.values()]
+        _, planner, mode, queue, metrics, fault, record, watch = first
+        parts = [self.config(state.config), self._world(state.world), mode, queue, metrics, state.edits]
+        parts += [fault, record, watch]
+        # One ego with the configuration's planner is nearly all there is, and all there was once.
+        return [*parts, planner, others] if others or planner is not None else parts
+
+    def _ego(self, ego: Ego, config: Config) -> list[Any]:
+        if ego.belief is not NO_BELIEF:
+            raise BeliefError(f"the belief of the sensor {config.sensor} is rebuilt by replay alone")
+        record = ego.record
+        if ego.planner is not None:
+            self._planners.add(ego.planner)
         return [
-            self.config(state.config),
-            self._world(state.world),
-            state.mode,
-            [*state.queue],
-            [getattr(state.metrics, name) for name in _METRICS],
-            state.edits,
-            state.fault,
+            ego.id,
+            ego.planner,
+            ego.mode,
+            [*ego.queue],
+            [getattr(ego.metrics, name) for name in _METRICS],
+            ego.fault,
             [
                 None if record.start is None else self._world(record.start),
                 record.edits,
@@ -109,7 +120,7 @@ class Packer:
                 [[*each] for each in record.sakes],
                 None if record.last is None else self._world(record.last),
             ],
-            _watch(state.watch),
+            _watch(ego.watch),
         ]
 
     def _world(self, world: World) -> int:
@@ -126,7 +137,7 @@ class Packer:
             world.episode_start,
             world.outcome,
             world.ended,
-            None if cause is None else [cause.how, cause.kind, [*cause.ids], [*cause.cell]],
+            None if cause is None else _written_cause(cause),
             [*world.avs],
             *(f"{board:x}" for board in _boards(world)),
             self._tables.number(world.movers, _table),
@@ -201,9 +212,14 @@ def _world(
     )
 
 
-def _cause(how: str, kind: str, ids: Sequence[str], cell: Sequence[int]) -> Cause:
+def _written_cause(cause: Cause) -> list[Any]:
+    parts = [cause.how, cause.kind, [*cause.ids], [*cause.cell]]
+    return parts if cause.ego == FIRST else [*parts, cause.ego]
+
+
+def _cause(how: str, kind: str, ids: Sequence[str], cell: Sequence[int], ego: str = FIRST) -> Cause:
     column, row = cell
-    return Cause(how, Kind(kind), tuple(ids), (column, row))
+    return Cause(how, Kind(kind), tuple(ids), (column, row), ego)
 
 
 def _watch(watch: Watch) -> list[Any]:
@@ -225,15 +241,22 @@ def _read_watch(parts: Sequence[Any]) -> Watch:
 
 
 def _run(parts: Sequence[Any], configs: Sequence[Config], worlds: Sequence[World]) -> SimState:
-    config, world, mode, queue, metrics, edits, fault, record, watch = parts
+    config, world, mode, queue, metrics, edits, fault, record, watch, *more = parts
+    planner, others = more if more else (None, [])
+    first = [FIRST, planner, mode, queue, metrics, fault, record, watch]
+    egos = [_read_ego(each, worlds) for each in (first, *others)]
+    return SimState(configs[config], worlds[world], {ego.id: ego for ego in egos}, edits)
+
+
+def _read_ego(parts: Sequence[Any], worlds: Sequence[World]) -> Ego:
+    id, planner, mode, queue, metrics, fault, record, watch = parts
     start, seen, changed, certain, moves, sakes, last = record
-    return SimState(
-        configs[config],
-        worlds[world],
+    return Ego(
+        id,
+        planner,
         Mode(mode),
         tuple(Move(move) for move in queue),
         Metrics(**dict(zip(_METRICS, metrics, strict=True))),
-        edits,
         fault,
         EpisodeRecord(
             None if start is None else worlds[start],

@@ -11,7 +11,8 @@ heading, `)` `(` pedestrians; `}` `{` a vehicle held by a pothole, `]` `[` a ped
 The signs are those of `sim.types.KINDS`.
 `ids` gives numbers by kind in reading order, and `next` the first number not yet given; without them
 things are numbered 1, 2, 3 … An autonomous vehicle that shares its cell is on a line of its own
-(`av 4,29`), as is the cause of a crash (`cause swap vehicle-7 at 4,12`). An outcome other than
+(`av 4,29`), as is the cause of a crash (`cause swap vehicle-7 at 4,12`, and
+` by av-2` where it was not the first ego's). An outcome other than
 `running` is followed by the tick it was decided at (`crash at 12`).
 """
 
@@ -20,7 +21,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 
-from sim.types import HAZARDS, KINDS, MOVERS, PLACEABLE, Cell, Kind, Outcome, kind_of
+from sim.types import HAZARDS, KINDS, MOVERS, PLACEABLE, Cell, Kind, Outcome, ego_id, kind_of
 from sim.world import Cause, World
 from sim.world.boards import BOARDED, Boards
 from sim.world.grid import Board, Road, bits, board_of
@@ -31,7 +32,7 @@ MAX_CELLS = 64 * 512
 _HEAD = re.compile(
     r"road (\d+)x(\d+) tick (\d+) episode (\d+) from (\d+) (running|success|crash|stuck)(?: at (\d+))?"
 )
-_CAUSE = re.compile(r"cause (hit|swap|cross) (\S+(?: \S+)*) at (\d+),(\d+)")
+_CAUSE = re.compile(r"cause (hit|swap|cross) (\S+(?: \S+)*) at (\d+),(\d+)(?: by (av-\d+))?")
 
 
 def _signs() -> Iterator[tuple[str, tuple[str, ...]]]:
@@ -82,7 +83,8 @@ def write(world: World) -> str:
         lines.append("av " + " ".join(_point(road.cell(cell)) for cell in world.avs))
     if world.cause is not None:
         cause = world.cause
-        lines.append(f"cause {cause.how} {' '.join(cause.ids)} at {_point(cause.cell)}")
+        by = "" if cause.ego == ego_id(0) else f" by {cause.ego}"
+        lines.append(f"cause {cause.how} {' '.join(cause.ids)} at {_point(cause.cell)}{by}")
     ids = {kind: [world.id_at(cell, kind) for cell in bits(world.board(kind))] for kind in PLACEABLE}
     told = [
         f"{kind} {' '.join(name.rpartition('-')[2] for name in names)}"
@@ -194,7 +196,7 @@ def _read_cause(road: Road, line: str | None) -> Cause | None:
         raise NotationError(f"'{line}': {ids[0]} is no id of a thing") from error
     if not road.holds(cell):
         raise NotationError(f"'{line}': {_point(cell)} is not on the road")
-    return Cause(match[1], kind, ids, cell)
+    return Cause(match[1], kind, ids, cell, match[5] or ego_id(0))
 
 
 def _read_ids(

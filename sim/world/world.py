@@ -44,6 +44,8 @@ class Cause:
     kind: Kind
     ids: tuple[str, ...]
     cell: Cell
+    ego: str = "av-1"
+    """the ego that crashed; of two egos, the later one by id"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -7,7 +7,8 @@ from typing import Any
 from service import actions as contract
 from sim.session.edits import apply
 from sim.session.errors import EditError
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Outcome
 from tests.model.compare import holds, same
 from tests.model.plan import Json

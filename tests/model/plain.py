@@ -18,13 +18,15 @@ from service import actions as contract
 from service.actions import Action
 from sim.actions import Adjust, Scenario, Set
 from sim.config import Config
+from sim.decide import decide
 from sim.oracle.outlook import Outlook, outlook, quickly_open
 from sim.plan import Decision
 from sim.session.edits import apply
 from sim.session.errors import EditError
 from sim.session.scenario import find_unavailable
 from sim.session.settings import is_available
-from sim.state import SimState, decide, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Outcome
 
 MOST_STEPS = 1_000

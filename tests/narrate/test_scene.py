@@ -14,7 +14,8 @@ from service.sessions.facts import Asked
 from sim.explain.scene import describe_percept
 from sim.perceive import perceive_truth
 from sim.session.timeline import Timeline
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import PLACEABLE, Kind, Outcome
 from tests.narrate.test_narrator import ID, looks_like_sentences
 from tests.sim.explain.moments import moments

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -86,7 +85,7 @@ def test_read_aloud(change: list[dict[str, Any]], words: str) -> None:
 
 
 def test_driven_by_hand() -> None:
-    told = asked(replace(HOLE, mode=Mode.MANUAL), REMOVE)
+    told = asked(HOLE.with_ego(mode=Mode.MANUAL), REMOVE)
     assert told["text"] == (
         "You are driving, and as long as you ask for nothing I stay where I am. If the pothole right ahead "
         "were not there, nothing would change: I would make the same moves, and get stuck."

@@ -27,7 +27,8 @@ from sim.events import Event
 from sim.generation import GenerationError
 from sim.plan import Decision
 from sim.session.edits import Applied, EditError, apply
-from sim.state import SimState, StepResult, step
+from sim.state import SimState, StepResult
+from sim.transition import step
 from sim.types import Mode, Move, Outcome
 
 KEPT: Final = Path(__file__).parents[1] / "data" / "v2" / "episodes.json"

@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from sim.commit import commit
 from sim.forecast import Forecast, StepVerdict, predict
 from sim.perceive import perceive_truth
-from sim.state import commit
 from sim.types import Move
 from sim.world import World
 from sim.world.grid import bits
@@ -28,7 +28,7 @@ def test_movers_are_foreseen_where_they_will_be(world: World) -> None:
     forecast = Forecast.of_truth(world, run_on(world).config, horizon)
     later = world
     for ahead in range(horizon):
-        later = commit(later, Move.STAY, run_on(world).config)
+        later = commit(later, (Move.STAY,), run_on(world).config)
         slice_ = forecast.slices[ahead]
         assert forecast.slices.movers(ahead) == later.movers
         assert set(bits(slice_.occupied)) == set(later.movers)
@@ -39,7 +39,7 @@ def test_movers_are_foreseen_where_they_will_be(world: World) -> None:
 def test_courtesy_is_known_for_the_coming_tick(world: World) -> None:
     config = run_on(world, courtesy=0.5, seed=8).config
     forecast = Forecast.of_truth(world, config, 1)
-    assert forecast.slices.movers(0) == commit(world, Move.STAY, config).movers
+    assert forecast.slices.movers(0) == commit(world, (Move.STAY,), config).movers
 
 
 @settings(max_examples=150, deadline=None)

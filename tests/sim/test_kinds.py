@@ -25,7 +25,8 @@ from sim.rules.bodies import clearance
 from sim.rules.kinds import PERIODS
 from sim.session.edits import apply
 from sim.session.serialization import Packer, Unpacker
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import HAZARDS, KINDS, MARKED, MOVERS, PLACEABLE, Kind
 from sim.validation import validate_world
 from sim.world import World, notation

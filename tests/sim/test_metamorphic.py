@@ -8,11 +8,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from sim.commit import commit
 from sim.config import Config
+from sim.decide import decide
 from sim.forecast import Forecast
 from sim.oracle import least_ticks
 from sim.plan import Decision, planner_named
-from sim.state import SimState, commit, decide, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Kind, Move, Outcome
 from sim.world import World
 from sim.world.boards import Boards
@@ -73,7 +76,7 @@ def test_a_mirrored_road_runs_as_the_mirror_image(world: World, moves: list[Move
     for move in moves:
         if world.road.moved(world.av, move) is None:
             continue
-        world, image = commit(world, move, config), commit(image, MIRRORED.get(move, move), config)
+        world, image = commit(world, (move,), config), commit(image, (MIRRORED.get(move, move),), config)
         assert image == mirror(world)
 
 
@@ -111,7 +114,7 @@ def test_another_hazard_that_turns_no_mover_never_helps(world: World, data: st.D
     harder = with_barrier(world, cell)
     easy, hard = world, harder
     for _ in range(11 * world.road.rows):  # longer than any episode
-        easy, hard = (commit(each, Move.STAY, run_on(each).config) for each in (easy, hard))
+        easy, hard = (commit(each, (Move.STAY,), run_on(each).config) for each in (easy, hard))
         if (easy.right, easy.left) != (hard.right, hard.left):
             return
     _never_better(run_on(world), run_on(harder))
@@ -173,7 +176,7 @@ def test_rows_do_not_interact(world: World) -> None:
         ]
         alone = world.keeping(frozenset(names))
         for _ in range(4):
-            world, alone = commit(world, Move.STAY, config), commit(alone, Move.STAY, config)
+            world, alone = commit(world, (Move.STAY,), config), commit(alone, (Move.STAY,), config)
             assert (world.right & cells, world.left & cells) == (alone.right & cells, alone.left & cells)
 
 
@@ -194,7 +197,7 @@ def test_movers_are_kept_each_in_its_row(world: World) -> None:
     rows = {name: cell // columns for cell, name in world.movers.items()}
     held = {name: cell for cell, name in world.movers.items() if world.disabled >> cell & 1}
     for _ in range(12):
-        world = commit(world, Move.STAY, config)
+        world = commit(world, (Move.STAY,), config)
         assert {name: cell // columns for cell, name in world.movers.items()} == rows
         assert world.moving.bit_count() == len(world.movers) == len(rows)
         assert all(world.movers[cell] == name for name, cell in held.items())

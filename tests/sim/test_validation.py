@@ -10,7 +10,8 @@ from hypothesis import given, settings
 
 from sim.config import Config
 from sim.oracle import Drivable, certify
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Kind, Move, Outcome
 from sim.validation import validate_plan, validate_world
 from sim.world import Cause, World

@@ -14,7 +14,8 @@ from functools import cache
 from typing import Any, Final, get_type_hints
 
 from sim.config import Config
-from sim.perceive import Percept
+from sim.perceive import OtherEgo, Percept
+from sim.types import Move
 from sim.world.boards import Boards
 from sim.world.grid import Road
 
@@ -48,6 +49,9 @@ def percept_of(values: Mapping[str, Any]) -> Percept:
     for name, value in values.items():
         part, kind = _back(value), kinds.get(name)
         parts[name] = kind(part) if isinstance(kind, type) and issubclass(kind, Enum) else part
+    parts["egos"] = tuple(
+        OtherEgo(id, cell, Move(move), parked) for id, cell, move, parked in parts.get("egos", ())
+    )
     return Percept(**parts)
 
 

@@ -8,7 +8,8 @@ import pytest
 
 from sim.batch import first_divergence
 from sim.config import Config
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Outcome
 
 # What they use is compiled at first use, once in every worker that has one of them.

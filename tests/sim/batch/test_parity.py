@@ -12,8 +12,9 @@ from hypothesis import strategies as st
 
 from sim.batch import Batch, BatchPlanner
 from sim.config import Config
-from sim.state import SimState, StepResult, decide, step
-from sim.transition import transition
+from sim.decide import decide
+from sim.state import SimState, StepResult
+from sim.transition import step, transition
 from sim.types import Kind, Mode, Move, Outcome
 from sim.world import World
 from tests.sim.batch.parity import difference, mixed_configs
@@ -153,14 +154,14 @@ def test_a_batch_takes_over_what_a_run_has_watched() -> None:
 
 
 def test_moves_handed_in_are_never_repetitions_and_are_forgotten() -> None:
-    run = SimState(run_on(CAGE).config, CAGE, mode=Mode.MANUAL)
+    run = run_on(CAGE).with_ego(mode=Mode.MANUAL)
     batch = Batch.of([run], after="stop")
     stay = np.array([MOVES.index(Move.STAY)], np.uint8)
     for _ in range(12):
         run = step(run).state
         batch.step(stay)
         assert batch.digest(0) == run.world.digest()
-    run = replace(run, mode=Mode.AUTO)
+    run = run.with_ego(mode=Mode.AUTO)
     for _ in range(3):
         run = step(run).state
         batch.run(1)

@@ -17,7 +17,8 @@ import sim.env
 from sim.config import Config
 from sim.env import RoadEnv, RoadVectorEnv
 from sim.env.observation import PLANES
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Move, Outcome
 
 # What they use is compiled at first use, once in every worker that has one of them.

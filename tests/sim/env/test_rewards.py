@@ -15,7 +15,8 @@ from sim.env import RoadEnv
 from sim.perceive import perceive_truth
 from sim.perceive.observe import VEHICLE
 from sim.plan.safe_planning import plan_safely
-from sim.state import SimState, apply_move
+from sim.state import FIRST, SimState
+from sim.transition import transition
 from sim.types import Move
 
 MOVES = tuple(Move)
@@ -32,7 +33,7 @@ def played(env: RoadEnv, seed: int, policy: Policy) -> tuple[list[float], list[i
         action = policy(state, info)
         road = state.world.road
         move = MOVES[action] if road.moved(state.world.av, MOVES[action]) is not None else Move.STAY
-        state = apply_move(state, move, by_person=False)
+        state = transition(state, {FIRST: move}).state
         observation, reward, terminated, truncated, info = env.step(action)
         paid.append(float(reward))
         rows.append(int(np.argwhere(observation[VEHICLE])[0][0]))
@@ -43,7 +44,7 @@ def played(env: RoadEnv, seed: int, policy: Policy) -> tuple[list[float], list[i
 def by_planner(name: str) -> Policy:
     def policy(state: SimState, _: Any) -> int:
         config = state.config.with_parts(planner=name)
-        return MOVES.index(plan_safely(perceive_truth(state.world, config), config).move)
+        return MOVES.index(plan_safely(perceive_truth(state.world, config), config)[1].move)
 
     return policy
 

@@ -14,8 +14,9 @@ from sim.explain import confidence as module
 from sim.explain.confidence import Confidence, Method, confidence
 from sim.plan import traits_of
 from sim.session.timeline import Timeline
-from sim.state import SimState, step
+from sim.state import SimState
 from sim.statistics import wilson
+from sim.transition import step
 from sim.types import Mode, Move, Outcome
 from tests.sim.explain import calibration
 from tests.sim.explain.moments import moments
@@ -153,10 +154,10 @@ def test_what_is_proved_hopeless_never_arrives() -> None:
 
 def test_a_person_who_drives_is_told_how_it_goes_without_them() -> None:
     state = run_on(road("........", "........", "........", "...A...."))
-    by_hand = of(replace(state, mode=Mode.MANUAL))
+    by_hand = of(state.with_ego(mode=Mode.MANUAL))
     assert by_hand.by_hand
     assert by_hand.arrival_ticks == of(state).arrival_ticks == (3, 3)
-    waited = of(replace(state, mode=Mode.MANUAL, queue=(Move.STAY, Move.STAY)))
+    waited = of(state.with_ego(mode=Mode.MANUAL, queue=(Move.STAY, Move.STAY)))
     assert waited.arrival_ticks == (5, 5), "moves that were asked for are made first"
 
 

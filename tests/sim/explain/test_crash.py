@@ -14,7 +14,8 @@ from sim.explain.alternatives import after_move
 from sim.explain.crash import Crash, led_to_crash, why_crashed
 from sim.session.edits import apply
 from sim.session.timeline import Timeline
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Mode, Move, Outcome
 
 

@@ -7,11 +7,12 @@ from dataclasses import replace
 import pytest
 from hypothesis import given
 
+from sim.commit import commit
 from sim.config import Config
 from sim.explain.scene import Scene, describe_percept
 from sim.judge import collisions
 from sim.perceive import perceive_truth
-from sim.state import SimState, commit
+from sim.state import SimState
 from sim.types import Kind, Move
 from sim.world import World
 from sim.world.boards import NO_BOARDS, Boards
@@ -27,7 +28,7 @@ def met_by_driving(state: SimState, reach: int) -> dict[str, int]:
     met: dict[str, int] = {}
     world = state.world
     for tick in range(1, reach + 1):
-        after = commit(world, Move.FORWARD, state.config)
+        after = commit(world, (Move.FORWARD,), state.config)
         for cause in collisions(world, after, state.config.collision):
             for name in cause.ids:
                 met.setdefault(name, tick)

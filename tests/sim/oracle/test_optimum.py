@@ -14,7 +14,8 @@ from sim.generation import GenerationError, generate
 from sim.oracle import Blocked, Drivable, certify, least_cost, least_ticks, regret, regrets
 from sim.oracle.certificate import arrives
 from sim.session.timeline import Timeline
-from sim.state import SimState, next_episode, step
+from sim.state import SimState, next_episode
+from sim.transition import step
 from sim.types import Move, Outcome
 from sim.world import World
 from tests.sim import slow_search

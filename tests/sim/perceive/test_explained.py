@@ -8,6 +8,7 @@ from dataclasses import replace
 import pytest
 
 from sim.actions import SetCount
+from sim.decide import sense
 from sim.explain import QuestionError, why, why_not
 from sim.explain.alternatives import stakes
 from sim.explain.confidence import Method, confidence
@@ -25,8 +26,8 @@ from sim.perceive import Percept
 from sim.plan import planner_named
 from sim.session.edits import apply
 from sim.session.timeline import Timeline
-from sim.state import SimState, sense, step
-from sim.transition import transition
+from sim.state import SimState
+from sim.transition import step, transition
 from sim.types import Kind, Move, Outcome
 from tests.sim.perceive.rides import rides
 from tests.sim.perceive.sensors import NAMES

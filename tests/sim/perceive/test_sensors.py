@@ -7,10 +7,12 @@ import pytest
 from service.sessions.snapshots import TooLargeError
 from sim import sensor_names
 from sim.config import Config, ConfigError
+from sim.decide import sense
 from sim.perceive import NO_BELIEF, perceive_truth, register_sensor, sensor_named, unregister_sensor
 from sim.session.serialization import BeliefError, Packer
 from sim.session.timeline import Timeline
-from sim.state import SimState, next_episode, sense, step
+from sim.state import SimState, next_episode
+from sim.transition import step
 from sim.types import Outcome
 from tests.sim.perceive.rides import SENSORS, rides
 from tests.sim.perceive.sensors import NAMES, Delayed, Dropping, Missing, Phantom

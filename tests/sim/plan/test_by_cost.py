@@ -12,12 +12,14 @@ from hypothesis import strategies as st
 from sim.actions import Preference
 from sim.batch import Batch
 from sim.config import Collision, Config
+from sim.decide import decide
 from sim.forecast import Forecast
 from sim.plan import Decision, planner_named
 from sim.rules.versions import RULES
 from sim.search.costs import BALANCED, weights
 from sim.search.reachability import reachability
-from sim.state import SimState, decide, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Mode, Move, Outcome
 from sim.world import World
 from tests.sim.roads import road, run_on, worlds
@@ -167,7 +169,7 @@ def test_a_person_may_take_a_step_that_leads_nowhere() -> None:
     state = run_on(world, planner="astar")
     trap = decision(state, "astar").option(Move.RIGHT)
     assert trap.dead_end or trap.cost is not None
-    asked = step(SimState(state.config, world, mode=Mode.MANUAL, queue=(Move.RIGHT,)))
+    asked = step(SimState(state.config, world).with_ego(mode=Mode.MANUAL, queue=(Move.RIGHT,)))
     assert asked.decision is not None
     assert asked.decision.move is Move.RIGHT
 

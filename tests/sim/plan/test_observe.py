@@ -13,7 +13,8 @@ from sim.env import RoadEnv
 from sim.forecast import predict
 from sim.perceive import perceive_truth
 from sim.perceive.observe import PLANES, STEPPING, observe
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Outcome
 
 

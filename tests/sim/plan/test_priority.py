@@ -7,10 +7,11 @@ from hypothesis import given, settings
 
 from sim import planner_names
 from sim.config import Config
+from sim.decide import decide
 from sim.forecast import Forecast, StepVerdict
 from sim.plan import Decision, planner_named, register
 from sim.plan.priority import ORDER, PriorityPlanner, options_in_order
-from sim.state import SimState, decide
+from sim.state import SimState
 from sim.types import Move, kind_of
 from sim.world import World
 from tests.sim.roads import road, run_on, worlds

@@ -8,13 +8,15 @@ import pytest
 from hypothesis import assume, given
 
 from sim.config import Config
+from sim.decide import decide
 from sim.forecast import Forecast, predict
 from sim.generation import drivable
 from sim.perceive import perceive_truth
 from sim.plan import Decision
 from sim.plan.rule_based import Leads, RulesPlanner, standing
 from sim.search.passages import locked_in, ways_past
-from sim.state import SimState, decide, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Move, Outcome
 from sim.world import World
 from sim.world.boards import Boards

@@ -7,7 +7,8 @@ from sim.config import Config
 from sim.forecast import Forecast
 from sim.rules.traffic import Motion, move_movers, shift_table
 from sim.rules.traffic_cache import cached_move_movers, cached_shift_table
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Move
 
 
@@ -17,7 +18,7 @@ def test_what_is_expected_is_what_comes_and_no_second_table_is_made() -> None:
     for _ in range(12):
         world = state.world
         forecast = Forecast.of_truth(world, state.config, 1)
-        after = commit(world, Move.FORWARD, state.config)
+        after = commit(world, (Move.FORWARD,), state.config)
         assert after.movers == forecast.slices.movers(0)
         assert after.movers is forecast.slices.movers(0)
         state = step(state).state

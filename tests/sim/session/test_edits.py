@@ -19,7 +19,8 @@ from sim.actions import (
 from sim.config import Config
 from sim.events import EventType
 from sim.session.edits import Change, apply
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import PLACEABLE, Cell, Kind
 from tests.sim.edits import EMPTY, FULL, KINDS, counts_of, refusal, sound
 from tests.sim.roads import grid, road, run_on

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -24,7 +22,8 @@ from sim.config import Config
 from sim.events import EventType
 from sim.generation import generate
 from sim.session.edits import MAX_QUEUE, Change, apply
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Kind, Mode, Move, Outcome
 from sim.world import Thing
 from tests.sim.edits import EMPTY, FULL, KINDS, refusal, sound, tried
@@ -133,7 +132,7 @@ def test_a_move_into_a_hazard_is_held_back_and_the_log_says_why() -> None:
 
 
 def test_so_many_moves_may_wait_and_no_more() -> None:
-    state = replace(EMPTY, queue=(Move.STAY,) * MAX_QUEUE)
+    state = EMPTY.with_ego(queue=(Move.STAY,) * MAX_QUEUE)
     error = refusal(state, Drive(move=Move.LEFT))
     assert (error.category, error.field) == ("too-many", "move")
 

@@ -14,7 +14,8 @@ from sim.session.edits import apply
 from sim.session.errors import EditError
 from sim.session.settings import STEPS
 from sim.session.timeline import Timeline
-from sim.state import SimState, next_episode, step
+from sim.state import SimState, next_episode
+from sim.transition import step
 from sim.types import Kind
 
 RUN = SimState.start(Config(seed=6, potholes=4))

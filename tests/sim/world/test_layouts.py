@@ -16,7 +16,8 @@ from sim.oracle.lower_bounds import can_arrive
 from sim.randomness import Stream
 from sim.session.config_to_actions import config_to_actions
 from sim.session.scenario import config_of_scenario
-from sim.state import SimState, next_episode, step
+from sim.state import SimState, next_episode
+from sim.transition import step
 from sim.types import Outcome
 from sim.validation import validate_world
 from sim.world import World
