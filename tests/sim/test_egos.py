@@ -13,7 +13,7 @@ from sim.decide import deciding_order
 from sim.forecast import Forecast, StepVerdict, predict
 from sim.generation import generate
 from sim.judge import collisions
-from sim.perceive import perceive
+from sim.perceive import perceive_truth
 from sim.rules.contacts import REACH, ego_contacts
 from sim.search.reachability import reachability
 from sim.search.reactive import ReactiveSearch
@@ -169,7 +169,7 @@ def test_ego_that_would_be_hit_from_beside_is_braked_for_and_foreseen() -> None:
     """A mover in front of a parked ego keeps its cell and heading, in the forecast as in the world."""
     world = road(".....", ".....", "..>A.", ".....", "..A..")
     state = run_on(world, attentive=1.0, planner="rules").with_ego(FIRST, mode=Mode.MANUAL)
-    forecast = predict(perceive(world, state.config, 1), 12)
+    forecast = predict(perceive_truth(world, state.config, 1), 12)
     for ahead in range(12):
         state = transition(state, {}).state
         assert state.world.movers == forecast.slices.movers(ahead) == world.movers
@@ -183,7 +183,7 @@ def test_forecast_with_a_parked_ego_is_what_happens() -> None:
         state = drawn(random, "rules").with_ego(SECOND, mode=Mode.MANUAL)
         for before, _ in driven(state, 6):
             world = before.world
-            forecast = predict(perceive(world, state.config, 0, {}, {1}), 3)
+            forecast = predict(perceive_truth(world, state.config, 0, {}, {1}), 3)
             free = forecast.own_steps()
             for move, board in zip(Move, free, strict=True):
                 end = world.road.moved(world.av, move)
@@ -203,7 +203,7 @@ def test_forecast_with_a_parked_ego_is_what_happens() -> None:
 def announced(rows: tuple[str, ...], move: Move) -> Forecast:
     """The forecast of the second ego, where the first has announced a move."""
     world = road(*rows)
-    return predict(perceive(world, run_on(world).config, 1, {0: move}), 4)
+    return predict(perceive_truth(world, run_on(world).config, 1, {0: move}), 4)
 
 
 @pytest.mark.parametrize(
@@ -237,7 +237,7 @@ def test_sets_and_single_steps_agree_with_other_egos_on_the_road() -> None:
         state = drawn(random, "rules", 3)
         told = {1: random.choice(list(Move)), 2: random.choice(list(Move))}
         told = {n: m if state.world.road.moved(state.world.avs[n], m) else Move.STAY for n, m in told.items()}
-        forecast = predict(perceive(state.world, state.config, 0, told), 3)
+        forecast = predict(perceive_truth(state.world, state.config, 0, told), 3)
         road_ = forecast.road
         for ahead in (0, 1, 2):
             for start in random.sample(range(road_.columns, road_.columns * road_.rows), 12):
@@ -254,7 +254,7 @@ def test_search_with_reactions_and_search_by_sets_agree_past_a_parked_ego() -> N
     random, found = Random("search"), 0
     for _ in range(60):
         state = drawn(random, "rules", attentive=1.0).with_ego(SECOND, mode=Mode.MANUAL)
-        forecast = predict(perceive(state.world, state.config, 0, {}, {1}), 40)
+        forecast = predict(perceive_truth(state.world, state.config, 0, {}, {1}), 40)
         by_sets = reachability(forecast, 1 << forecast.ego, 40).ticks
         reacting = ReactiveSearch(state.world, state.config, forecast)
         plan = reacting.plan(40)

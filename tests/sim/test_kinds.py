@@ -96,7 +96,7 @@ def test_an_exact_number_of_them_is_on_a_new_road(kind: Kind) -> None:
 def test_it_is_written_and_read(kind: Kind, world: World) -> None:
     world = with_one(world, kind)
     assert notation.read(notation.write(world)) == world
-    state = replace(run_on(world), watch=Watch(situation(world), 1, 2))
+    state = run_on(world).with_ego(watch=Watch(situation(world), 1, 2))
     assert saved(state) == state
     percept, _ = perceive(world, state.config)
     assert codec.asked(codec.question(percept, state.config)) == (percept, state.config)

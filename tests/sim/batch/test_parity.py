@@ -14,7 +14,7 @@ from sim.batch import Batch, BatchPlanner
 from sim.config import Config
 from sim.decide import decide
 from sim.state import SimState, StepResult
-from sim.transition import step, transition
+from sim.transition import next_world, step
 from sim.types import Kind, Mode, Move, Outcome
 from sim.world import World
 from tests.sim.batch.parity import difference, mixed_configs
@@ -69,7 +69,7 @@ def test_any_move_ends_as_the_judge_says(world: World, move: Move, rules: dict[s
     batch = Batch.of([run])
     batch.step(np.array([MOVES.index(move)], np.uint8))
     possible = world.road.moved(world.av, move) is not None
-    assert batch.digest(0) == transition(world, move if possible else Move.STAY, run.config).digest()
+    assert batch.digest(0) == next_world(world, (move if possible else Move.STAY,), run.config).digest()
 
 
 @settings(max_examples=60)
@@ -89,7 +89,7 @@ def test_planners_decide_the_same_along_any_way(
             cost = decision.options[0].cost
             assert batch.least(name)[0] == (-1 if cost is None else cost)
             move = Move.STAY if waits >> tick & 1 else decision.move
-            run = replace(run, world=transition(run.world, move, run.config))
+            run = replace(run, world=next_world(run.world, (move,), run.config))
             batch.step(np.array([MOVES.index(move)], np.uint8))
             assert batch.digest(0) == run.world.digest()
 

@@ -27,7 +27,7 @@ from sim.plan import planner_named
 from sim.session.edits import apply
 from sim.session.timeline import Timeline
 from sim.state import SimState
-from sim.transition import step, transition
+from sim.transition import next_world, step
 from sim.types import Kind, Move, Outcome
 from tests.sim.perceive.rides import rides
 from tests.sim.perceive.sensors import NAMES
@@ -117,7 +117,7 @@ def alternatives_by_truth(state: SimState, explanation: Explanation) -> object:
     assert explanation.foil is not None
     found = stakes(state, explanation.decision, explanation.foil)
     assert found is not None
-    after = transition(state.world, explanation.foil, state.config)
+    after = next_world(state.world, (explanation.foil,), state.config)
     if after.outcome is not Outcome.RUNNING:
         assert found.would is not None
         assert found.would.outcome is after.outcome
@@ -238,7 +238,7 @@ def test_a_crash_hangs_on_what_was_there_and_it_is_said_what_was_not_seen(sensor
                 gone = frozenset(cause.group)
                 changed = replace(state, world=world.without(gone))
                 move = decided(changed, seen_by(changed, gone=gone))
-                assert transition(changed.world, move, state.config).outcome is not Outcome.CRASH
+                assert next_world(changed.world, (move,), state.config).outcome is not Outcome.CRASH
     assert told >= 5
     assert missed
 
