@@ -14,7 +14,7 @@ from sim.actions import Layout, Preference, RoadType, SensorName, Traffic
 from sim.randomness import MAX_SEED
 from sim.rules.versions import RULES
 from sim.world.grid import Road
-from sim.world.layouts import has_barriers, least_room
+from sim.world.layouts import has_barriers, min_free_cells
 
 
 @dataclass(frozen=True, slots=True)
@@ -224,7 +224,7 @@ class Config:
     def _room_problems(self) -> list[Problem]:
         if has_barriers(self.layout) and self.barriers:
             return [Problem("barriers", barriers_refused(self.layout))]
-        room = least_room(self.layout, self.columns, self.rows)
+        room = min_free_cells(self.layout, self.columns, self.rows)
         counts = {
             name: getattr(self, name) or 0 for name in ("vehicles", "pedestrians", "barriers", "potholes")
         }

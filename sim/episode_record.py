@@ -82,8 +82,8 @@ class EpisodeRecord:
         """With one more move made."""
         sakes = self.sakes
         if move is not Move.FORWARD:
-            sakes = _counted(sakes, sake(before, after, by_person=by_person, faulty=faulty)[0])
-        return _gone_on(
+            sakes = _count_reason(sakes, detour_reason(before, after, by_person=by_person, faulty=faulty)[0])
+        return _extend(
             before if self.start is None else self.start,
             edits,
             self.changed or (self.start is not None and edits != self.edits),
@@ -93,15 +93,15 @@ class EpisodeRecord:
             before if ended else None,
         )
 
-    def made(self) -> tuple[Move, ...]:
+    def move_list(self) -> tuple[Move, ...]:
         """Every move, in order."""
         return tuple(_MOVES[int(sign)] for sign in self.moves)
 
 
-_gone_on = fast_constructor(EpisodeRecord, "start", "edits", "changed", "certain", "moves", "sakes", "last")
+_extend = fast_constructor(EpisodeRecord, "start", "edits", "changed", "certain", "moves", "sakes", "last")
 
 
-def sake(
+def detour_reason(
     before: World, after: World, *, by_person: bool, faulty: bool
 ) -> tuple[DetourReason, tuple[str, ...]]:
     """For whose sake a move that was made was not straight on, and who would have been met there."""
@@ -112,7 +112,7 @@ def sake(
     return (_OF_KIND[kind_of(met[0])], met) if met else (DetourReason.BETTER, ())
 
 
-def _counted(
+def _count_reason(
     sakes: tuple[tuple[DetourReason, int], ...], one: DetourReason
 ) -> tuple[tuple[DetourReason, int], ...]:
     for place, (other, count) in enumerate(sakes):

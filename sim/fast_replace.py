@@ -21,7 +21,7 @@ def field_setter(kind: type[Value], *names: str) -> Callable[..., Value]:
     Raises `TypeError` for any other class, and for a name that is no field.
     """
     sources = {name: name if name in names else f"_old.{name}" for name in _slots(kind, names)}
-    return _written(kind, ("_old", *names), sources, {})
+    return _compile_maker(kind, ("_old", *names), sources, {})
 
 
 def fast_constructor(kind: type[Value], *names: str) -> Callable[..., Value]:
@@ -39,7 +39,7 @@ def fast_constructor(kind: type[Value], *names: str) -> Callable[..., Value]:
     if MISSING in defaults.values():
         raise TypeError(f"{kind.__name__} needs more than {', '.join(names)}")
     sources = {name: name if name in names else f"_default_{name}" for name in slots}
-    return _written(kind, names, sources, defaults)
+    return _compile_maker(kind, names, sources, defaults)
 
 
 def _slots(kind: type[Value], names: tuple[str, ...]) -> list[str]:
@@ -49,7 +49,7 @@ def _slots(kind: type[Value], names: tuple[str, ...]) -> list[str]:
     return slots
 
 
-def _written(
+def _compile_maker(
     kind: type[Value], names: tuple[str, ...], sources: dict[str, str], known: dict[str, Any]
 ) -> Callable[..., Value]:
     # Written out, as the standard library does it for `__init__`: a loop over the slots takes twice as long.

@@ -21,7 +21,7 @@ from sim.search.reachability import reachability, steps_left
 from sim.types import Kind
 from sim.world import World
 from sim.world.grid import Board, Road, bits, board_of, cells_of
-from sim.world.layouts import crossing, lay_out
+from sim.world.layouts import crossing_vehicles, lay_out
 
 MAX_ATTEMPTS = 200
 """Draws until it is given up that a road be drivable."""
@@ -45,9 +45,9 @@ def generate(
     Raises `GenerationError` where the road must be drivable and none is found.
     """
     if not (config.solvable or config.layout):
-        return _drawn(config, episode, (), tick, numbered)
+        return _draw_road(config, episode, (), tick, numbered)
     for attempt in range(MAX_ATTEMPTS):
-        world = _drawn(config, episode, (attempt,) if attempt else (), tick, numbered)
+        world = _draw_road(config, episode, (attempt,) if attempt else (), tick, numbered)
         if drivable(world, config):
             return world
     raise GenerationError
@@ -60,7 +60,7 @@ def drivable(world: World, config: Config) -> bool:
     return reachability(forecast, 1 << world.av, limit).ticks is not None
 
 
-def _drawn(
+def _draw_road(
     config: Config, episode: int, attempt: tuple[int, ...], tick: int, numbered: Mapping[Kind, int] | None
 ) -> World:
     road = config.geometry
@@ -75,12 +75,12 @@ def _drawn(
         free = road.between & ~taken
         best = free & first
         if count is not None:
-            chosen = _exactly(best, count, stream)
-            chosen |= _exactly(free & ~first, count - chosen.bit_count(), stream)
+            chosen = _exact_number(best, count, stream)
+            chosen |= _exact_number(free & ~first, count - chosen.bit_count(), stream)
         elif kind is Kind.VEHICLE and config.layout == "crossing":
-            chosen = _several_a_row(road, best, probability, stream)
+            chosen = _several_per_row(road, best, probability, stream)
         else:
-            chosen = _one_a_row(road, best, probability, stream)
+            chosen = _one_per_row(road, best, probability, stream)
         taken |= chosen
         return chosen
 
@@ -128,11 +128,11 @@ def lowest_ranked(free: Board, count: int, stream: Stream) -> list[int]:
     return sorted(cells_of(free), key=ranks.__getitem__)[:count]
 
 
-def _exactly(free: Board, count: int, stream: Stream) -> Board:
+def _exact_number(free: Board, count: int, stream: Stream) -> Board:
     return board_of(lowest_ranked(free, count, stream))
 
 
-def _several_a_row(road: Road, free_cells: Board, probability: float, stream: Stream) -> Board:
+def _several_per_row(road: Road, free_cells: Board, probability: float, stream: Stream) -> Board:
     """Several things in each row that has free cells, in those of lowest random rank."""
     board, columns = 0, road.columns
     for row in range(1, road.rows - 1):
@@ -140,11 +140,14 @@ def _several_a_row(road: Road, free_cells: Board, probability: float, stream: St
         free = free_cells >> start & (1 << columns) - 1
         if free:
             draws = stream.narrow(row)
-            board |= _exactly(free, crossing(columns, probability, draws), draws.narrow(_COLUMN)) << start
+            board |= (
+                _exact_number(free, crossing_vehicles(columns, probability, draws), draws.narrow(_COLUMN))
+                << start
+            )
     return board
 
 
-def _one_a_row(road: Road, free: Board, probability: float, stream: Stream) -> Board:
+def _one_per_row(road: Road, free: Board, probability: float, stream: Stream) -> Board:
     """One thing in each row with that probability, in a free cell of the row."""
     board, columns = 0, road.columns
     whole = (1 << columns) - 1

@@ -22,7 +22,7 @@ from gymnasium import spaces
 from numpy.typing import NDArray
 
 from sim.config import Config
-from sim.env.options import one_of, whole
+from sim.env.options import one_of, whole_number
 from sim.rules.traffic import pedestrians_walk
 from sim.types import Kind
 from sim.world import World
@@ -75,7 +75,10 @@ class Window:
             raise ValueError(f"window is (rows ahead, rows behind, columns on either side), not {parts!r}")
         names = ("rows ahead", "rows behind", "columns on either side")
         return Window(
-            *(whole(f"window: {name}", part, 0, MAX_WINDOW) for name, part in zip(names, parts, strict=True))
+            *(
+                whole_number(f"window: {name}", part, 0, MAX_WINDOW)
+                for name, part in zip(names, parts, strict=True)
+            )
         )
 
     @property

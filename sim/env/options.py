@@ -45,7 +45,7 @@ def number(name: str, value: object, low: float = 0.0, high: float = float("inf"
     return found
 
 
-def whole(name: str, value: object, low: int, high: int | None = None) -> int:
+def whole_number(name: str, value: object, low: int, high: int | None = None) -> int:
     """A whole number from `low` to `high`. Raises `ValueError`."""
     if isinstance(value, bool) or not isinstance(value, Integral):
         raise ValueError(f"{name} must be a whole number, not {value!r}")
@@ -56,7 +56,7 @@ def whole(name: str, value: object, low: int, high: int | None = None) -> int:
     return found
 
 
-def switch(name: str, value: object) -> bool:
+def boolean(name: str, value: object) -> bool:
     """True or false. Raises `ValueError`."""
     if not isinstance(value, bool):
         raise ValueError(f"{name} must be True or False, not {value!r}")

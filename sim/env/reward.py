@@ -55,7 +55,7 @@ class Rewards:
             config.rows,
         )
 
-    def paid(
+    def step_reward(
         self,
         before: NDArray[np.int64],
         after: NDArray[np.int64],

@@ -20,7 +20,7 @@ DRAWN_BELOW: Final = 2**32
 _UNUSED_BITS: Final = 64 - MAX_SEED.bit_length()
 
 
-def checked_seed(seed: object) -> int:
+def check_seed(seed: object) -> int:
     """A seed as a Python integer. Raises `TypeError` unless it is an integer, `ValueError` if negative."""
     if isinstance(seed, bool | np.bool_) or not isinstance(seed, Integral):
         raise TypeError(f"a seed is an integer of 0 or more, not {seed!r}")
@@ -29,21 +29,21 @@ def checked_seed(seed: object) -> int:
     return int(seed)
 
 
-def folded(seed: int) -> int:
+def fold_seed(seed: int) -> int:
     """The seed of a configuration that a seed stands for."""
     if seed <= MAX_SEED:
         return seed
     return int(np.random.SeedSequence(seed).generate_state(1, np.uint64)[0]) >> _UNUSED_BITS
 
 
-def written(random: np.random.Generator) -> dict[str, Any]:
+def dump_generator(random: np.random.Generator) -> dict[str, Any]:
     """The state of a generator; numbers of 128 bits as words, since JSON readers take no such numbers."""
     state: Any = random.bit_generator.state
     words = {name: str(value) for name, value in state["state"].items()}
     return {**state, "state": words}
 
 
-def read(state: Mapping[str, Any]) -> np.random.Generator:
+def load_generator(state: Mapping[str, Any]) -> np.random.Generator:
     """The generator of a state. Raises `ValueError`, `TypeError` or `LookupError` for what is none."""
     random = np.random.Generator(np.random.PCG64())
     numbers = {name: int(value) for name, value in state["state"].items()}

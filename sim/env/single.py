@@ -14,9 +14,9 @@ from sim.config import Config
 from sim.env import saved_state as saving
 from sim.env.actions import MOVES, STAY, action_mask, checked_action
 from sim.env.observation import Observer, observed
-from sim.env.options import one_of, refuse_unknown, reset_options, road_config, switch
+from sim.env.options import boolean, one_of, refuse_unknown, reset_options, road_config
 from sim.env.reward import Rewards
-from sim.env.seeds import DRAWN_BELOW, checked_seed, folded
+from sim.env.seeds import DRAWN_BELOW, check_seed, fold_seed
 from sim.state import SimState, apply_move, next_episode
 from sim.types import Outcome
 from sim.world import notation
@@ -82,7 +82,7 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
             discount=discount,
         )
         self._observer = Observer.of(self.config, observation, window)
-        self._masked = switch("action_mask", action_mask)
+        self._masked = boolean("action_mask", action_mask)
         self.observation_space = self._observer.space
         self.action_space = spaces.Discrete(len(MOVES))
         self._run: SimState | None = None
@@ -95,12 +95,12 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
         Raises `GenerationError` where the road must be drivable and none is found.
         """
         reset_options(options)
-        given = None if seed is None else checked_seed(seed)
+        given = None if seed is None else check_seed(seed)
         super().reset(seed=given, options=options)
         if self._run is not None and given is None:
             self._run = next_episode(self._run)[0]
         else:
-            drawn = int(self.np_random.integers(DRAWN_BELOW)) if given is None else folded(given)
+            drawn = int(self.np_random.integers(DRAWN_BELOW)) if given is None else fold_seed(given)
             self._run = SimState.start(self.config.with_parts(seed=drawn))
         return self._observation(), self._info()
 
@@ -120,7 +120,7 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
         after = self._run.world
         arrived, crashed = after.outcome is Outcome.SUCCESS, after.outcome is Outcome.CRASH
         columns = before.road.columns
-        paid = self.rewards.paid(
+        paid = self.rewards.step_reward(
             np.array([before.av // columns]),
             np.array([after.av // columns]),
             np.array([arrived]),
@@ -139,7 +139,7 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
 
     def get_state(self) -> dict[str, Any]:
         """All that the continuation hangs on, as a JSON value. Raises `RuntimeError` before `reset`."""
-        return saving.of_run(self._begun(), self)
+        return saving.save_single(self._begun(), self)
 
     def set_state(self, state: Mapping[str, Any]) -> tuple[NDArray[np.uint8], dict[str, Any]]:
         """Go on from a state of an environment of the same configuration: its observation and info.
@@ -147,7 +147,7 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
         Raises `ValueError` for a state of another configuration, and for what is no such state; nothing is
         changed then.
         """
-        self._run = saving.to_run(state, self)
+        self._run = saving.load_single(state, self)
         return self._observation(), self._info()
 
     @property

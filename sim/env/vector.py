@@ -15,9 +15,9 @@ from sim.batch import Batch
 from sim.env import saved_state as saving
 from sim.env.actions import MOVES, action_masks, checked_actions
 from sim.env.observation import Observer
-from sim.env.options import one_of, refuse_unknown, reset_options, road_config, switch, whole
+from sim.env.options import boolean, one_of, refuse_unknown, reset_options, road_config, whole_number
 from sim.env.reward import Rewards
-from sim.env.seeds import DRAWN_BELOW, checked_seed, folded
+from sim.env.seeds import DRAWN_BELOW, check_seed, fold_seed
 from sim.env.single import ARGUMENTS, RENDER_FPS, RENDER_MODES, frame
 from sim.metrics import Metrics
 from sim.state import SimState
@@ -29,7 +29,7 @@ RUNNING, SUCCESS, CRASH, STUCK = range(len(Outcome))
 _NAMES: Final = np.array([str(outcome) for outcome in Outcome], object)
 
 Observations = NDArray[np.uint8]
-Chosen = NDArray[np.bool_]
+LaneMask = NDArray[np.bool_]
 
 
 class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
@@ -66,8 +66,8 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
     ) -> None:
         """As `RoadEnv`; `threads`: how many work on a step. Raises as it does."""
         refuse_unknown("RoadVectorEnv", unknown, (*ARGUMENTS, "num_envs", "autoreset_mode", "threads"))
-        self.num_envs = whole("num_envs", num_envs, 1)
-        self.threads = whole("threads", threads, 1)
+        self.num_envs = whole_number("num_envs", num_envs, 1)
+        self.threads = whole_number("threads", threads, 1)
         self.render_mode = None if render_mode is None else one_of("render mode", render_mode, RENDER_MODES)
         if not isinstance(autoreset_mode, AutoresetMode):
             named = one_of("autoreset mode", autoreset_mode, (mode.value for mode in AutoresetMode))
@@ -84,7 +84,7 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
             discount=discount,
         )
         self._observer = Observer.of(self.config, observation, window)
-        self._masked = switch("action_mask", action_mask)
+        self._masked = boolean("action_mask", action_mask)
         self.single_observation_space = self._observer.space
         self.single_action_space = spaces.Discrete(len(MOVES))
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
@@ -101,10 +101,10 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
         their places in `info`, are left alone. Raises `TypeError` or `ValueError` for what is none of this,
         `GenerationError` where a road must be drivable and none is found.
         """
-        chosen = self._chosen(reset_options(options, ["reset_mask"]))
+        chosen = self._lanes_to_reset(reset_options(options, ["reset_mask"]))
         seeds = self._seeds(seed)
-        if not _of_each(seed):
-            super().reset(seed=None if seed is None else checked_seed(seed))
+        if not _is_per_lane(seed):
+            super().reset(seed=None if seed is None else check_seed(seed))
         batch = self._batch
         if batch is None and not chosen.all():
             raise RuntimeError("call reset first, without a reset_mask")
@@ -128,7 +128,7 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
 
         Raises `RuntimeError` before the first `reset`, and with autoreset disabled once an episode has ended.
         """
-        batch, moves = self._begun(), checked_actions(actions, self.num_envs)
+        batch, moves = self._require_batch(), checked_actions(actions, self.num_envs)
         live = batch.outcomes == RUNNING
         if self.autoreset_mode is AutoresetMode.DISABLED and not live.all():
             ended = ", ".join(map(str, np.flatnonzero(~live)[:8]))
@@ -138,7 +138,7 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
         after, outcomes = batch.vehicles // self.config.columns, batch.outcomes
         arrived, crashed = live & (outcomes == SUCCESS), live & (outcomes == CRASH)
         stuck = live & (outcomes == STUCK)
-        paid = np.where(live, self.rewards.paid(before, after, arrived, crashed), 0.0)
+        paid = np.where(live, self.rewards.step_reward(before, after, arrived, crashed), 0.0)
         final: dict[str, Any] = {}
         if self.autoreset_mode is AutoresetMode.SAME_STEP:
             ended = arrived | crashed | stuck
@@ -153,18 +153,18 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
 
     def action_masks(self) -> NDArray[np.bool_]:
         """Which moves can be taken now in every lane (shape: lanes, 6)."""
-        return action_masks(self._begun(), threads=self.threads)
+        return action_masks(self._require_batch(), threads=self.threads)
 
     def render(self) -> tuple[Any, ...] | None:
         """A frame of every lane, as `RoadEnv.render` makes them; None without a render mode."""
-        batch = self._begun()
+        batch = self._require_batch()
         if self.render_mode is None:
             return None
         return tuple(frame(self._run(batch, lane), self.render_mode) for lane in range(self.num_envs))
 
     def get_state(self) -> dict[str, Any]:
         """All that the continuation hangs on, as a JSON value. Raises `RuntimeError` before `reset`."""
-        return saving.of_batch(self._begun(), self)
+        return saving.save_vector(self._require_batch(), self)
 
     def set_state(self, state: Mapping[str, Any]) -> tuple[Observations, dict[str, Any]]:
         """Go on from a state of as many environments of the same configuration: observations and info.
@@ -172,7 +172,7 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
         Raises `ValueError` for a state of another configuration or number, and for what is no such state;
         nothing is changed then.
         """
-        self._batch = batch = saving.to_batch(state, self, self.num_envs)
+        self._batch = batch = saving.load_vector(state, self, self.num_envs)
         return self._observations(batch), self._info(batch, np.ones(self.num_envs, np.bool_))
 
     def close_extras(self, **kwargs: Any) -> None:
@@ -180,7 +180,7 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
         del kwargs
         self._batch = None
 
-    def _begun(self) -> Batch:
+    def _require_batch(self) -> Batch:
         if self._batch is None:
             raise RuntimeError("call reset first")
         return self._batch
@@ -189,15 +189,15 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
         """The configuration's seed of every lane."""
         if seed is None:
             return [None] * self.num_envs
-        if not _of_each(seed):
-            first = checked_seed(seed)
-            return [folded(first + lane) for lane in range(self.num_envs)]
+        if not _is_per_lane(seed):
+            first = check_seed(seed)
+            return [fold_seed(first + lane) for lane in range(self.num_envs)]
         given = list(cast(Iterable[int | None], seed))
         if len(given) != self.num_envs:
             raise ValueError(f"{self.num_envs} seeds are wanted, one for each environment, not {len(given)}")
-        return [None if each is None else folded(checked_seed(each)) for each in given]
+        return [None if each is None else fold_seed(check_seed(each)) for each in given]
 
-    def _chosen(self, options: Mapping[str, Any]) -> Chosen:
+    def _lanes_to_reset(self, options: Mapping[str, Any]) -> LaneMask:
         """The lanes that are to be reset."""
         if "reset_mask" not in options:
             return np.ones(self.num_envs, np.bool_)
@@ -211,7 +211,7 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
     def _observations(self, batch: Batch) -> Observations:
         return self._observer.of_planes(batch.observe(), batch.vehicles)
 
-    def _info(self, batch: Batch, lanes: Chosen) -> dict[str, Any]:
+    def _info(self, batch: Batch, lanes: LaneMask) -> dict[str, Any]:
         """As `RoadEnv` tells it, of these lanes; nothing (0 or None) for the others, as `_…` says."""
         outcomes = batch.outcomes
         told: dict[str, Any] = {
@@ -230,7 +230,7 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
             info[key], info[f"_{key}"] = values, lanes.copy()
         return info
 
-    def _final(self, batch: Batch, ended: Chosen) -> dict[str, Any]:
+    def _final(self, batch: Batch, ended: LaneMask) -> dict[str, Any]:
         """What the ended lanes have come to, in Gymnasium's form."""
         last = np.full(self.num_envs, None, object)
         seen = self._observations(batch)
@@ -255,6 +255,6 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
         return SimState(batch.configs[lane], batch.world(lane), metrics=counted)
 
 
-def _of_each(seed: object) -> bool:
+def _is_per_lane(seed: object) -> bool:
     """Whether these are seeds, one for each lane, and not one for all."""
     return isinstance(seed, Iterable) and not isinstance(seed, str | bytes)

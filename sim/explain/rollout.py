@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Final
 
-from sim.episode_record import DetourReason, sake
+from sim.episode_record import DetourReason, detour_reason
 from sim.plan import Decision
 from sim.state import SimState, StepResult, step
 from sim.types import Mode, Move, Outcome
@@ -177,7 +177,7 @@ def find_detour(before: SimState, tick: StepResult) -> list[Detour]:
     if decision is None or decision.move is Move.FORWARD:
         return []
     by_person, faulty = decision.asked is not None, decision.fault is not None
-    whose, ids = sake(before.world, tick.state.world, by_person=by_person, faulty=faulty)
+    whose, ids = detour_reason(before.world, tick.state.world, by_person=by_person, faulty=faulty)
     return [Detour(decision.tick, decision.move, whose, ids)]
 
 

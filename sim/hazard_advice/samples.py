@@ -39,46 +39,46 @@ _PURPOSES: Final = ("reaction", "friction", "distance", "speed", "lateral", "wid
 @lru_cache(maxsize=1)
 def reaction() -> Column:
     """Seconds."""
-    return _drawn(REACTION, "reaction")
+    return _draw_column(REACTION, "reaction")
 
 
 @lru_cache(maxsize=len(FRICTION))
 def friction(weather: Weather) -> Column:
     """Friction coefficients."""
-    return _drawn(FRICTION[weather], "friction")
+    return _draw_column(FRICTION[weather], "friction")
 
 
 @lru_cache(maxsize=len(DISTANCE))
 def distance_ratio(weather: Weather) -> Column:
     """True distance over the one told."""
-    return _drawn(DISTANCE[weather], "distance")
+    return _draw_column(DISTANCE[weather], "distance")
 
 
 @lru_cache(maxsize=1)
 def speed_ratio() -> Column:
     """True speed over the one told."""
-    return _drawn(SPEED, "speed")
+    return _draw_column(SPEED, "speed")
 
 
 @lru_cache(maxsize=1)
 def lateral_share() -> Column:
     """Share of the friction used in steering."""
-    return np.clip(_drawn(LATERAL, "lateral"), *LATERAL_RANGE)
+    return np.clip(_draw_column(LATERAL, "lateral"), *LATERAL_RANGE)
 
 
 @lru_cache(maxsize=len(WIDTH))
 def width(hazard: Kind) -> Column:
     """Metres."""
-    return _drawn(WIDTH[hazard], "width")
+    return _draw_column(WIDTH[hazard], "width")
 
 
 @lru_cache(maxsize=1)
 def pothole_harm() -> Column:
     """Metres per second up to which a pothole does no harm."""
-    return _drawn(HARM, "harm") / 3.6
+    return _draw_column(HARM, "harm") / 3.6
 
 
-def _drawn(quantity: Quantity, purpose: str) -> Column:
+def _draw_column(quantity: Quantity, purpose: str) -> Column:
     noise = quantity.spread * _normals(_PURPOSES.index(purpose))
     lognormal = quantity.law == "lognormal"
     drawn: Column = quantity.middle * np.exp(noise) if lognormal else quantity.middle + noise

@@ -9,7 +9,7 @@ from __future__ import annotations
 from os import environ
 from typing import TYPE_CHECKING
 
-from sim.render.motion import STEP_FRAMES, eased
+from sim.render.motion import STEP_FRAMES, smoothstep
 from sim.render.theme import MAX_SIDE_PX
 
 if TYPE_CHECKING:
@@ -32,10 +32,10 @@ __all__ = [
     "MIN_SIDE_PX",
     "STEP_FRAMES",
     "VIEWS",
-    "eased",
     "encode",
     "pixels",
     "render",
+    "smoothstep",
 ]
 
 
@@ -70,13 +70,13 @@ def render(
 
 def encode(picture: pygame.Surface, form: str = "png") -> bytes:
     """A picture as the bytes of a file. Raises `ValueError` for a format that is not offered."""
-    from sim.render.files import encoded
+    from sim.render.files import encode_image
 
     if form not in FORMATS:
         raise ValueError(
             f"pictures can be had as {', '.join(FORMATS[:-1])} and {FORMATS[-1]}, not as {form!r}"
         )
-    return encoded(picture, form)
+    return encode_image(picture, form)
 
 
 def pixels(picture: pygame.Surface) -> NDArray[np.uint8]:

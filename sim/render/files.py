@@ -12,7 +12,7 @@ from typing import Any, Final
 import pygame
 from PIL import Image
 
-_HOW: Final[dict[str, dict[str, Any]]] = {
+_ENCODER_OPTIONS: Final[dict[str, dict[str, Any]]] = {
     "png": {"compress_level": 3},
     "jpeg": {"quality": 85},
     "webp": {"quality": 80, "method": 0},
@@ -20,11 +20,11 @@ _HOW: Final[dict[str, dict[str, Any]]] = {
 """By format; with as little effort as may be, since a picture of a stream is looked at for 16 ms."""
 
 
-def encoded(picture: pygame.Surface, form: str) -> bytes:
+def encode_image(picture: pygame.Surface, form: str) -> bytes:
     """The bytes of a PNG, JPEG or WebP file."""
     file = BytesIO()
     pixels = pygame.image.tobytes(picture, "RGB")
     Image.frombuffer("RGB", picture.get_size(), pixels, "raw", "RGB", 0, 1).save(
-        file, form.upper(), **_HOW[form]
+        file, form.upper(), **_ENCODER_OPTIONS[form]
     )
     return file.getvalue()

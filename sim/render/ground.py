@@ -18,7 +18,7 @@ TILE_ROWS = 4
 _TILES = 8
 
 
-def lay_ground(picture: pygame.Surface, camera: Camera, rows: int) -> None:
+def draw_ground(picture: pygame.Surface, camera: Camera, rows: int) -> None:
     """Draw the stretch of a road of `rows` rows that the camera sees."""
     tile = _tile(camera.cell_px, camera.verge_px, camera.columns)
     top = round(camera.top * camera.cell_px)

@@ -8,7 +8,7 @@ from typing import Protocol
 import pygame
 
 from sim.render import theme
-from sim.render.text import width_of, wrapped, written
+from sim.render.text import render_text, text_width, wrap_text
 
 TEXT_PX = 19
 LINE_PX = 18
@@ -37,15 +37,17 @@ def draw_log(lines: Sequence[Line], size: tuple[int, int], back: int = 0) -> pyg
     picture = pygame.Surface(size)
     picture.fill(theme.BODY)
     if not lines:
-        picture.blit(written(EMPTY, TEXT_PX, theme.TEXT_QUIET), (10, 8))
+        picture.blit(render_text(EMPTY, TEXT_PX, theme.TEXT_QUIET), (10, 8))
         return picture
     width, y = size[0], size[1] - GAP_PX
     shown = lines[: len(lines) - back] if back else lines
-    gutter = max(width_of("00000", TEXT_PX - 3), width_of(str(shown[-1].tick), TEXT_PX - 3) if shown else 0)
+    gutter = max(
+        text_width("00000", TEXT_PX - 3), text_width(str(shown[-1].tick), TEXT_PX - 3) if shown else 0
+    )
     room = max(20, width - gutter - 24)
     broken: list[tuple[Line, tuple[str, ...]]] = []
     for number, line in enumerate(reversed(shown)):
-        parts = wrapped(line.text, TEXT_PX, room)
+        parts = wrap_text(line.text, TEXT_PX, room)
         y -= len(parts) * LINE_PX + GAP_PX
         if y < 0 and number:
             break
@@ -55,9 +57,9 @@ def draw_log(lines: Sequence[Line], size: tuple[int, int], back: int = 0) -> pyg
     y = GAP_PX if len(broken) == len(shown) and high <= size[1] - GAP_PX else size[1] - high
     for line, parts in reversed(broken):
         colour = theme.LINES.get(line.type, theme.TEXT)
-        tick = written(str(line.tick), TEXT_PX - 3, theme.TEXT_QUIET)
+        tick = render_text(str(line.tick), TEXT_PX - 3, theme.TEXT_QUIET)
         picture.blit(tick, (8 + gutter - tick.get_width(), y + 2))
         for row, part in enumerate(parts):
-            picture.blit(written(part, TEXT_PX, colour), (16 + gutter, y + row * LINE_PX))
+            picture.blit(render_text(part, TEXT_PX, colour), (16 + gutter, y + row * LINE_PX))
         y += len(parts) * LINE_PX + GAP_PX
     return picture

@@ -50,18 +50,18 @@ class Scene:
     """column and row of the first contact of a crash, once it has happened"""
 
 
-def eased(phase: float) -> float:
+def smoothstep(phase: float) -> float:
     """f(t) = t²(3 − 2t): the share of the way gone after the share `phase` of the time."""
     share = min(1.0, max(0.0, phase))
     return share * share * (3.0 - 2.0 * share)
 
 
-def between(start: float, end: float, share: float) -> float:
+def lerp(start: float, end: float, share: float) -> float:
     """The value that share of the way from `start` to `end`."""
     return start + (end - start) * share
 
 
-def leading(state: SimState, before: World | None, phase: float) -> tuple[World, float]:
+def glide_start(state: SimState, before: World | None, phase: float) -> tuple[World, float]:
     """The world from which things glide to the present one, and how much of the time is gone.
 
     Without one that belongs to the same episode nothing glides. While the result of a crash stands, it is the
@@ -81,25 +81,25 @@ def poses(before: World, after: World, phase: float) -> Scene:
 
     What was not there before is seen where it is now.
     """
-    share = eased(phase)
+    share = smoothstep(phase)
     av = Thing("av-1", Kind.AV, after.road.cell(after.av))
     start = before.road.cell(before.av)
     was, things = _cells(before), _things(after)
     touch = None
     if after.outcome is Outcome.CRASH and before.outcome is Outcome.RUNNING:
-        struck = _struck(Path(Kind.AV, start, av.cell), was, things)
+        struck = _first_contact(Path(Kind.AV, start, av.cell), was, things)
         if struck is not None and share >= struck[0]:
             share = struck[0]
-            touch = _meeting(_gliding(av, start, share).box, _gliding(struck[1], struck[2], share).box)
-    seen = tuple(_gliding(thing, was.get(thing.id, thing.cell), share) for thing in things)
-    return Scene(_gliding(av, start, share), seen, share, touch)
+            touch = _overlap_centre(_pose_at(av, start, share).box, _pose_at(struck[1], struck[2], share).box)
+    seen = tuple(_pose_at(thing, was.get(thing.id, thing.cell), share) for thing in things)
+    return Scene(_pose_at(av, start, share), seen, share, touch)
 
 
-def _gliding(thing: Thing, start: tuple[int, int], share: float) -> Pose:
-    return Pose(thing, between(start[0], thing.cell[0], share), between(start[1], thing.cell[1], share))
+def _pose_at(thing: Thing, start: tuple[int, int], share: float) -> Pose:
+    return Pose(thing, lerp(start[0], thing.cell[0], share), lerp(start[1], thing.cell[1], share))
 
 
-def _struck(
+def _first_contact(
     av: Path, was: dict[str, tuple[int, int]], things: tuple[Thing, ...]
 ) -> tuple[float, Thing, tuple[int, int]] | None:
     """What the vehicle touches first: when, what, and where that came from."""
@@ -114,7 +114,7 @@ def _struck(
     return first
 
 
-def _meeting(one: Box, other: Box) -> tuple[float, float]:
+def _overlap_centre(one: Box, other: Box) -> tuple[float, float]:
     """The middle of what two boxes that touch have in common."""
     across = (max(one[0], other[0]) + min(one[2], other[2])) / 2
     return across, (max(one[1], other[1]) + min(one[3], other[3])) / 2
@@ -124,7 +124,7 @@ _SEEN: list[tuple[World, tuple[Thing, ...], dict[str, tuple[int, int]]]] = []
 """The two latest worlds, each with what is in it: the same two are drawn for many frames."""
 
 
-def _seen(world: World) -> tuple[tuple[Thing, ...], dict[str, tuple[int, int]]]:
+def _cached_things(world: World) -> tuple[tuple[Thing, ...], dict[str, tuple[int, int]]]:
     for known, things, cells in _SEEN:
         if known is world:
             return things, cells
@@ -137,8 +137,8 @@ def _seen(world: World) -> tuple[tuple[Thing, ...], dict[str, tuple[int, int]]]:
 
 def _things(world: World) -> tuple[Thing, ...]:
     """What is on the road, from the ground up."""
-    return _seen(world)[0]
+    return _cached_things(world)[0]
 
 
 def _cells(world: World) -> dict[str, tuple[int, int]]:
-    return _seen(world)[1]
+    return _cached_things(world)[1]

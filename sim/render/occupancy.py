@@ -7,13 +7,13 @@ from functools import lru_cache
 import pygame
 
 from sim.render import theme
-from sim.render.text import written
+from sim.render.text import render_text
 from sim.render.theme import MAX_SIDE_PX
 from sim.state import SimState
 from sim.types import Kind
 
 CELL_PX = 24
-LEAST_WRITTEN_PX = 8
+MIN_DIGIT_PX = 8
 """Digits in smaller cells could not be read, and are left out."""
 
 
@@ -56,6 +56,6 @@ def _digit(
     gap = 1 if px >= 6 else 0
     box = pygame.Rect(cell[0] * px, cell[1] * px, px - gap, px - gap)
     picture.fill(paper, box)
-    if px >= LEAST_WRITTEN_PX:
-        sign = written(digit, max(10, px * 4 // 5), ink)
+    if px >= MIN_DIGIT_PX:
+        sign = render_text(digit, max(10, px * 4 // 5), ink)
         picture.blit(sign, sign.get_rect(center=(box.centerx, box.centery + 1)))

@@ -9,9 +9,9 @@ import pygame
 from sim.plan import Decision
 from sim.render import theme
 from sim.render.camera import Camera, camera_on
-from sim.render.ground import lay_ground
+from sim.render.ground import draw_ground
 from sim.render.hud import draw_figures, draw_verdict
-from sim.render.motion import Pose, leading, poses
+from sim.render.motion import Pose, glide_start, poses
 from sim.render.sprites import av_sprite, barrier_sprite, pedestrian_sprite, pothole_sprite, vehicle_sprite
 from sim.rules.bodies import SIZES
 from sim.state import SimState
@@ -31,11 +31,11 @@ def draw_road(
 ) -> pygame.Surface:
     """See `sim.render.render`."""
     world = state.world
-    start, gone = leading(state, before, phase)
+    start, gone = glide_start(state, before, phase)
     seen = poses(start, world, gone)
     camera = camera_on(state.config, seen.av.row, size)
     picture = pygame.Surface(camera.size)
-    lay_ground(picture, camera, state.config.rows)
+    draw_ground(picture, camera, state.config.rows)
     shown = (pose for pose in seen.things if camera.sees(pose.row))
     if seen.touch is not None:
         _draw_impact(picture, camera, seen.touch)

@@ -31,7 +31,7 @@ def av_sprite(px: int) -> pygame.Surface:
     sensor = (middle[0], middle[1] + unit * 0.1)
     for size, colour in ((0.094, theme.AV_GLASS), (0.07, theme.SENSOR), (0.034, theme.AV)):
         _ellipse(canvas, (*colour, 255), sensor, (unit * size, unit * size))
-    return _shadowed(_smoothed(canvas, px))
+    return _add_shadow(_downscale(canvas, px))
 
 
 def vehicle_sprite(px: int, look: int, heading: str, disabled: bool) -> pygame.Surface:
@@ -46,7 +46,7 @@ def _vehicle(px: int, colour: Colour, heading: str, disabled: bool) -> pygame.Su
     canvas, unit = _canvas(px)
     _car(canvas, unit, Kind.VEHICLE, colour, theme.GLASS, lights=not disabled)
     turned = pygame.transform.rotate(canvas, 90 if heading == "left" else -90)
-    return _shadowed(_smoothed(turned, px))
+    return _add_shadow(_downscale(turned, px))
 
 
 def pedestrian_sprite(px: int, look: int, heading: str, disabled: bool) -> pygame.Surface:
@@ -75,7 +75,7 @@ def _pedestrian(px: int, body: Colour, heading: str) -> pygame.Surface:
     spot(0, 0, (0.15, 0.285), body)
     spot(0.012, 0, (0.15, 0.15), theme.SKIN)
     spot(-0.012, 0, (0.135, 0.14), theme.HAIR)
-    return _shadowed(_smoothed(canvas, px))
+    return _add_shadow(_downscale(canvas, px))
 
 
 @lru_cache(maxsize=_SPRITES)
@@ -105,7 +105,7 @@ def barrier_sprite(px: int) -> pygame.Surface:
         middle = (canvas.get_width() / 2 + side * unit * across * 0.34, canvas.get_height() / 2)
         _ellipse(canvas, (*_darker(theme.LAMP, 0.6), 255), middle, (unit * 0.1, unit * 0.1))
         _ellipse(canvas, (*theme.LAMP, 255), middle, (unit * 0.075, unit * 0.075))
-    return _shadowed(_smoothed(canvas, px))
+    return _add_shadow(_downscale(canvas, px))
 
 
 @lru_cache(maxsize=_SPRITES)
@@ -136,7 +136,7 @@ def pothole_sprite(px: int, name: str) -> pygame.Surface:
     for reach, colour in zip((0.88, 0.74, 0.52), theme.HOLE, strict=True):
         pygame.draw.polygon(canvas, colour, rim(reach, 0.24))
     pygame.draw.lines(canvas, theme.RIM, False, rim(0.88, 0.24)[1:9], max(2, unit // 70))
-    return _smoothed(canvas, px)
+    return _downscale(canvas, px)
 
 
 def _car(
@@ -210,7 +210,7 @@ def _block(
     return rect
 
 
-def _shadowed(sprite: pygame.Surface) -> pygame.Surface:
+def _add_shadow(sprite: pygame.Surface) -> pygame.Surface:
     """The same over its shadow, which falls the same way whichever way it faces."""
     width, height = sprite.get_size()
     shape = pygame.mask.from_surface(sprite).to_surface(setcolor=(0, 0, 0, 105), unsetcolor=(0, 0, 0, 0))
@@ -227,7 +227,7 @@ def _canvas(px: int) -> tuple[pygame.Surface, int]:
     return pygame.Surface((unit, unit), pygame.SRCALPHA), unit
 
 
-def _smoothed(canvas: pygame.Surface, px: int) -> pygame.Surface:
+def _downscale(canvas: pygame.Surface, px: int) -> pygame.Surface:
     return pygame.transform.smoothscale(canvas, (px, px))
 
 

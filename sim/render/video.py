@@ -21,7 +21,7 @@ from sim.state import SimState, decide
 if TYPE_CHECKING:
     from PIL.Image import Image
 
-FILMS: Final = ("gif", "mp4")
+VIDEO_FORMATS: Final = ("gif", "mp4")
 FPS: Final = {"gif": 50, "mp4": 60}
 """The most frames a second: a GIF counts in hundredths of a second, and is shown slowly below two."""
 _COLOURS: Final = 128
@@ -32,7 +32,7 @@ _ROUNDING: Final = 1e-6
 Turn = Callable[[], AbstractContextManager[object]]
 """What is around the drawing of each frame; what it raises ends the film."""
 
-Decided = Callable[[SimState], Decision | None]
+DecisionOf = Callable[[SimState], Decision | None]
 
 
 class VideoMissingError(Exception):
@@ -43,7 +43,7 @@ class VideoMissingError(Exception):
 
 
 @dataclass(frozen=True, slots=True)
-class Shot:
+class Frame:
     """One frame: the way from one state to the next, `phase` of it gone."""
 
     before: SimState
@@ -56,20 +56,20 @@ def has_video() -> bool:
     return find_spec("av") is not None
 
 
-def frames_in(runs: Sequence[SimState], fps: float) -> int:
+def frame_count(runs: Sequence[SimState], fps: float) -> int:
     """How many frames a film of these states has."""
-    return _whole(_seconds(runs), fps) + 1
+    return _whole_frames(_seconds(runs), fps) + 1
 
 
-def video_shots(runs: Sequence[SimState], fps: float) -> Iterator[Shot]:
+def video_frames(runs: Sequence[SimState], fps: float) -> Iterator[Frame]:
     """The frames of these states, which follow each other tick by tick: the first, then one each 1/fps."""
-    yield Shot(runs[0], runs[0], 1.0)
+    yield Frame(runs[0], runs[0], 1.0)
     start_s, shown = 0.0, 0
     for before, after in pairwise(runs):
         step_s = before.config.step_seconds
-        while shown < _whole(start_s + step_s, fps):
+        while shown < _whole_frames(start_s + step_s, fps):
             shown += 1
-            yield Shot(before, after, min(1.0, (shown / fps - start_s) / step_s))
+            yield Frame(before, after, min(1.0, (shown / fps - start_s) / step_s))
         start_s += step_s
 
 
@@ -81,32 +81,36 @@ def render_video(
     fps: int,
     size: tuple[int, int],
     turn: Turn = nullcontext,
-    decided: Decided = decide,
+    decision_of: DecisionOf = decide,
 ) -> bytes:
-    """The bytes of a film file; `decided` knows what was decided in each state.
+    """The bytes of a film file; `decision_of` knows what was decided in each state.
 
     Raises `VideoMissingError` for MP4 without its extra, `ValueError` for a form there is none of and what
     `sim.render.render` raises it for.
     """
-    if form not in FILMS:
-        raise ValueError(f"films can be had as {' and '.join(FILMS)}, not as {form!r}")
+    if form not in VIDEO_FORMATS:
+        raise ValueError(f"films can be had as {' and '.join(VIDEO_FORMATS)}, not as {form!r}")
     if form == "mp4" and not has_video():
         raise VideoMissingError
-    pictures = (_taken(view, shot, size, turn, decided) for shot in video_shots(runs, fps))
+    pictures = (_render_frame(view, frame, size, turn, decision_of) for frame in video_frames(runs, fps))
     if form == "mp4":
         return _mp4(pictures, fps)
     step = max(1, len(runs) // _SAMPLES)
-    samples = [_taken(view, Shot(state, state, 1.0), size, turn, decided) for state in runs[::step]]
-    return _gif(pictures, samples, fps, frames_in(runs, fps))
+    samples = [
+        _render_frame(view, Frame(state, state, 1.0), size, turn, decision_of) for state in runs[::step]
+    ]
+    return _gif(pictures, samples, fps, frame_count(runs, fps))
 
 
-def _taken(view: str, shot: Shot, size: tuple[int, int], turn: Turn, decided: Decided) -> Image:
+def _render_frame(
+    view: str, frame: Frame, size: tuple[int, int], turn: Turn, decision_of: DecisionOf
+) -> Image:
     from PIL.Image import fromarray
 
-    decision = decided(shot.before) if shot.phase < 1.0 else None
+    decision = decision_of(frame.before) if frame.phase < 1.0 else None
     with turn():
         drawn = render(
-            view, shot.after, before=shot.before.world, decision=decision, phase=shot.phase, size=size
+            view, frame.after, before=frame.before.world, decision=decision, phase=frame.phase, size=size
         )
         return fromarray(pixels(drawn))
 
@@ -156,6 +160,6 @@ def _seconds(runs: Sequence[SimState]) -> float:
     return sum(state.config.step_seconds for state in runs[:-1])
 
 
-def _whole(seconds: float, fps: float) -> int:
+def _whole_frames(seconds: float, fps: float) -> int:
     """Whole frames in so many seconds, sums of which are a little off."""
     return int(seconds * fps + _ROUNDING)

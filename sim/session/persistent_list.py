@@ -59,7 +59,7 @@ class PersistentList(Sequence[Item]):
         """The list that it is the beginning of, with what others have put after it."""
         return self._shared
 
-    def alike(self, other: PersistentList[Item]) -> int:
+    def common_prefix_length(self, other: PersistentList[Item]) -> int:
         """How many items both begin with."""
         shorter = min(self._length, other._length)
         if self._shared is other._shared:

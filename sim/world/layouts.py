@@ -48,7 +48,7 @@ _PLACES, _CELLS, _WALL = 8, 256, 512
 """Where the words of a band's stream are read for what."""
 
 
-class LaidRoad(NamedTuple):
+class LayoutBoards(NamedTuple):
     """What a layout says of the cells between start and goal."""
 
     barriers: Board
@@ -58,10 +58,10 @@ class LaidRoad(NamedTuple):
     """cells where potholes are drawn first"""
 
 
-def lay_out(layout: Layout | None, road: Road, stream: Stream) -> LaidRoad:
+def lay_out(layout: Layout | None, road: Road, stream: Stream) -> LayoutBoards:
     """The barriers of a layout, and where the rest is drawn; no barriers without a layout."""
     if layout is None:
-        return LaidRoad(0, road.between, road.between)
+        return LayoutBoards(0, road.between, road.between)
     columns, barriers, movers, potholes = road.columns, 0, 0, 0
     row, number, through = road.rows - 2, 0, columns // 2
     while row >= 1:
@@ -73,7 +73,7 @@ def lay_out(layout: Layout | None, road: Road, stream: Stream) -> LaidRoad:
             potholes |= (holes & ~line) << start
             row -= 1
         number, through = number + 1, band.through
-    return LaidRoad(barriers, movers, potholes)
+    return LayoutBoards(barriers, movers, potholes)
 
 
 def _movable(line: Board, columns: int) -> Board:
@@ -87,7 +87,7 @@ def has_barriers(layout: Layout | None) -> bool:
     return layout is not None and layout != "crossing"
 
 
-def least_room(layout: Layout | None, columns: int, rows: int) -> int:
+def min_free_cells(layout: Layout | None, columns: int, rows: int) -> int:
     """Cells between start and goal that are free of a layout's barriers, whatever is drawn."""
     between = rows - 2
     match layout:
@@ -109,7 +109,7 @@ def vehicles_on_average(layout: Layout | None, columns: int, rows: int, spawn_pr
     return (rows - 2) * a_row * _BUSY_SHARE.get(layout, 1.0)
 
 
-def crossing(columns: int, spawn_probability: float, stream: Stream) -> int:
+def crossing_vehicles(columns: int, spawn_probability: float, stream: Stream) -> int:
     """Vehicles in one row of a `crossing` road, by the row's own stream: half the average to half more."""
     average = columns * spawn_probability * _CROSSING
     most = min(int(average * 1.5), columns // 2 + columns // 8)
@@ -139,19 +139,19 @@ def _all_but(free: Iterable[int], columns: int) -> Board:
     return (1 << columns) - 1 & ~board_of(free)
 
 
-def _far(positions: int, stream: Stream, index: int, before: int) -> int:
+def _farther_draw(positions: int, stream: Stream, index: int, before: int) -> int:
     """The one of two draws that lies farther from the position before."""
     first, second = stream.below(positions, index), stream.below(positions, index + 1)
     return second if abs(second - before) > abs(first - before) else first
 
 
-def _inner(columns: int, stream: Stream, index: int, before: int) -> int:
+def _inner_column(columns: int, stream: Stream, index: int, before: int) -> int:
     """A column for a gap, off the edges: there a mover that turns round would shut in who follows it."""
-    return 1 + _far(columns - 2, stream, index, before - 1)
+    return 1 + _farther_draw(columns - 2, stream, index, before - 1)
 
 
 def _walls(columns: int, stream: Stream, through: int) -> _Band:
-    gap = _inner(columns, stream, _PLACES, through)
+    gap = _inner_column(columns, stream, _PLACES, through)
     gaps = {gap}
     for extra in range(stream.below(2, _SECOND) + columns // _DOORS):
         column = 1 + stream.below(columns - 2, _PLACES + 2 + extra)
@@ -169,7 +169,9 @@ def _narrows(columns: int, stream: Stream, through: int) -> _Band:
     for street in range(streets):
         first, last = columns * street // streets, columns * (street + 1) // streets
         width = 1 + stream.below(min(3, last - first - 1), _PLACES + 3 * street)
-        left = first + _far(last - first - width + 1, stream, _PLACES + 3 * street + 1, through - first)
+        left = first + _farther_draw(
+            last - first - width + 1, stream, _PLACES + 3 * street + 1, through - first
+        )
         free.update(range(left, left + width))
         if street == 0:
             through_next = left + width // 2
@@ -196,7 +198,7 @@ def _dead_ends(columns: int, stream: Stream, through: int) -> _Band:
             range(columns - corridor.stop, columns - corridor.start) for corridor in reversed(corridors)
         ]
     near = next((at for at, corridor in enumerate(corridors) if corridor.stop >= through), len(corridors) - 1)
-    chosen = _far(len(corridors), stream, _PLACES, near)
+    chosen = _farther_draw(len(corridors), stream, _PLACES, near)
     between = _all_but((column for corridor in corridors for column in corridor), columns)
     out = {*corridors[chosen]}
     for extra in range(columns // _DOORS):
@@ -214,7 +216,7 @@ def _crossing(columns: int, stream: Stream, through: int) -> _Band:
 
 
 def _maze(columns: int, stream: Stream, through: int) -> _Band:
-    gap = _inner(columns, stream, _PLACES, through)
+    gap = _inner_column(columns, stream, _PLACES, through)
     way = range(min(gap, through) - 1, max(gap, through) + 2)
     rooms = [
         column

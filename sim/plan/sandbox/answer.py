@@ -84,19 +84,22 @@ class Answer:
     costs: tuple[float | None, ...]
 
 
-def parsed(line: bytes) -> Answer:
+def parse_answer(line: bytes) -> Answer:
     """The answer on a line. Raises `FaultError`, also where the line names a fault."""
-    values = loaded(line)
+    values = load_json(line)
     if "fault" in values:
         raise fault_of(values)
     return answer_of(values)
 
 
-def loaded(line: bytes) -> dict[str, Any]:
+def load_json(line: bytes) -> dict[str, Any]:
     """The JSON object on a line, each key once and every number finite. Raises `FaultError`."""
     try:
         values = json.loads(
-            line.decode("utf-8"), object_pairs_hook=_each_once, parse_constant=_no_number, parse_float=_number
+            line.decode("utf-8"),
+            object_pairs_hook=_reject_duplicate_keys,
+            parse_constant=_reject_constant,
+            parse_float=_finite_float,
         )
     except (ValueError, RecursionError):
         raise CodedError("no-json") from None
@@ -111,7 +114,7 @@ def fault_of(values: Mapping[str, Any]) -> FaultError:
     if not isinstance(code, str) or code not in FAULTS:
         return CodedError("no-json")
     known = isinstance(kind, str) and _KIND.fullmatch(kind)
-    return CodedError(code, kind if known else "something", clean(detail))  # type: ignore[arg-type]
+    return CodedError(code, kind if known else "something", sanitize(detail))  # type: ignore[arg-type]
 
 
 def answer_of(values: Mapping[str, Any]) -> Answer:
@@ -120,17 +123,17 @@ def answer_of(values: Mapping[str, Any]) -> Answer:
         raise CodedError("more")
     move, costs = values["move"], values["costs"]
     if not isinstance(move, str) or move not in _MOVES:
-        raise CodedError("no-move", detail=quoted(move))
+        raise CodedError("no-move", detail=quote(move))
     if not isinstance(costs, dict) or set(costs) != set(_MOVES):
         raise CodedError("no-verdicts")
-    return Answer(_MOVES[move], tuple(checked_cost(costs[each.value], each) for each in Move))
+    return Answer(_MOVES[move], tuple(check_cost(costs[each.value], each) for each in Move))
 
 
-def checked_cost(cost: object, move: Move) -> float | None:
+def check_cost(cost: object, move: Move) -> float | None:
     """A cost as a number. Raises `FaultError` for what is none, or none that can be."""
     if cost is None:
         return None
-    detail = f"{quoted(cost)} for {move}"
+    detail = f"{quote(cost)} for {move}"
     if isinstance(cost, bool) or not isinstance(cost, int | float):
         raise CodedError("no-number", detail=detail)
     if isinstance(cost, float) and not isfinite(cost):
@@ -164,7 +167,7 @@ def decision_of(answer: Answer, percept: Percept, config: Config) -> Decision:
     )
 
 
-def quoted(value: object) -> str:
+def quote(value: object) -> str:
     """Something foreign, for a person: short, on one line, and of plain characters."""
     if isinstance(value, int) and abs(value) >= 10**40:
         return "a number of many digits"
@@ -175,7 +178,7 @@ def quoted(value: object) -> str:
     return told if len(told) <= MOST_TOLD // 2 else f"{told[: MOST_TOLD // 2]}..."
 
 
-def clean(text: object) -> str:
+def sanitize(text: object) -> str:
     """Words of a planner's process, as above."""
     if not isinstance(text, str):
         return ""
@@ -183,18 +186,18 @@ def clean(text: object) -> str:
     return plain if len(plain) <= MOST_TOLD else f"{plain[:MOST_TOLD]}..."
 
 
-def _each_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+def _reject_duplicate_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     values = dict(pairs)
     if len(values) != len(pairs):
         raise ValueError("a key stands twice")
     return values
 
 
-def _no_number(name: str) -> Any:
+def _reject_constant(name: str) -> Any:
     raise ValueError(f"{name} is no number")
 
 
-def _number(digits: str) -> float:
+def _finite_float(digits: str) -> float:
     number = float(digits)
     if not isfinite(number):
         raise ValueError("a number is too large")

@@ -17,7 +17,7 @@ MOST: Final = 20_000
 """Answers, of some hundred bytes each."""
 
 
-class Remembered:
+class AnswerCache:
     """The latest answers, and the faults that were met instead."""
 
     def __init__(self, most: int = MOST) -> None:
@@ -55,5 +55,5 @@ def key_of(planner: str, question: bytes) -> bytes:
     return digest.digest()
 
 
-answers = Remembered()
+answers = AnswerCache()
 """Those of this process."""

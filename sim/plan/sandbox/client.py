@@ -21,45 +21,45 @@ from sim.plan.sandbox import worker
 from sim.plan.sandbox.answer import Answer, FaultError
 from sim.plan.sandbox.answer_cache import answers, key_of
 from sim.plan.sandbox.codec import question
-from sim.plan.sandbox.worker import SilentError
+from sim.plan.sandbox.worker import NoAnswerError
 
-NOT_HERE: Final = "is not waited for here"
+NO_WAITING: Final = "is not waited for here"
 
-_serving: set[int] = set()
+_nonblocking_threads: set[int] = set()
 
 
-class _Patience:
+class _TimeBudget:
     """How long may still be waited."""
 
     def __init__(self, seconds: float) -> None:
         self.seconds = self.left_s = seconds
 
 
-_patience: ContextVar[_Patience | None] = ContextVar("_patience", default=None)
+_time_budget: ContextVar[_TimeBudget | None] = ContextVar("_time_budget", default=None)
 
 
 @contextmanager
-def within(seconds: float) -> Iterator[None]:
+def time_limit(seconds: float) -> Iterator[None]:
     """All that is asked in here is waited for this long in all."""
-    token = _patience.set(_Patience(seconds))
+    token = _time_budget.set(_TimeBudget(seconds))
     try:
         yield
     finally:
-        _patience.reset(token)
+        _time_budget.reset(token)
 
 
 @contextmanager
-def not_in_this_thread() -> Iterator[None]:
+def without_waiting() -> Iterator[None]:
     """In this thread nothing is waited for: others would wait with it."""
     thread = threading.get_ident()
-    _serving.add(thread)
+    _nonblocking_threads.add(thread)
     try:
         yield
     finally:
-        _serving.discard(thread)
+        _nonblocking_threads.discard(thread)
 
 
-def remembered(percept: Percept, config: Config) -> Answer | str | None:
+def cached_answer(percept: Percept, config: Config) -> Answer | str | None:
     """What the planner answered to this before, or the fault that was met; None if that is not known."""
     return answers.find(key_of(config.planner, question(percept, config)))
 
@@ -77,22 +77,22 @@ def ask(percept: Percept, config: Config) -> Future[Answer]:
     return missing
 
 
-def answered(percept: Percept, config: Config) -> Answer:
+def wait_for_answer(percept: Percept, config: Config) -> Answer:
     """The same, waited for. Raises `FaultError` and `SilentError`."""
-    if threading.get_ident() in _serving:
-        found = remembered(percept, config)
+    if threading.get_ident() in _nonblocking_threads:
+        found = cached_answer(percept, config)
         if found is None:
-            raise SilentError(NOT_HERE)
+            raise NoAnswerError(NO_WAITING)
         if isinstance(found, str):
             raise FaultError(found)
         return found
-    patience = _patience.get()
+    patience = _time_budget.get()
     if patience is None:
         return ask(percept, config).result()
     began = monotonic()
     try:
         return ask(percept, config).result(max(0.0, patience.left_s))
     except TimeoutError:
-        raise SilentError(f"did not answer within {patience.seconds:g} s in all") from None
+        raise NoAnswerError(f"did not answer within {patience.seconds:g} s in all") from None
     finally:
         patience.left_s -= monotonic() - began

@@ -29,7 +29,7 @@ def question(percept: Percept, config: Config) -> bytes:
     return json.dumps(values, separators=(",", ":"), allow_nan=False).encode()
 
 
-def asked(line: bytes | str) -> tuple[Percept, Config]:
+def parse_question(line: bytes | str) -> tuple[Percept, Config]:
     """What a question is about, made anew. Raises `ValueError`, `TypeError` or `LookupError`."""
     values = json.loads(line)
     return percept_of(values["percept"]), Config().with_parts(**values["config"])
@@ -37,25 +37,25 @@ def asked(line: bytes | str) -> tuple[Percept, Config]:
 
 def percept_values(percept: Percept) -> dict[str, Any]:
     """A percept's fields as JSON values. Raises `TypeError` for one of a kind that is not known here."""
-    return {field.name: _values(getattr(percept, field.name)) for field in fields(percept)}
+    return {field.name: _to_json(getattr(percept, field.name)) for field in fields(percept)}
 
 
 def percept_of(values: Mapping[str, Any]) -> Percept:
     """The percept of such values."""
-    kinds = _kinds()
+    kinds = _percept_types()
     parts: dict[str, Any] = {}
     for name, value in values.items():
-        part, kind = _back(value), kinds.get(name)
+        part, kind = _from_json(value), kinds.get(name)
         parts[name] = kind(part) if isinstance(kind, type) and issubclass(kind, Enum) else part
     return Percept(**parts)
 
 
 @cache
-def _kinds() -> dict[str, Any]:
+def _percept_types() -> dict[str, Any]:
     return get_type_hints(Percept)
 
 
-def _values(value: object) -> Any:
+def _to_json(value: object) -> Any:
     if value is None or isinstance(value, bool | float | str):
         return value.value if isinstance(value, Enum) else value
     if isinstance(value, int):
@@ -63,13 +63,13 @@ def _values(value: object) -> Any:
     if isinstance(value, Road):
         return {"road": [value.columns, value.rows]}
     if isinstance(value, Mapping):
-        return {"map": [[_values(key), _values(each)] for key, each in value.items()]}
+        return {"map": [[_to_json(key), _to_json(each)] for key, each in value.items()]}
     if isinstance(value, tuple | list):
-        return {"list": [_values(each) for each in value]}
+        return {"list": [_to_json(each) for each in value]}
     raise TypeError(f"a percept cannot be told with {type(value).__name__} in it")
 
 
-def _back(value: Any) -> Any:
+def _from_json(value: Any) -> Any:
     if not isinstance(value, dict):
         return value
     ((kind, content),) = value.items()
@@ -78,7 +78,7 @@ def _back(value: Any) -> Any:
     if kind == "road":
         return Road.of(*content)
     if kind == "map":
-        return {_back(key): _back(each) for key, each in content}
+        return {_from_json(key): _from_json(each) for key, each in content}
     if kind == "list":
-        return tuple(_back(each) for each in content)
+        return tuple(_from_json(each) for each in content)
     raise ValueError(f"there is no kind of value called {kind!r}")

@@ -30,14 +30,14 @@ def main() -> None:
     with open(os.devnull, "rb") as nothing:
         os.dup2(nothing.fileno(), 0)
     while True:
-        data, files = _received(asked)
+        data, files = _receive(asked)
         if not data:
             return
-        answer = _answer(json.loads(data), files, asked)
+        answer = _handle(json.loads(data), files, asked)
         asked.sendall(json.dumps(answer).encode() + b"\n")
 
 
-def _received(asked: socket.socket) -> tuple[bytes, list[int]]:
+def _receive(asked: socket.socket) -> tuple[bytes, list[int]]:
     data, files = b"", list[int]()
     while not data.endswith(b"\n"):
         part, more, _, _ = socket.recv_fds(asked, _REQUEST, 2)
@@ -47,12 +47,12 @@ def _received(asked: socket.socket) -> tuple[bytes, list[int]]:
     return data, files
 
 
-def _answer(request: dict[str, Any], files: list[int], asked: socket.socket) -> int | None:
+def _handle(request: dict[str, Any], files: list[int], asked: socket.socket) -> int | None:
     for number in list(_reaping):
         if os.waitpid(number, os.WNOHANG)[0]:
             _reaping.discard(number)
     if "start" in request:
-        number = _started(request["start"], request["paths"], files, asked)
+        number = _start(request["start"], request["paths"], files, asked)
         for file in files:
             os.close(file)
         return number
@@ -65,7 +65,7 @@ def _answer(request: dict[str, Any], files: list[int], asked: socket.socket) -> 
     return ended.si_status if ended.si_code == os.CLD_EXITED else -ended.si_status
 
 
-def _started(target: str, paths: list[str], files: list[int], asked: socket.socket) -> int:
+def _start(target: str, paths: list[str], files: list[int], asked: socket.socket) -> int:
     number = os.fork()
     if number:
         os.setpgid(number, number)

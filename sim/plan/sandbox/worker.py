@@ -38,10 +38,10 @@ from sim.plan.sandbox.answer import (
     FaultError,
     answer_of,
     fault_of,
-    loaded,
-    parsed,
+    load_json,
+    parse_answer,
 )
-from sim.plan.sandbox.answer_cache import Remembered, answers, key_of
+from sim.plan.sandbox.answer_cache import AnswerCache, answers, key_of
 from sim.plan.sandbox.codec import CHECKED, question
 from sim.planner_names import installed
 
@@ -83,12 +83,12 @@ _PASSED_ON: Final = (
 )
 """Of the environment: keys and passwords of the service are not for planners."""
 _ONE_THREAD: Final = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
-_STANDS_STILL: Final = sys.platform == "linux"
+_CAN_PAUSE: Final = sys.platform == "linux"
 
 Result = TypeVar("Result")
 
 
-class SilentError(Exception):
+class NoAnswerError(Exception):
     """No answer within the time there is; the message says which, to follow the planner's name."""
 
 
@@ -101,7 +101,7 @@ class Worker:
         target: str,
         budget_s: float = BUDGET_S,
         start_s: float = START_S,
-        memory: Remembered | None = answers,
+        memory: AnswerCache | None = answers,
     ) -> None:
         """The planner `module:Class`. Without a `memory` it is asked the same question again."""
         self.name = name
@@ -118,93 +118,93 @@ class Worker:
         """What it answers. The future raises `FaultError` or `SilentError`; it is not to be cancelled."""
 
         async def asked() -> Answer:
-            return await self._asked(question(percept, config))
+            return await self._ask_once(question(percept, config))
 
-        return _planners().begin(asked())
+        return _planners().submit(asked())
 
     def ask_in_full(self, percept: Percept, config: Config) -> Future[tuple[Answer, dict[str, Any]]]:
         """As `ask`, with all that its decision says, as it says it: nothing of that is believed."""
 
         async def asked() -> tuple[Answer, dict[str, Any]]:
             async with self._turn:
-                values = loaded(await self._exchanged(CHECKED + question(percept, config), CHECK_BYTES))
+                values = load_json(await self._exchange(CHECKED + question(percept, config), CHECK_BYTES))
             if "fault" in values:
                 raise fault_of(values)
             if set(values) != {"answer", "claims", "changed"} or not isinstance(values["answer"], dict):
                 raise CodedError("more")
             return answer_of(values["answer"]), values
 
-        return _planners().begin(asked())
+        return _planners().submit(asked())
 
     def stop(self) -> None:
         """End the process."""
 
         async def stopped() -> None:
             line = self._line
-            self.leave()
+            self.drop_process()
             if line is not None:
-                await line.gone()
+                await line.wait_until_reaped()
 
-        _planners().begin(stopped()).result()
+        _planners().submit(stopped()).result()
 
     @property
     def idle(self) -> bool:
         """Whether it has a process that nobody asks."""
         return self._line is not None and not self._turn.locked()
 
-    async def _asked(self, what: bytes) -> Answer:
+    async def _ask_once(self, what: bytes) -> Answer:
         key = key_of(self.name, what)
         async with self._turn:
             found = None if self._memory is None else self._memory.find(key)
             if found is None:
-                found = await self._found(what)
+                found = await self._answer_or_fault(what)
                 if self._memory is not None:
                     self._memory.note(key, found)
         if isinstance(found, str):
             raise FaultError(found)
         return found
 
-    async def _found(self, what: bytes) -> Answer | str:
+    async def _answer_or_fault(self, what: bytes) -> Answer | str:
         try:
-            return parsed(await self._exchanged(what, MOST_BYTES))
+            return parse_answer(await self._exchange(what, MOST_BYTES))
         except FaultError as fault:
             if fault.detail:
                 _LOG.info("the planner %s %s: %s", self.name, fault, ascii(fault.detail))
             return str(fault)
 
-    async def _exchanged(self, what: bytes, most: int) -> bytes:
+    async def _exchange(self, what: bytes, most: int) -> bytes:
         """A question and its answer. Raises `FaultError` where the line broke, and `SilentError`."""
         if self._rests_until > time.monotonic():
-            raise SilentError(f"has failed {MOST_FAILURES} times in a row and is left alone for now")
+            raise NoAnswerError(f"has failed {MOST_FAILURES} times in a row and is left alone for now")
         try:
-            line = self._line or await self._started()
-            _planners().used(self)
+            line = self._line or await self._start_process()
+            _planners().mark_used(self)
             async with _planners().deciding:
-                told = await line.exchanged(what, most, self._budget_s, "did not answer")
-        except (SilentError, FaultError):
-            self.leave()
+                told = await line.exchange(what, most, self._budget_s, "did not answer")
+        except (NoAnswerError, FaultError):
+            self.drop_process()
             self._failures += 1
             if self._failures >= MOST_FAILURES:
                 self._rests_until = time.monotonic() + REST_S
             raise
         self._failures = 0
-        if _planners().wanted:
-            self.leave()  # others wait for a process
+        if _planners().waiting:
+            self.drop_process()  # others wait for a process
         return told
 
-    async def _started(self) -> _Line:
+    async def _start_process(self) -> _Line:
         async with _planners().starting(self):
             self._line = _Line(self.name, _planners().spawner)
             await self._line.start(self._target)
             await self._line.ready(self._start_s)
             return self._line
 
-    def leave(self) -> None:
+    def drop_process(self) -> None:
         """Let go of its process; on the planners' thread."""
         line, self._line = self._line, None
         if line is not None:
             line.kill()
-        _planners().gone(self)
+        _planners().release(self)
 
 
 class _Spawner:
@@ -218,7 +218,7 @@ class _Spawner:
     async def start(self, target: str, *files: int) -> int:
         """Start the process of a planner with these files; answers its number. Raises `CodedError`."""
         try:
-            number = await self._asked({"start": target, "paths": _paths()}, *files)
+            number = await self._request({"start": target, "paths": _paths()}, *files)
         except (OSError, ValueError) as error:
             raise CodedError("unstartable", detail=str(error)) from error
         assert number is not None
@@ -226,11 +226,11 @@ class _Spawner:
 
     async def code(self, number: int) -> int | None:
         """The code that a process ended with; of a signal, its negative. None while it runs."""
-        return await self._asked({"look": number})
+        return await self._request({"look": number})
 
     async def reap(self, number: int) -> None:
         """A process has been killed and is looked at no more."""
-        await self._asked({"reap": number})
+        await self._request({"reap": number})
 
     def end(self) -> None:
         """End it, and with it (on Linux) all that it has started."""
@@ -241,7 +241,7 @@ class _Spawner:
             self._process.wait()
         self._socket = self._process = None
 
-    async def _asked(self, request: dict[str, Any], *files: int) -> int | None:
+    async def _request(self, request: dict[str, Any], *files: int) -> int | None:
         loop = asyncio.get_running_loop()
         async with self._turn:
             if self._socket is None or self._process is None or self._process.poll() is not None:
@@ -312,33 +312,33 @@ class _Line:
 
     async def ready(self, within_s: float) -> None:
         """Wait until its planner is loaded. Raises `SilentError` and `FaultError`."""
-        told = loaded(await self._told(0, MOST_BYTES, within_s, "did not start"))
+        told = load_json(await self._read_answer(0, MOST_BYTES, within_s, "did not start"))
         if told != {"ready": True}:
             raise fault_of(told)
-        self._rest()
+        self._pause()
 
-    async def exchanged(self, what: bytes, most: int, within_s: float, late: str) -> bytes:
+    async def exchange(self, what: bytes, most: int, within_s: float, late: str) -> bytes:
         """The line that answers a line."""
         assert self._writer is not None
         self._number += 1
-        if _STANDS_STILL:
+        if _CAN_PAUSE:
             self._signal(signal.SIGCONT)
         self._writer.write(b"%d %s\n" % (self._number, what))
-        told = await self._told(self._number, most, within_s, late)
-        self._rest()
+        told = await self._read_answer(self._number, most, within_s, late)
+        self._pause()
         return told
 
-    async def _told(self, number: int, most: int, within_s: float, late: str) -> bytes:
+    async def _read_answer(self, number: int, most: int, within_s: float, late: str) -> bytes:
         assert self._reader is not None
         try:
             async with asyncio.timeout(within_s):
                 line = await self._reader.readuntil()
         except TimeoutError:
-            raise SilentError(f"{late} within {within_s:g} s") from None
+            raise NoAnswerError(f"{late} within {within_s:g} s") from None
         except asyncio.LimitOverrunError:
             raise CodedError("too-long") from None
         except (asyncio.IncompleteReadError, ConnectionError):
-            raise await self._ended() from None
+            raise await self._exit_fault() from None
         if len(line) > most:
             raise CodedError("too-long")
         which, _, told = line.partition(b" ")
@@ -346,7 +346,7 @@ class _Line:
             raise CodedError("out-of-turn")
         return told
 
-    async def _ended(self) -> CodedError:
+    async def _exit_fault(self) -> CodedError:
         """How its process ended, if it has."""
         assert self._process is not None
         for _ in range(20):
@@ -362,24 +362,24 @@ class _Line:
         """End it, and whatever it has started in its group."""
         self._signal(signal.SIGKILL)
         if self._process is not None:
-            self._reaping = asyncio.ensure_future(self._reaped(self._process))
+            self._reaping = asyncio.ensure_future(self._reap(self._process))
             self._process = None
         if self._reading is not None:
             self._reading.cancel()
         if self._writer is not None:
             self._writer.transport.abort()
 
-    async def gone(self) -> None:
+    async def wait_until_reaped(self) -> None:
         """Once it has been killed: wait until its number is given back."""
         if self._reaping is not None:
             await self._reaping
 
-    async def _reaped(self, process: int) -> None:
+    async def _reap(self, process: int) -> None:
         with suppress(OSError, ValueError):  # whoever starts them has ended, and they with it
             await self._spawner.reap(process)
 
-    def _rest(self) -> None:
-        if _STANDS_STILL:
+    def _pause(self) -> None:
+        if _CAN_PAUSE:
             self._signal(signal.SIGSTOP)
 
     def _signal(self, number: int) -> None:
@@ -414,14 +414,14 @@ class _Planners:
         self._room = asyncio.Condition()
         self._with_process: dict[Worker, None] = {}
         """the one that was asked longest ago first"""
-        self.wanted = 0
+        self.waiting = 0
         """how many wait for room"""
         self._ended = False
-        self._telling: asyncio.Task[None] | None = None
+        self._announcing: asyncio.Task[None] | None = None
         self._thread = threading.Thread(target=self._run, name="planners", daemon=True)
         self._thread.start()
 
-    def begin(self, work: Coroutine[Any, Any, Result]) -> Future[Result]:
+    def submit(self, work: Coroutine[Any, Any, Result]) -> Future[Result]:
         """Do this on the thread."""
         return asyncio.run_coroutine_threadsafe(work, self._loop)
 
@@ -429,50 +429,50 @@ class _Planners:
     async def starting(self, worker: Worker) -> AsyncIterator[None]:
         """Room for one more process, and a turn to start it."""
         if self._ended:
-            raise SilentError("is asked no more, since the program ends")
+            raise NoAnswerError("is asked no more, since the program ends")
         async with self._room:
             if len(self._with_process) >= MOST_PROCESSES:
                 idle = next((each for each in self._with_process if each.idle), None)
                 if idle is not None:
-                    idle.leave()
-                self.wanted += 1
+                    idle.drop_process()
+                self.waiting += 1
                 try:
                     await self._room.wait_for(lambda: len(self._with_process) < MOST_PROCESSES)
                 finally:
-                    self.wanted -= 1
+                    self.waiting -= 1
             self._with_process[worker] = None
         try:
             async with self._start:
                 yield
         except BaseException:
-            self.gone(worker)
+            self.release(worker)
             raise
 
-    def used(self, worker: Worker) -> None:
+    def mark_used(self, worker: Worker) -> None:
         """It is asked now."""
         self._with_process.pop(worker, None)
         self._with_process[worker] = None
 
-    def gone(self, worker: Worker) -> None:
+    def release(self, worker: Worker) -> None:
         """It has no process any more."""
         if worker in self._with_process:
             del self._with_process[worker]
-            self._telling = self._loop.create_task(self._told_of_room())
+            self._announcing = self._loop.create_task(self._announce_room())
 
     def end(self) -> None:
         """Kill every process, and start none any more."""
 
         async def ended() -> None:
             for worker in list(self._with_process):
-                worker.leave()
+                worker.drop_process()
             self.spawner.end()
 
         if not self._ended:
             self._ended = True
             with suppress(TimeoutError):
-                self.begin(ended()).result(5.0)
+                self.submit(ended()).result(5.0)
 
-    async def _told_of_room(self) -> None:
+    async def _announce_room(self) -> None:
         async with self._room:
             self._room.notify_all()
 

@@ -22,8 +22,8 @@ from sim.config import Config
 from sim.forecast import predict
 from sim.perceive import Percept
 from sim.plan.decision import Decision, Option
-from sim.plan.sandbox.answer import CodedError, checked_cost, clean, quoted
-from sim.plan.sandbox.codec import CHECKED, asked, percept_values
+from sim.plan.sandbox.answer import CodedError, check_cost, quote, sanitize
+from sim.plan.sandbox.codec import CHECKED, parse_question, percept_values
 from sim.planner_names import GROUP
 from sim.types import Move
 
@@ -41,36 +41,36 @@ MAX_HORIZON: Final = 10_000
 
 def serve(target: str, line: int, printing: int) -> None:
     """Load the planner, then answer on the line until nobody asks any more. For a process of its own."""
-    line = _settle(line, printing)
+    line = _confine(line, printing)
     with os.fdopen(os.dup(line), "rb") as questions:
         try:
             planner = EntryPoint("planner", target, GROUP).load()()
         except BaseException as error:  # sys.exit() among them
-            _send(line, b"0", _told(_raised("unloadable", error)))
+            _send(line, b"0", _fault_values(_fault_of_exception("unloadable", error)))
             return
         _send(line, b"0", {"ready": True})
         for each in questions:
             number, _, question = each.partition(b" ")
             in_full = question.startswith(CHECKED)
             work = partial(_answer, planner, question.removeprefix(CHECKED), in_full=in_full)
-            _send(line, number, fault_met(work))
+            _send(line, number, run_or_fault(work))
 
 
-def answered(planner: Any, percept: Percept, config: Config) -> object:
+def ask_planner(planner: Any, percept: Percept, config: Config) -> object:
     """What a planner decides of a forecast that reaches as far as it asks. Raises what it raises."""
     horizon = planner.horizon(config)
     if isinstance(horizon, bool) or not isinstance(horizon, int) or not 1 <= horizon <= MAX_HORIZON:
-        raise CodedError("horizon", detail=quoted(horizon))
+        raise CodedError("horizon", detail=quote(horizon))
     return planner.decide(predict(percept, horizon), config)
 
 
-def told(decision: object, percept: Percept) -> dict[str, Any]:
+def answer_values(decision: object, percept: Percept) -> dict[str, Any]:
     """A decision's move and costs, as an answer. Raises `CodedError` where it is none for this moment."""
     if not isinstance(decision, Decision):
-        raise CodedError("no-decision", detail=quoted(decision))
+        raise CodedError("no-decision", detail=quote(decision))
     move: object = decision.move
     if not isinstance(move, Move):
-        raise CodedError("no-move", detail=quoted(move))
+        raise CodedError("no-move", detail=quote(move))
     if (decision.tick, decision.av) != (percept.tick, percept.ego_id):
         raise CodedError("elsewhere")
     if percept.road.moved(percept.ego, move) is None:
@@ -88,13 +88,13 @@ def told(decision: object, percept: Percept) -> dict[str, Any]:
 def claims(planner: Any, decision: Decision) -> dict[str, Any]:
     """What a decision says beyond the move and costs, for who compares it with what is so."""
     return {
-        "name": quoted(planner.name),
-        "planner": quoted(decision.planner),
+        "name": quote(planner.name),
+        "planner": quote(decision.planner),
         "options": {
             option.move.value: [
-                quoted(getattr(option.reason, "value", option.reason)),
-                quoted(option.cell),
-                quoted(tuple(sorted(option.causes))),
+                quote(getattr(option.reason, "value", option.reason)),
+                quote(option.cell),
+                quote(tuple(sorted(option.causes))),
                 option.cost is not None,
             ]
             for option in decision.options
@@ -102,14 +102,14 @@ def claims(planner: Any, decision: Decision) -> dict[str, Any]:
     }
 
 
-def witnessed(planner: Any, percept: Percept, config: Config) -> dict[str, Any]:
+def answer_with_claims(planner: Any, percept: Percept, config: Config) -> dict[str, Any]:
     """An answer, with what the decision claims and whether the percept was changed. Raises `CodedError`."""
     shown = percept_values(percept)
     try:
-        decision = answered(planner, percept, config)
+        decision = ask_planner(planner, percept, config)
     except IndexError as error:
-        raise _raised("too-far" if "horizon" in str(error) else "raised", error) from error
-    answer = told(decision, percept)
+        raise _fault_of_exception("too-far" if "horizon" in str(error) else "raised", error) from error
+    answer = answer_values(decision, percept)
     assert isinstance(decision, Decision)  # else `told` raised
     return {
         "answer": answer,
@@ -118,20 +118,22 @@ def witnessed(planner: Any, percept: Percept, config: Config) -> dict[str, Any]:
     }
 
 
-def fault_met(work: Callable[[], dict[str, Any]]) -> dict[str, Any]:
+def run_or_fault(work: Callable[[], dict[str, Any]]) -> dict[str, Any]:
     """What the work results in, or the fault that was met instead, whatever was raised."""
     try:
         return work()
     except CodedError as fault:
-        return _told(fault)
+        return _fault_values(fault)
     except BaseException as error:  # sys.exit() among them
-        return _told(_raised("raised", error))
+        return _fault_values(_fault_of_exception("raised", error))
 
 
 def _answer(planner: Any, asked_for: bytes, *, in_full: bool) -> dict[str, Any]:
-    percept, config = asked(asked_for)
+    percept, config = parse_question(asked_for)
     return (
-        witnessed(planner, percept, config) if in_full else told(answered(planner, percept, config), percept)
+        answer_with_claims(planner, percept, config)
+        if in_full
+        else answer_values(ask_planner(planner, percept, config), percept)
     )
 
 
@@ -139,19 +141,19 @@ def _cost(option: Option) -> float | None:
     cost: Any = option.cost
     if isinstance(cost, numbers.Real) and type(cost).__module__ != "builtins":
         cost = float(cost)  # of another library
-    return checked_cost(cost, option.move)
+    return check_cost(cost, option.move)
 
 
-def _told(fault: CodedError) -> dict[str, Any]:
+def _fault_values(fault: CodedError) -> dict[str, Any]:
     return {"fault": fault.code, "kind": fault.kind, "detail": fault.detail}
 
 
-def _raised(code: str, error: BaseException) -> CodedError:
+def _fault_of_exception(code: str, error: BaseException) -> CodedError:
     try:
         text = str(error)
     except BaseException:  # whatever its own `__str__` does
         text = ""
-    return CodedError(code, type(error).__name__, clean(text))
+    return CodedError(code, type(error).__name__, sanitize(text))
 
 
 def _send(line: int, number: bytes, values: dict[str, Any]) -> None:
@@ -160,7 +162,7 @@ def _send(line: int, number: bytes, values: dict[str, Any]) -> None:
         data = data[os.write(line, data) :]
 
 
-def _settle(line: int, printing: int) -> int:
+def _confine(line: int, printing: int) -> int:
     """Set the limits, and keep no file but these; answers the line's new number."""
     kept = os.dup(line) if line < 4 else line
     with open(os.devnull, "rb") as nothing:
