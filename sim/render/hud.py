@@ -1,4 +1,4 @@
-"""Figures over the road, and the verdict when an episode has ended."""
+"""Draws the figures above the road, and the outcome when an episode has ended."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from sim.types import Outcome
 
 LEAST_PX = 24
 MOST_PX = 42
-"""Height of the strip of figures; where it is too narrow for all of them, the last are left out."""
+"""Height range (px) of the strip of figures; the last figures are left out where the strip is too narrow."""
 
 
 def draw_figures(picture: pygame.Surface, state: SimState, unit_px: int) -> None:
-    """Tick, time, way to go and success rate along the upper edge."""
+    """Draws tick, time, distance to the goal, episode and success rate along the upper edge."""
     world, rate = state.world, state.metrics.success_rate
     row = world.road.cell(world.av)[1]
     figures = [
@@ -51,7 +51,7 @@ def _strip(shown: tuple[tuple[str, str], ...], width: int, unit_px: int) -> pyga
 
 
 def draw_verdict(picture: pygame.Surface, state: SimState, unit_px: int) -> None:
-    """CRASH, SUCCESS or STUCK across the middle, with what was hit; nothing while the road is driven."""
+    """Draws CRASH, SUCCESS or STUCK across the middle, with details; nothing while the episode runs."""
     world = state.world
     if world.outcome is Outcome.RUNNING:
         return

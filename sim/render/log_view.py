@@ -1,4 +1,4 @@
-"""The log as lines of writing: when, and what; the newest last."""
+"""Draws the log: a line of text per event, with its tick; the newest last."""
 
 from __future__ import annotations
 
@@ -17,23 +17,23 @@ EMPTY = "Nothing has happened yet."
 
 
 class Line(Protocol):
-    """What is shown of a line."""
+    """A line of the log."""
 
     @property
     def tick(self) -> int:
-        """When it was."""
+        """The tick of the event."""
 
     @property
     def type(self) -> str:
-        """What kind of thing happened."""
+        """The type of the event; it decides the colour."""
 
     @property
     def text(self) -> str:
-        """It in words."""
+        """The event in words."""
 
 
 def draw_log(lines: Sequence[Line], size: tuple[int, int], back: int = 0) -> pygame.Surface:
-    """The lines that fit, the newest at the bottom; `back` lines of the newest are left out."""
+    """Draws the lines that fit, the newest at the bottom; skips the `back` newest lines."""
     picture = pygame.Surface(size)
     picture.fill(theme.BODY)
     if not lines:
@@ -52,7 +52,7 @@ def draw_log(lines: Sequence[Line], size: tuple[int, int], back: int = 0) -> pyg
         if y < 0 and number:
             break
         broken.append((line, parts))
-    # Few lines begin at the top; many end at the bottom.
+    # Lines that all fit start at the top; others end at the bottom.
     high = sum(len(parts) * LINE_PX + GAP_PX for _, parts in broken)
     y = GAP_PX if len(broken) == len(shown) and high <= size[1] - GAP_PX else size[1] - high
     for line, parts in reversed(broken):

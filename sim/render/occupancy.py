@@ -1,4 +1,4 @@
-"""The occupancy matrix: 0 where the road is free and 1 where something is, coloured by its kind."""
+"""Draws the occupancy grid: 0 for a free cell, 1 for an occupied one, coloured by kind."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from sim.types import Kind
 
 CELL_PX = 24
 MIN_DIGIT_PX = 8
-"""Digits in smaller cells could not be read, and are left out."""
+"""Smaller cells have no digits, since they could not be read."""
 
 
 def draw_occupancy(state: SimState, size: tuple[int, int] | None = None) -> pygame.Surface:
-    """A cell for each of the road; `size` is the room for it in pixels."""
+    """Draws every cell of the road; `size` is the largest (width, height) in pixels."""
     road = state.world.road
     width, height = size or (MAX_SIDE_PX, MAX_SIDE_PX)
     fitting = max(1, min(width // road.columns, height // road.rows))

@@ -1,8 +1,7 @@
-"""The planning view: the nine by nine cells around the vehicle, and what it made of them.
+"""Draws the planning view: the nine by nine cells around the ego, and its decision.
 
-The intended move is a green arrow; where movers are expected next is outlined, with an arrow from where
-they are; the moves that were not taken are listed with their reasons, and marked on the road where they
-cannot be had. Leaves out how it was decided: all of that stands in the decision.
+A green arrow shows the chosen move. Outlines with arrows show where movers are expected next. A list has
+every move with its reason, and crosses on the road mark blocked moves. All of it is read from the decision.
 """
 
 from __future__ import annotations
@@ -24,7 +23,7 @@ from sim.state import SimState
 from sim.types import HAZARDS, Cell, Kind, Move
 
 ACROSS: Final = 9
-"""Cells along each side; the vehicle is in the middle."""
+"""Cells along each side; the ego is in the middle."""
 LIST_ROWS: Final = 6
 LEAST_ROW_PX: Final = 18
 MOST_ROW_PX: Final = 26
@@ -41,7 +40,7 @@ _HALF: Final = ACROSS // 2
 def draw_plan(
     state: SimState, decision: Decision | None, size: tuple[int, int], narration: str | None = None
 ) -> pygame.Surface:
-    """What is planned in the state of `run`; None is a standing result. `size` is filled."""
+    """Draws the decision taken in `state` (None while a result is shown); the picture has `size` pixels."""
     width, height = size
     picture = pygame.Surface(size)
     picture.fill(theme.BODY)
@@ -121,7 +120,7 @@ def _grid(state: SimState, decision: Decision | None, px: int) -> pygame.Surface
 
 @lru_cache(maxsize=8)
 def _blank(px: int) -> pygame.Surface:
-    """Off the road everywhere: stripes, as on a map of what is not there."""
+    """Draws the background off the road: stripes."""
     side = px * ACROSS
     picture = pygame.Surface((side, side))
     picture.fill(theme.OFF_ROAD)
@@ -133,7 +132,7 @@ def _blank(px: int) -> pygame.Surface:
 
 @lru_cache(maxsize=8)
 def _cells(px: int) -> pygame.Surface:
-    """Road everywhere."""
+    """Draws empty road cells."""
     side = px * ACROSS
     picture = pygame.Surface((side, side))
     picture.fill(theme.SCHEMATIC_GRID)
@@ -144,7 +143,7 @@ def _cells(px: int) -> pygame.Surface:
 
 
 def _symbol(px: int) -> int:
-    """How large a cell the things in one of `px` are drawn for: the plan shows cells, not bodies."""
+    """Size of a symbol in a cell of `px` pixels: larger than a body, since the plan shows cells."""
     return px * 4 // 3
 
 
@@ -158,7 +157,7 @@ def _faint(colour: Colour) -> Colour:
 def _draw_expected_step(
     picture: pygame.Surface, start: pygame.Rect, end: pygame.Rect, colour: Colour
 ) -> None:
-    """The outline of a cell that a mover is expected in, and an arrow there."""
+    """Outlines the cell a mover is expected in, with an arrow to it."""
     width = max(1, start.width // 16)
     frame = end.inflate(-max(2, start.width // 7), -max(2, start.width // 7))
     arm = max(2, frame.width // 4)
@@ -199,7 +198,7 @@ def _cross(picture: pygame.Surface, box: pygame.Rect) -> None:
 
 
 def _list(picture: pygame.Surface, decision: Decision, room: pygame.Rect, row_px: int) -> int:
-    """All moves, the most preferred first; the row after the last."""
+    """Lists all moves, the most preferred first. Returns the y coordinate below the last."""
     y, text_px = room.top, row_px - 3
     names = max(text_width(name, text_px) for name in theme.MOVES.values()) + row_px + 12
     for option in decision.options:
@@ -223,12 +222,12 @@ def _list(picture: pygame.Surface, decision: Decision, room: pygame.Rect, row_px
 
 
 def _move_colour(option: Option) -> Colour:
-    """Green for the move that is made; amber where it is made though something is met."""
+    """Green for a chosen move that is free, amber for one that is blocked."""
     return theme.OUTCOMES["stuck"] if option.reason.blocks else theme.MOVE
 
 
 def reason_of(option: Option, decision: Decision) -> str:
-    """Why a move was taken or not, in a few words."""
+    """Says in a few words why a move was chosen or not."""
     if option.reason.blocks:
         words = theme.REASONS[option.reason]
         movers = [name for name in option.causes if name.partition("-")[0] in (Kind.VEHICLE, Kind.PEDESTRIAN)]
@@ -264,7 +263,7 @@ def _mark(picture: pygame.Surface, option: Option, taken: bool, box: pygame.Rect
 
 
 def _draw_text(picture: pygame.Surface, text: str, room: pygame.Rect) -> int:
-    """Some lines of writing; the row after the last."""
+    """Draws wrapped text. Returns the y coordinate below the last line."""
     wide = max(20, room.width - 6)
     text_px = next((px for px in (20, 18, 16) if len(wrap_text(text, px, wide)) * px <= room.height), 16)
     lines, fits = wrap_text(text, text_px, wide), room.height // text_px
@@ -276,7 +275,7 @@ def _draw_text(picture: pygame.Surface, text: str, room: pygame.Rect) -> int:
 
 
 def _legend(picture: pygame.Surface, room: pygame.Rect) -> None:
-    """What the colours are of, at the lower edge, where there is room for all of it."""
+    """Draws the legend of colours at the lower edge, if all of it fits."""
     px, row_px = 18, 20
     entries = [(LEGEND[kind], theme.SCHEMATIC[kind]) for kind in LEGEND]
     widths = [text_width(name, px) + 34 for name, _ in entries]
