@@ -1,8 +1,8 @@
-"""States of environments as JSON values and back, exactly: the same continuation, action for action.
+"""Saves the state of an environment as a JSON value and restores it exactly.
 
-What is saved: the worlds, how far their streams are, and the environment's own random generator, which draws
-seeds that nobody gave. What is not: the action space's generator, and how worlds are shown and paid. A state
-is taken by an environment of the same form (one or many), number and configuration, and by no other.
+Saved are the worlds, the positions of their random streams, and the environment's own generator, which draws
+seeds that are not given. Not saved are the generator of the action space, the observation and the reward. A
+state fits an environment of the same class, number of lanes and configuration.
 """
 
 from __future__ import annotations
@@ -28,28 +28,28 @@ MANY: Final = "roadtalk vector env 1"
 
 
 class Seeded(Protocol):
-    """What both environments have."""
+    """The attributes that both environments share."""
 
     config: Config
     _np_random_seed: int | None
 
     @property
     def np_random(self) -> np.random.Generator:
-        """Draws the seeds that nobody gave."""
+        """The generator that draws seeds that are not given."""
 
     @np_random.setter
     def np_random(self, value: np.random.Generator) -> None: ...
 
 
 def save_single(state: SimState, env: Seeded) -> dict[str, Any]:
-    """The state of one world."""
+    """Saves the state of a single environment."""
     packer = Packer()
     number = packer.run(state)
     return {"format": ONE, "run": number, **_json_parts(packer), **_generator_parts(env)}
 
 
 def load_single(saved: Mapping[str, Any], env: Seeded) -> SimState:
-    """The run of such a state; the environment's generator is set. Raises `ValueError`."""
+    """Returns a saved single environment's state and sets the generator of `env`. Raises `ValueError`."""
     _check_format(saved, ONE)
     try:
         state: SimState = Unpacker(saved).runs[saved["run"]]
@@ -62,7 +62,7 @@ def load_single(saved: Mapping[str, Any], env: Seeded) -> SimState:
 
 
 def save_vector(batch: Batch, env: Seeded) -> dict[str, Any]:
-    """The state of many worlds."""
+    """Saves the state of a vector environment."""
     packer = Packer()
     packer.config(env.config)
     arrays = batch.saved()
@@ -77,7 +77,7 @@ def save_vector(batch: Batch, env: Seeded) -> dict[str, Any]:
 
 
 def load_vector(state: Mapping[str, Any], env: Seeded, lanes: int) -> Batch:
-    """The batch of such a state; the environment's generator is set. Raises `ValueError`."""
+    """Returns a saved vector environment's batch and sets the generator of `env`. Raises `ValueError`."""
     _check_format(state, MANY)
     try:
         (config,) = Unpacker({**Packer().packed(), "configs": state["configs"]}).configs
@@ -97,7 +97,7 @@ def load_vector(state: Mapping[str, Any], env: Seeded, lanes: int) -> Batch:
 
 
 def _json_parts(packer: Packer) -> dict[str, Any]:
-    """What was packed, with the lists that a JSON reader makes of tuples."""
+    """Returns the packed parts with lists in place of tuples, as a JSON reader would."""
     packed = packer.packed()
     configs = [
         {name: list(value) if isinstance(value, tuple) else value for name, value in config.items()}
@@ -117,7 +117,7 @@ def _check_format(state: Mapping[str, Any], form: str) -> None:
 
 
 def _check_config(theirs: Config, mine: Config) -> None:
-    """Raise `ValueError` that names every setting that differs, the seed aside."""
+    """Raises `ValueError` if a setting other than the seed differs; it names all of them."""
     differing = [
         f"{field.name} is {getattr(theirs, field.name)!r} there and {getattr(mine, field.name)!r} here"
         for field in fields(Config)
