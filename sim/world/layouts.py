@@ -89,11 +89,18 @@ def has_barriers(layout: Layout | None) -> bool:
 
 def min_free_cells(layout: Layout | None, columns: int, rows: int) -> int:
     """A lower bound on the cells between start and goal that are free of barriers, for every seed."""
-            between = rows - 2 match layout: case "walls" | "maze": # At least every other row is open or a
-            room; in a maze's room only the way through is surely free. open_rows = -(-between // 2) return
-            open_rows * (columns if layout == "walls" else 1) + between - open_rows case "narrows": return
-            between + -(-between // (_LONGEST + 1)) * (columns - 1) case "dead_ends": return between +
-            -(-between // (_DEEPEST + 3)) * (columns - 1) case _: return between * columns
+    between = rows - 2
+    match layout:
+        case "walls" | "maze":
+            # At least every other row is open or a room; in a maze's room only the way is surely free.
+            open_rows = -(-between // 2)
+            return open_rows * (columns if layout == "walls" else 1) + between - open_rows
+        case "narrows":
+            return between + -(-between // (_LONGEST + 1)) * (columns - 1)
+        case "dead_ends":
+            return between + -(-between // (_DEEPEST + 3)) * (columns - 1)
+        case _:
+            return between * columns
 
 
 def vehicles_on_average(layout: Layout | None, columns: int, rows: int, spawn_probability: float) -> float:
