@@ -1,8 +1,8 @@
-"""What an episode has come to so far: its beginning, every move, and for whose sake each detour was made.
+"""The record of an episode so far: its first world, every move, and the reason of each detour.
 
-Kept along with the run, so that an end can be summed up without driving the episode again, and so that
-undoing, forking and replaying need no care. Whose sake is read off the worlds before and after, not off
-a planner's own account: it is whoever would have been met straight ahead.
+The record is part of the state, so the end of an episode is summarized without running it again, and undo,
+fork and replay keep it right. The reason of a detour is the thing that the ego would have met straight ahead.
+It is read from the worlds before and after the move, not from what the planner says.
 """
 
 from __future__ import annotations
@@ -20,18 +20,18 @@ _SIGNS: Final = {move: str(place) for place, move in enumerate(_MOVES)}
 
 
 class DetourReason(StrEnum):
-    """For whose sake the vehicle did not go straight on."""
+    """Why the ego did not go straight on."""
 
     POTHOLE = "pothole"
     BARRIER = "barrier"
     VEHICLE = "vehicle"
     PEDESTRIAN = "pedestrian"
     YOU = "you"
-    """a person asked for it, or drives and asked for nothing"""
+    """a person asked for the move, or drives by hand and asked for none"""
     PLANNER = "planner"
-    """the planner did not answer, and the vehicle stayed"""
+    """the planner gave no valid answer, and the ego stayed"""
     BETTER = "better"
-    """straight on was free, and the planner held something else to be better"""
+    """straight on was free, and the planner preferred another move"""
 
 
 _OF_KIND: Final = {
@@ -45,26 +45,26 @@ _OF_KIND: Final = {
 
 @dataclass(frozen=True, slots=True)
 class EpisodeRecord:
-    """An episode so far. A value, never changed."""
+    """The record of an episode so far (immutable)."""
 
     start: World | None = None
-    """the world in which the first move was made; None before that"""
+    """the world in which the first move was made; None before it"""
     edits: int = 0
-    """changes the session had seen when the course was last in step with the road"""
+    """number of edits of the session at the latest move"""
     changed: bool = False
-    """whether a person changed the road meanwhile"""
+    """whether the road was edited after the first move"""
     certain: bool = True
-    """whether nothing was left to who gives way"""
+    """whether no random draw decided who gives way"""
     moves: str = ""
-    """every move, as its place in `Move`"""
+    """every move, as the digit of its place in `Move`"""
     sakes: tuple[tuple[DetourReason, int], ...] = ()
-    """how many detours were made for whose sake, in the order they first came"""
+    """number of detours per reason, in the order of their first occurrence"""
     last: World | None = None
     """the world before the move that ended the episode"""
 
     @property
     def detours(self) -> int:
-        """Moves that were not straight on."""
+        """The number of moves that were not straight on."""
         return sum(count for _, count in self.sakes)
 
     def after(
@@ -79,7 +79,7 @@ class EpisodeRecord:
         faulty: bool,
         ended: bool,
     ) -> EpisodeRecord:
-        """With one more move made."""
+        """Returns the record with one more move, which leads from `before` to `after`."""
         sakes = self.sakes
         if move is not Move.FORWARD:
             sakes = _count_reason(sakes, detour_reason(before, after, by_person=by_person, faulty=faulty)[0])
@@ -94,7 +94,7 @@ class EpisodeRecord:
         )
 
     def move_list(self) -> tuple[Move, ...]:
-        """Every move, in order."""
+        """Lists every move, in order."""
         return tuple(_MOVES[int(sign)] for sign in self.moves)
 
 
@@ -104,7 +104,7 @@ _extend = fast_constructor(EpisodeRecord, "start", "edits", "changed", "certain"
 def detour_reason(
     before: World, after: World, *, by_person: bool, faulty: bool
 ) -> tuple[DetourReason, tuple[str, ...]]:
-    """For whose sake a move that was made was not straight on, and who would have been met there."""
+    """Returns why a move was not straight on, and the ids of what would have been met straight ahead."""
     if by_person or faulty:
         return (DetourReason.YOU if by_person else DetourReason.PLANNER), ()
     ahead = before.av - before.road.columns

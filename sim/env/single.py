@@ -44,7 +44,8 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
 
     Actions are the six moves in the order of `Move`. A move off the road becomes `stay`; every other move is
     executed. `reset(seed=…)` begins the first episode of that seed, a reset without a seed the next episode.
-    Episodes terminate on arrival and crash, and are truncated when the time is up. Spaces, rewards and `info` are described in `sim/env/README.md`.
+    Episodes terminate on arrival and crash, and are truncated when the time is up. Spaces, rewards and `info`
+    are described in `sim/env/README.md`.
     """
 
     metadata = {"render_modes": list(RENDER_MODES), "render_fps": RENDER_FPS}  # noqa: RUF012 - Gymnasium's form

@@ -1,13 +1,12 @@
-"""Anybody's planner, put through its paces: every promise a planner makes, tried on many roads.
+"""Conformance check of a planner: tries every promise of a planner on many roads and lists all defects.
 
-What is checked: its answers are legal decisions, in time; what it says of each move's cell is what the
-forecast says, and the name on it is its own; it does not drive into what it knows while something is free;
-the same question has the same answer, at once, after other questions and in another process; it changes
-nothing it is given; it reads no further than the horizon it asked for. All defects are listed, not the first.
-It is given a forecast of a percept and nothing else, so that there is no world for it to look at.
+Checked: answers are legal decisions, in time; verdicts on moves agree with the forecast, and the name is the
+planner's own; it does not drive into known things while another move is free; the same question has the same
+answer, at once, after other questions and in another process; it changes nothing it is given; it reads no
+further than its horizon. It receives a forecast of a percept and never a world.
 
-A planner of another package runs in a process of its own, as it does in a session (`worker`); what is true is
-found out here, where it has no say.
+A planner of another package runs in its own process, as in a session (`worker`). The comparison runs here,
+where the planner cannot interfere.
 """
 
 from __future__ import annotations
@@ -41,9 +40,9 @@ from sim.types import Move, Outcome
 
 MAX_TOLD = 20
 GIVE_UP: Final = 3
-"""After so many questions in a row without an answer no more are asked."""
+"""The check stops after this many questions in a row without an answer."""
 ASKED_ANEW: Final = 5
-"""Questions that another process is asked."""
+"""Number of questions that are repeated in another process."""
 
 _LEGAL = frozenset(
     ("no-decision", "no-move", "elsewhere", "off-road", "no-verdicts", "no-number", "not-finite", "too-large")
@@ -53,16 +52,16 @@ _GRAVE = frozenset(
 )
 
 Witness = tuple[Answer, dict[str, Any]]
-"""An answer, and what the decision claims beside it."""
+"""An answer, and what the decision claims besides it."""
 Ask = Callable[[Percept, Config], Witness]
-"""Asks a planner. Raises `FaultError`, and `TimeoutError` where it does not answer in time."""
+"""Asks a planner. Raises `FaultError`, and `TimeoutError` if there is no answer in time."""
 Tell = Callable[[str], None]
-"""Told what is being done now."""
+"""Receives progress messages."""
 
 
 @dataclass(frozen=True, slots=True)
 class Defect:
-    """A promise that was not kept, and where."""
+    """A broken promise, and where it was broken."""
 
     promise: str
     """`legal`, `honest`, `itself`, `careful`, `deterministic`, `harmless`, `bounded`, `prompt`, `answers`"""
@@ -73,17 +72,17 @@ class Defect:
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """What was tried and found."""
+    """The result of a check."""
 
     planner: str
     decisions: int
     defects: tuple[Defect, ...]
     untried: str | None = None
-    """why nothing, or not all, was tried"""
+    """why nothing, or not everything, was checked"""
 
 
 def moments(roads: int = 20, ticks: int = 12) -> Iterator[SimState]:
-    """Moments on roads of several sizes and densities, driven by the default planner."""
+    """Yields states on roads of several sizes and densities, driven by the default planner."""
     for seed in range(roads):
         columns, rows = ((8, 30), (3, 12), (12, 20), (5, 8))[seed % 4]
         config = Config(
@@ -103,7 +102,7 @@ def moments(roads: int = 20, ticks: int = 12) -> Iterator[SimState]:
 
 
 def check(planner: Planner, runs: Iterable[SimState] | None = None, tell: Tell | None = None) -> Report:
-    """Try a planner on many moments. It is called in this process: hanging is for `check_apart`."""
+    """Checks a planner in this process; use `check_apart` for one that may hang."""
     trial = _Trial(planner.name, _ask_in_process(planner), tell=tell)
     trial.run(moments() if runs is None else runs)
     return trial.report()
@@ -112,9 +111,9 @@ def check(planner: Planner, runs: Iterable[SimState] | None = None, tell: Tell |
 def check_apart(
     name: str, seconds: float = 60.0, runs: Iterable[SimState] | None = None, tell: Tell | None = None
 ) -> Report:
-    """Try the installed planner of that name in a process of its own, for so long at most.
+    """Checks the installed planner of that name in a process of its own, for at most `seconds`.
 
-    Whatever it does, this ends, with what was found.
+    Always ends and returns a report, whatever the planner does.
     """
     from sim.plan.sandbox.worker import NoAnswerError, Worker
 
@@ -138,12 +137,12 @@ def check_apart(
 
 
 def find_planner(name: str) -> Planner | None:
-    """The planner of this program that has that name."""
+    """Finds a planner of this program by name; None for planners of other packages."""
     return planner_named(name)
 
 
 def name_conflicts(name: str) -> list[Defect]:
-    """What is wrong with the name itself: other packages that would have it, or a name that none may have."""
+    """Lists defects of the name: other packages that claim it, or a reserved or invalid name."""
     return [
         Defect("itself", 0, 0, f"{where} asks for the name {other}, and is not used: {why}")
         for other, where, why in refused()
@@ -153,7 +152,7 @@ def name_conflicts(name: str) -> list[Defect]:
 
 @dataclass
 class _Trial:
-    """One planner being tried."""
+    """The check of one planner, in progress."""
 
     name: str
     ask: Ask
@@ -166,7 +165,7 @@ class _Trial:
     untried: str | None = None
 
     def run(self, runs: Iterable[SimState]) -> bool:
-        """Try all moments, then ask again what was asked; whether it came to an end."""
+        """Checks all states, then repeats all questions; returns whether it was completed."""
         for state in runs:
             if self._is_over():
                 return False
@@ -180,7 +179,7 @@ class _Trial:
         return True
 
     def ask_new_process(self) -> None:
-        """Ask some of it again, of what is another process by now."""
+        """Repeats some questions in another process."""
         for percept, config, before in self.answers[:ASKED_ANEW]:
             if self._is_over():
                 return
@@ -188,7 +187,7 @@ class _Trial:
             self._ask_again(percept, config, before, "by another process")
 
     def report(self) -> Report:
-        """What was found."""
+        """Returns the report."""
         return Report(self.name, self.decisions, tuple(self.defects), self.untried)
 
     def _is_over(self) -> bool:
@@ -255,11 +254,11 @@ class _Trial:
 
 
 def _ask_in_process(planner: Planner) -> Ask:
-    """Asks as its own process would, without one."""
+    """Returns a function that asks a planner in this process, through the same codec."""
     from sim.plan.sandbox.worker_main import answer_with_claims, run_or_fault
 
     def ask(percept: Percept, config: Config) -> Witness:
-        shown, its_config = parse_question(question(percept, config))  # its own, to do with as it likes
+        shown, its_config = parse_question(question(percept, config))  # copies that it may change
         values = run_or_fault(lambda: answer_with_claims(planner, shown, its_config))
         values = load_json(json.dumps(values).encode())
         if values.get("fault") in FAULTS:
@@ -270,7 +269,7 @@ def _ask_in_process(planner: Planner) -> Ask:
 
 
 def _false_claims(name: str, witness: dict[str, Any], percept: Percept) -> Iterator[tuple[str, str]]:
-    """What a decision says that is not so, each with the promise it breaks."""
+    """Yields each false claim of a decision, as (broken promise, description)."""
     claims = witness.get("claims")
     if not isinstance(claims, dict) or not isinstance(claims.get("options"), dict):
         yield "honest", "what its decision says cannot be read"

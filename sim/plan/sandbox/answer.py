@@ -1,8 +1,8 @@
-"""What a planner of another package may answer, and the decision that is made of it.
+"""Validates the answer of a planner of another package and makes a decision from it.
 
 An answer is a move and six costs, as JSON: `{"move": "left", "costs": {"forward": null, "left": 2, ...}}`.
-Nothing else is heard. Cells, verdicts, causes, the tick, the vehicle and the planner's name are made here,
-from this project's forecast and from the question. What is not such an answer is a fault with a name.
+Nothing else is accepted. Cells, verdicts, causes, the tick, the ego and the planner's name come from this
+project's forecast and from the question. Anything but an answer is a fault with a code (`FAULTS`).
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from sim.plan.priority import options_in_order
 from sim.types import Move
 
 MOST_BYTES: Final = 4_096
-"""Of one answer."""
+"""Most bytes of one answer."""
 MOST_COST: Final = 1e12
-"""A cost is between this and its negative."""
+"""Largest absolute value of a cost."""
 MOST_TOLD: Final = 160
-"""Characters of what a planner is quoted with."""
+"""Most characters of a quotation from a planner."""
 
 _MOVES: Final = {move.value: move for move in Move}
 
@@ -52,15 +52,15 @@ FAULTS: Final = {
     "died": "took its process down ({kind})",
     "closed": "closed the line on which it was asked",
 }
-"""What a planner may do instead of answering, to follow its name. Its own words are in none of them."""
+"""Faults by code; each message follows the planner's name and contains none of its words."""
 
 _KIND: Final = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,59}")
 
 
 class FaultError(Exception):
-    """What a planner did instead of answering, to follow its name: "raised ValueError".
+    """A planner gave no valid answer; the message follows its name: "raised ValueError".
 
-    `detail` is in its own words, for its author and nobody else.
+    `detail` contains the planner's own words, for its author only.
     """
 
     def __init__(self, message: str, detail: str = "") -> None:
@@ -69,7 +69,7 @@ class FaultError(Exception):
 
 
 class CodedError(FaultError):
-    """A fault of those in `FAULTS`."""
+    """A fault with a code from `FAULTS`."""
 
     def __init__(self, code: str, kind: str = "", detail: str = "") -> None:
         super().__init__(FAULTS[code].format(kind=kind), detail)
@@ -78,14 +78,14 @@ class CodedError(FaultError):
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """A move, and what each move costs, in the order of `Move`; None where the planner has no cost for it."""
+    """A move and the cost of each move in the order of `Move`; None for a move without a cost."""
 
     move: Move
     costs: tuple[float | None, ...]
 
 
 def parse_answer(line: bytes) -> Answer:
-    """The answer on a line. Raises `FaultError`, also where the line names a fault."""
+    """Parses a line into an answer. Raises `FaultError`, also if the line reports a fault."""
     values = load_json(line)
     if "fault" in values:
         raise fault_of(values)
@@ -93,7 +93,7 @@ def parse_answer(line: bytes) -> Answer:
 
 
 def load_json(line: bytes) -> dict[str, Any]:
-    """The JSON object on a line, each key once and every number finite. Raises `FaultError`."""
+    """Parses a JSON object with unique keys and finite numbers. Raises `FaultError`."""
     try:
         values = json.loads(
             line.decode("utf-8"),
@@ -109,7 +109,7 @@ def load_json(line: bytes) -> dict[str, Any]:
 
 
 def fault_of(values: Mapping[str, Any]) -> FaultError:
-    """The fault that a planner's process tells of."""
+    """Returns the fault that a planner's process reports."""
     code, kind, detail = (values.get(key) for key in ("fault", "kind", "detail"))
     if not isinstance(code, str) or code not in FAULTS:
         return CodedError("no-json")
@@ -118,7 +118,7 @@ def fault_of(values: Mapping[str, Any]) -> FaultError:
 
 
 def answer_of(values: Mapping[str, Any]) -> Answer:
-    """The answer of such values. Raises `FaultError`."""
+    """Validates parsed values as an answer. Raises `FaultError`."""
     if set(values) != {"move", "costs"}:
         raise CodedError("more")
     move, costs = values["move"], values["costs"]
@@ -130,7 +130,7 @@ def answer_of(values: Mapping[str, Any]) -> Answer:
 
 
 def check_cost(cost: object, move: Move) -> float | None:
-    """A cost as a number. Raises `FaultError` for what is none, or none that can be."""
+    """Returns a cost as a float, or None. Raises `FaultError` for anything but a finite number in range."""
     if cost is None:
         return None
     detail = f"{quote(cost)} for {move}"
@@ -144,9 +144,9 @@ def check_cost(cost: object, move: Move) -> float | None:
 
 
 def decision_of(answer: Answer, percept: Percept, config: Config) -> Decision:
-    """The decision: the planner's move and costs, and what this project's forecast says of each move.
+    """Combines the planner's move and costs with the verdicts of this project's forecast into a decision.
 
-    Cheapest first, a move without a cost last. Raises `FaultError` for a move that leads off the road.
+    Options are sorted by cost, those without a cost last. Raises `FaultError` for a move off the road.
     """
     if percept.road.moved(percept.ego, answer.move) is None:
         raise CodedError("off-road", detail=answer.move)
@@ -168,7 +168,7 @@ def decision_of(answer: Answer, percept: Percept, config: Config) -> Decision:
 
 
 def quote(value: object) -> str:
-    """Something foreign, for a person: short, on one line, and of plain characters."""
+    """Formats any object of a planner for a person: short, on one line, in ASCII."""
     if isinstance(value, int) and abs(value) >= 10**40:
         return "a number of many digits"
     try:
@@ -179,7 +179,7 @@ def quote(value: object) -> str:
 
 
 def sanitize(text: object) -> str:
-    """Words of a planner's process, as above."""
+    """Limits text from a planner's process to one short printable line; other values become an empty text."""
     if not isinstance(text, str):
         return ""
     plain = "".join(each if each.isprintable() else " " for each in text[: MOST_TOLD + 1])

@@ -1,8 +1,8 @@
-"""Asking a planner of another package, waiting no longer than there is time for.
+"""Asks a planner of another package, with a time limit.
 
-A thread that serves others (`not_in_this_thread`) never waits: there only what was answered before is told.
-A piece of work that asks many times (`within`) has one time for all of it, after which every further question
-goes unanswered. Leaves out how the planner is run (`worker`), and what is believed of an answer (`answer`).
+A thread that must not block (`without_waiting`) gets cached answers only. Work that asks many times has one
+time limit for all its questions (`time_limit`); later questions get no answer. `worker` runs the planner and
+`answer` validates what it returns.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _nonblocking_threads: set[int] = set()
 
 
 class _TimeBudget:
-    """How long may still be waited."""
+    """The time that is left for waiting, in seconds."""
 
     def __init__(self, seconds: float) -> None:
         self.seconds = self.left_s = seconds
@@ -40,7 +40,7 @@ _time_budget: ContextVar[_TimeBudget | None] = ContextVar("_time_budget", defaul
 
 @contextmanager
 def time_limit(seconds: float) -> Iterator[None]:
-    """All that is asked in here is waited for this long in all."""
+    """Limits the total time of waiting for answers in this context."""
     token = _time_budget.set(_TimeBudget(seconds))
     try:
         yield
@@ -50,7 +50,7 @@ def time_limit(seconds: float) -> Iterator[None]:
 
 @contextmanager
 def without_waiting() -> Iterator[None]:
-    """In this thread nothing is waited for: others would wait with it."""
+    """In this thread only cached answers are used in this context, since waiting would block others."""
     thread = threading.get_ident()
     _nonblocking_threads.add(thread)
     try:
@@ -60,15 +60,12 @@ def without_waiting() -> Iterator[None]:
 
 
 def cached_answer(percept: Percept, config: Config) -> Answer | str | None:
-    """What the planner answered to this before, or the fault that was met; None if that is not known."""
+    """Returns the cached answer or fault of the configured planner; None if there is none."""
     return answers.find(key_of(config.planner, question(percept, config)))
 
 
 def ask(percept: Percept, config: Config) -> Future[Answer]:
-    """What the planner that the configuration names answers, once it does.
-
-    The future raises `FaultError` and `SilentError`.
-    """
+    """Asks the configured planner. The future raises `FaultError` and `NoAnswerError`."""
     asked = worker.worker_of(config.planner)
     if asked is not None:
         return asked.ask(percept, config)
@@ -78,7 +75,7 @@ def ask(percept: Percept, config: Config) -> Future[Answer]:
 
 
 def wait_for_answer(percept: Percept, config: Config) -> Answer:
-    """The same, waited for. Raises `FaultError` and `SilentError`."""
+    """Asks the configured planner and waits. Raises `FaultError` and `NoAnswerError`."""
     if threading.get_ident() in _nonblocking_threads:
         found = cached_answer(percept, config)
         if found is None:

@@ -1,7 +1,7 @@
-"""What a planner's process is asked, as JSON: a percept and a configuration, field by field.
+"""Encodes the question to a planner's process as JSON: a percept and a configuration, field by field.
 
-Generic over the fields of both, so that a new one is carried without a change here. Numbers that a JSON
-reader may round (boards are sets of cells) travel as hexadecimal digits. Leaves out the answer: see `answer`.
+The codec is generic over the fields of both, so a new field needs no change here. Integers that a JSON reader
+may round (boards) are hexadecimal strings. Answers are in `answer`.
 """
 
 from __future__ import annotations
@@ -18,30 +18,30 @@ from sim.perceive import Percept
 from sim.world.grid import Road
 
 EXACT: Final = 2**53
-"""Whole numbers below this are exact in every JSON reader."""
+"""Integers below this are exact in every JSON reader."""
 CHECKED: Final = b"check "
-"""Stands before a question whose answer is to be told in full (`sim.plan.conformance`)."""
+"""Prefix of a question that wants the full answer with its claims (`sim.plan.conformance`)."""
 
 
 def question(percept: Percept, config: Config) -> bytes:
-    """One line of JSON, without its end: the same for the same question."""
+    """Encodes a question as one line of JSON without its line end; equal questions give equal bytes."""
     values = {"percept": percept_values(percept), "config": asdict(config)}
     return json.dumps(values, separators=(",", ":"), allow_nan=False).encode()
 
 
 def parse_question(line: bytes | str) -> tuple[Percept, Config]:
-    """What a question is about, made anew. Raises `ValueError`, `TypeError` or `LookupError`."""
+    """Decodes a question into new objects. Raises `ValueError`, `TypeError` or `LookupError`."""
     values = json.loads(line)
     return percept_of(values["percept"]), Config().with_parts(**values["config"])
 
 
 def percept_values(percept: Percept) -> dict[str, Any]:
-    """A percept's fields as JSON values. Raises `TypeError` for one of a kind that is not known here."""
+    """Converts the fields of a percept to JSON values. Raises `TypeError` for an unknown type."""
     return {field.name: _to_json(getattr(percept, field.name)) for field in fields(percept)}
 
 
 def percept_of(values: Mapping[str, Any]) -> Percept:
-    """The percept of such values."""
+    """Converts JSON values back to a percept."""
     kinds = _percept_types()
     parts: dict[str, Any] = {}
     for name, value in values.items():

@@ -1,12 +1,12 @@
-"""The process that planners' processes are started from: `python -m sim.plan.sandbox.spawner_main`.
+"""The process that forks planners' processes: `python -m sim.plan.sandbox.spawner_main`.
 
-It has this project's modules loaded and nothing else, so that one more process costs milliseconds, and who
-asks (a service with much memory and little time) does not have to divide itself. It has one thread, runs
-nothing of any planner, and is asked on its standard input, one request after the other; a line answers each:
+It has only this project's modules loaded, so a new process costs milliseconds and the service itself never
+forks. It has one thread and runs no planner code. Requests come on its standard input, one after the other;
+each gets a line as its answer:
 
-    {"start": "module:Class", "paths": [...]}, with two files: the line, and what is printed  ->  its number
-    {"look": number}   ->  the code it ended with, or null
-    {"reap": number}   ->  null; it has been killed, and its number may be given away
+    {"start": "module:Class", "paths": [...]}, with two files (socket, output)  ->  the process id
+    {"look": pid}   ->  the exit code (negative for a signal), or null while it runs
+    {"reap": pid}   ->  null; the process has been killed and is to be waited for
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ _reaping: set[int] = set()
 
 
 def main() -> None:
-    """Answer until nobody asks."""
+    """Handles requests until the input closes."""
     end_with_parent()
     asked = socket.socket(fileno=os.dup(0))
     with open(os.devnull, "rb") as nothing:

@@ -1,13 +1,13 @@
-"""Planners of other packages, each in a process of its own, where it can hang, crash or leak alone.
+"""Runs planners of other packages, each in a process of its own, where it can hang, crash or leak alone.
 
-One thread with an event loop looks after all of them; who asks has a future, and waits or does not. A process
-has a time to start in and a time for each decision, gets a line of its own and nothing else of this process
-(no files, no sockets, no settings), and stands still while it is not asked (Linux). Whoever takes too long or
-breaks the rules of the line is killed with all it has started, and begun anew at the next question; one that
-fails again and again is left alone for a while. How many processes there are, and begin at once, is limited.
+One thread with an event loop manages all processes; callers get futures. A process has a time limit to start
+and one for each decision. It gets one socket and nothing else of this process (no files, no settings), and is
+stopped while it is not asked (Linux). A process that is late or breaks the protocol is killed with its
+children and restarted at the next question; after repeated failures it pauses. The number of processes, and
+of simultaneous starts, is limited.
 
-Leaves out what an answer is (`answer`), and what a process with the rights of its user may do to that user's
-files: it is kept from troubling the service, not from being malicious.
+`answer` validates answers. A process has the rights of its user: the sandbox protects the service from
+errors, not the user's files from malice.
 """
 
 from __future__ import annotations
@@ -51,25 +51,25 @@ if TYPE_CHECKING:
 _LOG = logging.getLogger(__name__)
 
 BUDGET_S: Final = 0.25
-"""Time for one decision."""
+"""Time limit of one decision."""
 START_S: Final = 20.0
-"""Time for a process to start and load its planner."""
+"""Time limit for a process to start and load its planner."""
 MOST_PROCESSES: Final = 32
-"""More planners than this take turns."""
+"""Most processes; more planners take turns."""
 MOST_AT_ONCE: Final = max(4, os.cpu_count() or 1)
-"""So many decide at once, so that each has a processor to do so in time; the others wait for their turn."""
+"""Most decisions at the same time, so that each has a processor; others wait."""
 MOST_STARTING: Final = 2
-"""So many processes start at once; the others wait for their turn."""
+"""Most processes that start at the same time; others wait."""
 MOST_FAILURES: Final = 5
-"""After so many failures in a row a planner is left alone for `REST_S`."""
+"""After this many failures in a row a planner pauses for `REST_S`."""
 REST_S: Final = 30.0
 CHECK_BYTES: Final = 32_768
-"""Of an answer that is told in full, for the checker."""
+"""Most bytes of a full answer for the conformance check."""
 LOG_BYTES: Final = 500
-"""Of what a process prints are logged; the rest is thrown away."""
+"""Most bytes of a process's output that are logged; the rest is dropped."""
 
 _PRINTED_BYTES, _PRINTED_S = 4_096, 0.02
-"""Not more is read of what a process prints, and not more often: who floods waits."""
+"""Size and interval of reads from a process's output, which slow down a process that floods it."""
 _PASSED_ON: Final = (
     "PATH",
     "HOME",
@@ -81,7 +81,7 @@ _PASSED_ON: Final = (
     "VIRTUAL_ENV",
     "LD_LIBRARY_PATH",
 )
-"""Of the environment: keys and passwords of the service are not for planners."""
+"""Environment variables that are passed on; keys and passwords of the service are not."""
 _ONE_THREAD: Final = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 _CAN_PAUSE: Final = sys.platform == "linux"
 
@@ -89,11 +89,11 @@ Result = TypeVar("Result")
 
 
 class NoAnswerError(Exception):
-    """No answer within the time there is; the message says which, to follow the planner's name."""
+    """No answer in time; the message follows the planner's name and says which limit was reached."""
 
 
 class Worker:
-    """One planner's process, started when first asked. Several threads may ask; it answers in turn."""
+    """The process of one planner, started at the first question. Thread-safe; answers come in turn."""
 
     def __init__(
         self,
@@ -103,7 +103,7 @@ class Worker:
         start_s: float = START_S,
         memory: AnswerCache | None = answers,
     ) -> None:
-        """The planner `module:Class`. Without a `memory` it is asked the same question again."""
+        """For the planner at `target` ("module:Class"). Without `memory`, answers are not cached."""
         self.name = name
         self._target = target
         self._budget_s = budget_s
@@ -115,7 +115,7 @@ class Worker:
         self._rests_until = 0.0
 
     def ask(self, percept: Percept, config: Config) -> Future[Answer]:
-        """What it answers. The future raises `FaultError` or `SilentError`; it is not to be cancelled."""
+        """Asks the planner. The future raises `FaultError` or `NoAnswerError`; do not cancel it."""
 
         async def asked() -> Answer:
             return await self._ask_once(question(percept, config))
@@ -123,7 +123,7 @@ class Worker:
         return _planners().submit(asked())
 
     def ask_in_full(self, percept: Percept, config: Config) -> Future[tuple[Answer, dict[str, Any]]]:
-        """As `ask`, with all that its decision says, as it says it: nothing of that is believed."""
+        """As `ask`, with the claims of the decision, which are not validated."""
 
         async def asked() -> tuple[Answer, dict[str, Any]]:
             async with self._turn:
@@ -137,7 +137,7 @@ class Worker:
         return _planners().submit(asked())
 
     def stop(self) -> None:
-        """End the process."""
+        """Ends the process and waits for its end."""
 
         async def stopped() -> None:
             line = self._line
@@ -149,7 +149,7 @@ class Worker:
 
     @property
     def idle(self) -> bool:
-        """Whether it has a process that nobody asks."""
+        """Whether it has a process without a question."""
         return self._line is not None and not self._turn.locked()
 
     async def _ask_once(self, what: bytes) -> Answer:
@@ -173,7 +173,7 @@ class Worker:
             return str(fault)
 
     async def _exchange(self, what: bytes, most: int) -> bytes:
-        """A question and its answer. Raises `FaultError` where the line broke, and `SilentError`."""
+        """Sends a question and reads its answer. Raises `FaultError` and `NoAnswerError`."""
         if self._rests_until > time.monotonic():
             raise NoAnswerError(f"has failed {MOST_FAILURES} times in a row and is left alone for now")
         try:
@@ -189,7 +189,7 @@ class Worker:
             raise
         self._failures = 0
         if _planners().waiting:
-            self.drop_process()  # others wait for a process
+            self.drop_process()  # other planners wait for a process
         return told
 
     async def _start_process(self) -> _Line:
@@ -200,7 +200,7 @@ class Worker:
             return self._line
 
     def drop_process(self) -> None:
-        """Let go of its process; on the planners' thread."""
+        """Kills its process, if any. Call on the planners' thread."""
         line, self._line = self._line, None
         if line is not None:
             line.kill()
@@ -208,7 +208,7 @@ class Worker:
 
 
 class _Spawner:
-    """The process that the others are started from. For the planners' thread."""
+    """The spawner process, from which planners' processes are forked. For the planners' thread."""
 
     def __init__(self) -> None:
         self._turn = asyncio.Lock()
@@ -216,7 +216,7 @@ class _Spawner:
         self._socket: socket.socket | None = None
 
     async def start(self, target: str, *files: int) -> int:
-        """Start the process of a planner with these files; answers its number. Raises `CodedError`."""
+        """Starts a planner's process with these files; returns its process id. Raises `CodedError`."""
         try:
             number = await self._request({"start": target, "paths": _paths()}, *files)
         except (OSError, ValueError) as error:
@@ -225,15 +225,15 @@ class _Spawner:
         return number
 
     async def code(self, number: int) -> int | None:
-        """The code that a process ended with; of a signal, its negative. None while it runs."""
+        """The exit code of a process, negative for a signal; None while it runs."""
         return await self._request({"look": number})
 
     async def reap(self, number: int) -> None:
-        """A process has been killed and is looked at no more."""
+        """Has a killed process reaped; its process id may then be reused."""
         await self._request({"reap": number})
 
     def end(self) -> None:
-        """End it, and with it (on Linux) all that it has started."""
+        """Ends the spawner and, on Linux, all processes it has started."""
         if self._socket is not None:
             self._socket.close()
         if self._process is not None:
@@ -258,7 +258,7 @@ class _Spawner:
                         if not part:
                             raise ConnectionError("the process that starts planners has ended")
                         answer += part
-            except OSError:  # a planner may have stopped it, or ended it; a timeout is one, too
+            except OSError:  # a planner may have stopped or killed it; TimeoutError is an OSError, too
                 self.end()
                 raise
         found = json.loads(answer)
@@ -276,13 +276,13 @@ class _Spawner:
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.DEVNULL,
                 env=environment,
-                start_new_session=True,  # Linux shares out processors session by session
+                start_new_session=True,  # Linux schedules by session
             )
         self._socket = ours
 
 
 class _Line:
-    """A process, and the line to it."""
+    """A planner's process and the socket to it."""
 
     def __init__(self, name: str, spawner: _Spawner) -> None:
         self._name = name
@@ -295,7 +295,7 @@ class _Line:
         self._reaping: asyncio.Future[None] | None = None
 
     async def start(self, target: str) -> None:
-        """Start the process. Raises `CodedError`."""
+        """Starts the process. Raises `CodedError`."""
         ours, theirs = socket.socketpair()
         printed, printing = os.pipe()
         try:
@@ -311,14 +311,14 @@ class _Line:
         self._reader, self._writer = await asyncio.open_unix_connection(sock=ours, limit=CHECK_BYTES)
 
     async def ready(self, within_s: float) -> None:
-        """Wait until its planner is loaded. Raises `SilentError` and `FaultError`."""
+        """Waits until the planner is loaded. Raises `NoAnswerError` and `FaultError`."""
         told = load_json(await self._read_answer(0, MOST_BYTES, within_s, "did not start"))
         if told != {"ready": True}:
             raise fault_of(told)
         self._pause()
 
     async def exchange(self, what: bytes, most: int, within_s: float, late: str) -> bytes:
-        """The line that answers a line."""
+        """Sends a line and returns the line that answers it. Raises `NoAnswerError` and `CodedError`."""
         assert self._writer is not None
         self._number += 1
         if _CAN_PAUSE:
@@ -347,7 +347,7 @@ class _Line:
         return told
 
     async def _exit_fault(self) -> CodedError:
-        """How its process ended, if it has."""
+        """Returns the fault for a closed socket: how the process ended, if it did."""
         assert self._process is not None
         for _ in range(20):
             code = await self._spawner.code(self._process)
@@ -359,7 +359,7 @@ class _Line:
         return CodedError("closed")
 
     def kill(self) -> None:
-        """End it, and whatever it has started in its group."""
+        """Kills the process and its process group."""
         self._signal(signal.SIGKILL)
         if self._process is not None:
             self._reaping = asyncio.ensure_future(self._reap(self._process))
@@ -370,12 +370,12 @@ class _Line:
             self._writer.transport.abort()
 
     async def wait_until_reaped(self) -> None:
-        """Once it has been killed: wait until its number is given back."""
+        """Waits until a killed process is reaped."""
         if self._reaping is not None:
             await self._reaping
 
     async def _reap(self, process: int) -> None:
-        with suppress(OSError, ValueError):  # whoever starts them has ended, and they with it
+        with suppress(OSError, ValueError):  # the spawner has ended, and its children with it
             await self._spawner.reap(process)
 
     def _pause(self) -> None:
@@ -388,7 +388,7 @@ class _Line:
                 os.killpg(self._process, number)
 
     async def _read_printed(self, printed: int) -> None:
-        """Log the beginning of what it prints, and read on in small bites."""
+        """Logs the beginning of the process's output and discards the rest slowly."""
         loop, reader = asyncio.get_running_loop(), asyncio.StreamReader(limit=_PRINTED_BYTES)
         with os.fdopen(printed, "rb", buffering=0) as end:
             transport, _ = await loop.connect_read_pipe(lambda: asyncio.StreamReaderProtocol(reader), end)
@@ -404,7 +404,7 @@ class _Line:
 
 
 class _Planners:
-    """The thread that looks after all processes, and how many there may be."""
+    """The thread that manages all planners' processes, and the limits on their number."""
 
     def __init__(self) -> None:
         self._loop = asyncio.new_event_loop()
@@ -413,21 +413,21 @@ class _Planners:
         self._start = asyncio.Semaphore(MOST_STARTING)
         self._room = asyncio.Condition()
         self._with_process: dict[Worker, None] = {}
-        """the one that was asked longest ago first"""
+        """least recently asked first"""
         self.waiting = 0
-        """how many wait for room"""
+        """number of workers that wait for a process"""
         self._ended = False
         self._announcing: asyncio.Task[None] | None = None
         self._thread = threading.Thread(target=self._run, name="planners", daemon=True)
         self._thread.start()
 
     def submit(self, work: Coroutine[Any, Any, Result]) -> Future[Result]:
-        """Do this on the thread."""
+        """Runs a coroutine on the thread."""
         return asyncio.run_coroutine_threadsafe(work, self._loop)
 
     @asynccontextmanager
     async def starting(self, worker: Worker) -> AsyncIterator[None]:
-        """Room for one more process, and a turn to start it."""
+        """Waits for room for one more process, and for a turn to start it."""
         if self._ended:
             raise NoAnswerError("is asked no more, since the program ends")
         async with self._room:
@@ -449,18 +449,18 @@ class _Planners:
             raise
 
     def mark_used(self, worker: Worker) -> None:
-        """It is asked now."""
+        """Marks a worker as the most recently asked."""
         self._with_process.pop(worker, None)
         self._with_process[worker] = None
 
     def release(self, worker: Worker) -> None:
-        """It has no process any more."""
+        """Frees the room of a worker whose process has ended."""
         if worker in self._with_process:
             del self._with_process[worker]
             self._announcing = self._loop.create_task(self._announce_room())
 
     def end(self) -> None:
-        """Kill every process, and start none any more."""
+        """Kills every process and starts no more."""
 
         async def ended() -> None:
             for worker in list(self._with_process):
@@ -490,7 +490,7 @@ def _planners() -> _Planners:
 
 @cache
 def worker_of(name: str) -> Worker | None:
-    """The process of the installed planner of that name; None if there is none."""
+    """The worker of the installed planner of that name; None if there is none."""
     point = installed().get(name)
     return None if point is None else Worker(name, point.value)
 

@@ -1,8 +1,8 @@
-"""The process of one planner of another package: what is done in it, from its beginning to its end.
+"""The main program of a planner's process.
 
-Questions come and answers go on a socket of its own, a line each: a number, a space, JSON (`codec`,
-`answer`). What the planner prints goes elsewhere. Limits are set before anything of it is loaded. All
-that runs here is the planner's to spoil: whoever asks hears only what `answer` lets through.
+Questions and answers are lines on a socket: a number, a space, JSON (`codec`, `answer`). The planner's output
+goes to a pipe. Limits are set before the planner is loaded. The planner can break anything in this process;
+the other side accepts only what `answer` validates.
 """
 
 from __future__ import annotations
@@ -28,24 +28,24 @@ from sim.planner_names import GROUP
 from sim.types import Move
 
 MOST_MEMORY: Final = 2**30
-"""Bytes of address space."""
+"""Most bytes of address space."""
 MOST_CPU_S: Final = 3_600
-"""Seconds of processor time in the life of one process; it is stopped while it is not asked."""
+"""Most processor time of one process in seconds; it is stopped while it is not asked."""
 MOST_FILE: Final = 64 * 2**20
-"""Bytes of a file that it writes."""
+"""Most bytes of a file that it writes."""
 MOST_FILES: Final = 256
 NICE: Final = 10
-"""So much later than the service is it given a processor where there are too few."""
+"""Scheduling priority below the service's (`os.nice`)."""
 MAX_HORIZON: Final = 10_000
 
 
 def serve(target: str, line: int, printing: int) -> None:
-    """Load the planner, then answer on the line until nobody asks any more. For a process of its own."""
+    """Loads the planner and answers questions on the socket `line` until it closes. For its own process."""
     line = _confine(line, printing)
     with os.fdopen(os.dup(line), "rb") as questions:
         try:
             planner = EntryPoint("planner", target, GROUP).load()()
-        except BaseException as error:  # sys.exit() among them
+        except BaseException as error:  # includes sys.exit()
             _send(line, b"0", _fault_values(_fault_of_exception("unloadable", error)))
             return
         _send(line, b"0", {"ready": True})
@@ -57,7 +57,7 @@ def serve(target: str, line: int, printing: int) -> None:
 
 
 def ask_planner(planner: Any, percept: Percept, config: Config) -> object:
-    """What a planner decides of a forecast that reaches as far as it asks. Raises what it raises."""
+    """Calls the planner with a forecast of the horizon it asks for. Raises whatever the planner raises."""
     horizon = planner.horizon(config)
     if isinstance(horizon, bool) or not isinstance(horizon, int) or not 1 <= horizon <= MAX_HORIZON:
         raise CodedError("horizon", detail=quote(horizon))
@@ -65,7 +65,7 @@ def ask_planner(planner: Any, percept: Percept, config: Config) -> object:
 
 
 def answer_values(decision: object, percept: Percept) -> dict[str, Any]:
-    """A decision's move and costs, as an answer. Raises `CodedError` where it is none for this moment."""
+    """Extracts move and costs of a decision. Raises `CodedError` for anything but a decision on `percept`."""
     if not isinstance(decision, Decision):
         raise CodedError("no-decision", detail=quote(decision))
     move: object = decision.move
@@ -86,7 +86,7 @@ def answer_values(decision: object, percept: Percept) -> dict[str, Any]:
 
 
 def claims(planner: Any, decision: Decision) -> dict[str, Any]:
-    """What a decision says beyond the move and costs, for who compares it with what is so."""
+    """Lists what a decision claims besides move and costs, for the conformance check."""
     return {
         "name": quote(planner.name),
         "planner": quote(decision.planner),
@@ -103,7 +103,7 @@ def claims(planner: Any, decision: Decision) -> dict[str, Any]:
 
 
 def answer_with_claims(planner: Any, percept: Percept, config: Config) -> dict[str, Any]:
-    """An answer, with what the decision claims and whether the percept was changed. Raises `CodedError`."""
+    """Returns answer, claims, and whether the planner changed the percept. Raises `CodedError`."""
     shown = percept_values(percept)
     try:
         decision = ask_planner(planner, percept, config)
@@ -119,7 +119,7 @@ def answer_with_claims(planner: Any, percept: Percept, config: Config) -> dict[s
 
 
 def run_or_fault(work: Callable[[], dict[str, Any]]) -> dict[str, Any]:
-    """What the work results in, or the fault that was met instead, whatever was raised."""
+    """Returns the result of `work`, or a fault for any exception."""
     try:
         return work()
     except CodedError as fault:
@@ -140,7 +140,7 @@ def _answer(planner: Any, asked_for: bytes, *, in_full: bool) -> dict[str, Any]:
 def _cost(option: Option) -> float | None:
     cost: Any = option.cost
     if isinstance(cost, numbers.Real) and type(cost).__module__ != "builtins":
-        cost = float(cost)  # of another library
+        cost = float(cost)  # a number type of another library
     return check_cost(cost, option.move)
 
 
@@ -163,7 +163,7 @@ def _send(line: int, number: bytes, values: dict[str, Any]) -> None:
 
 
 def _confine(line: int, printing: int) -> int:
-    """Set the limits, and keep no file but these; answers the line's new number."""
+    """Sets the resource limits and closes all other files; returns the new descriptor of `line`."""
     kept = os.dup(line) if line < 4 else line
     with open(os.devnull, "rb") as nothing:
         os.dup2(nothing.fileno(), 0)
@@ -180,7 +180,7 @@ def _confine(line: int, printing: int) -> int:
     ):
         hard = resource.getrlimit(limit)[1]
         most = most if hard == resource.RLIM_INFINITY else min(most, hard)
-        with contextlib.suppress(OSError, ValueError):  # macOS knows no limit of address space
+        with contextlib.suppress(OSError, ValueError):  # macOS has no limit of address space
             resource.setrlimit(limit, (most, most))
     os.nice(NICE)
     end_with_parent()
@@ -188,7 +188,7 @@ def _confine(line: int, printing: int) -> int:
 
 
 def end_with_parent() -> None:
-    """On Linux, be killed when whoever asks has ended: who stands still would not see the line end."""
+    """On Linux, has this process killed when its parent ends; a stopped one would not see the socket close."""
     if sys.platform == "linux":
         import ctypes
         import signal
