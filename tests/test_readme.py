@@ -72,7 +72,13 @@ def headings(path: Path) -> set[str]:
     return {re.sub(r"[^\w -]", "", heading).strip().lower().replace(" ", "-") for heading in found}
 
 
-@pytest.mark.parametrize("path", readmes(), ids=named)
+def pages() -> list[Path]:
+    """Every README, the rules, the measurements and everything in docs."""
+    more = (*(ROOT / "docs").rglob("*.md"), *(ROOT / "bench").glob("*.md"), ROOT / "sim" / "RULES.md")
+    return sorted({*readmes(), *more})
+
+
+@pytest.mark.parametrize("path", pages(), ids=named)
 def test_every_link_leads_to_a_file_and_its_heading(path: Path) -> None:
     for link in re.findall(r"\]\(([^):]+)\)", path.read_text(encoding="utf-8")):
         file, _, heading = link.partition("#")

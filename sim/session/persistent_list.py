@@ -103,4 +103,4 @@ class PersistentList(Sequence[Item]):
     __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
-        return f"Chain({list(self)!r})"
+        return f"PersistentList({list(self)!r})"

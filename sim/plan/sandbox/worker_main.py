@@ -188,7 +188,7 @@ def _confine(line: int, printing: int) -> int:
 
 
 def end_with_parent() -> None:
-    """On Linux, has this process killed when its parent ends; a stopped one would not see the socket close."""
+    """On Linux, has this process killed when its parent ends; a stopped one would not see it."""
     if sys.platform == "linux":
         import ctypes
         import signal
