@@ -3,8 +3,8 @@
 This holds where the future is certain and the planner decides from the ego's row, the row ahead and things
 that never move (`planner_names.LOCAL`). Movers keep to their rows and the ego never moves backwards, so
 nothing else matters while the ego stays in its row. Each situation is compared with a stored one, which is
-renewed after 1, 2, 4, ... ticks, so a cycle is detected within three times its length. Source: Brent, "An
-improved Monte Carlo factorization algorithm" (BIT, 1980), section 2.
+renewed after 1, 2, 4, ... ticks, so a cycle is detected within three times its length.
+Source: Brent, "An improved Monte Carlo factorization algorithm" (BIT, 1980), section 2.
 """
 
 from __future__ import annotations
