@@ -31,7 +31,7 @@ from sim.world import World
 
 FAMILIES: Final[tuple[Layout | None, ...]] = (None, *get_args(Layout))
 WEIGHED: Final = "astar"
-PLANNERS: Final = ("priority", "rules", "exact", WEIGHED)
+PLANNERS: Final = ("priority", "rules", "bfs", WEIGHED)
 PREFERENCES: Final[tuple[Preference, ...]] = get_args(Preference)
 BALANCED: Final = "balanced"
 FARTHEST: Final = 8

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from sim.config import Config
 from sim.fast_replace import field_setter
-from sim.rules.traffic import brake, pedestrians_walk, shift_board
+from sim.rules.kinds import resting_movers, shift_boards
+from sim.rules.traffic import brake
 from sim.rules.traffic_cache import cached_move_movers, cached_shift_table
 from sim.rules.yielding import attentive_movers, yielding_movers
 from sim.types import Move
 from sim.world import World
 
-_moved = field_setter(World, "tick", "avs", "right", "left", "pedestrians", "movers")
+_moved = field_setter(World, "tick", "avs", "right", "left", "boards", "movers")
 
 
 def commit(world: World, move: Move, config: Config) -> World:
@@ -19,13 +20,12 @@ def commit(world: World, move: Move, config: Config) -> World:
     Raises `ValueError` where the move leads off the road.
     """
     road = world.road
-    disabled = world.disabled
-    resting = disabled if pedestrians_walk(world.episode_tick) else disabled | world.pedestrians
+    boards = world.boards
     motion = cached_move_movers(
         world.right,
         world.left,
-        resting,
-        world.fixed,
+        resting_movers(world.disabled, boards, world.episode_tick),
+        boards.fixed,
         yielding_movers(world, config),
         world.driven,
         road.left_edge,
@@ -42,6 +42,6 @@ def commit(world: World, move: Move, config: Config) -> World:
         (target, *world.avs[1:]),
         motion.right,
         motion.left,
-        shift_board(world.pedestrians, motion) if world.pedestrians else 0,
+        shift_boards(boards, motion),
         cached_shift_table(world.movers, motion),
     )

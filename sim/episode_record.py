@@ -20,12 +20,8 @@ _SIGNS: Final = {move: str(place) for place, move in enumerate(_MOVES)}
 
 
 class DetourReason(StrEnum):
-    """Why the ego did not go straight on."""
+    """Why the ego did not go straight on, where no thing stood there."""
 
-    POTHOLE = "pothole"
-    BARRIER = "barrier"
-    VEHICLE = "vehicle"
-    PEDESTRIAN = "pedestrian"
     YOU = "you"
     """a person asked for the move, or drives by hand and asked for none"""
     PLANNER = "planner"
@@ -34,13 +30,9 @@ class DetourReason(StrEnum):
     """straight on was free, and the planner preferred another move"""
 
 
-_OF_KIND: Final = {
-    Kind.POTHOLE: DetourReason.POTHOLE,
-    Kind.BARRIER: DetourReason.BARRIER,
-    Kind.VEHICLE: DetourReason.VEHICLE,
-    Kind.PEDESTRIAN: DetourReason.PEDESTRIAN,
-    Kind.AV: DetourReason.BETTER,
-}
+Sake = Kind | DetourReason
+"""For whose sake a detour is made: that of a kind of thing, or another reason."""
+_REASONS: Final = frozenset(DetourReason)
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +49,7 @@ class EpisodeRecord:
     """whether no random draw decided who gives way"""
     moves: str = ""
     """every move, as the digit of its place in `Move`"""
-    sakes: tuple[tuple[DetourReason, int], ...] = ()
+    sakes: tuple[tuple[Sake, int], ...] = ()
     """number of detours per reason, in the order of their first occurrence"""
     last: World | None = None
     """the world before the move that ended the episode"""
@@ -101,20 +93,23 @@ class EpisodeRecord:
 _extend = fast_constructor(EpisodeRecord, "start", "edits", "changed", "certain", "moves", "sakes", "last")
 
 
+def sake_of(word: str) -> Sake:
+    """Returns the reason that is written as this word. Raises `ValueError`."""
+    return DetourReason(word) if word in _REASONS else Kind(word)
+
+
 def detour_reason(
     before: World, after: World, *, by_person: bool, faulty: bool
-) -> tuple[DetourReason, tuple[str, ...]]:
+) -> tuple[Sake, tuple[str, ...]]:
     """Returns why a move was not straight on, and the ids of what would have been met straight ahead."""
     if by_person or faulty:
         return (DetourReason.YOU if by_person else DetourReason.PLANNER), ()
     ahead = before.av - before.road.columns
     met = tuple(table[ahead] for table in (before.hazards, after.movers) if ahead in table)
-    return (_OF_KIND[kind_of(met[0])], met) if met else (DetourReason.BETTER, ())
+    return (kind_of(met[0]), met) if met else (DetourReason.BETTER, ())
 
 
-def _count_reason(
-    sakes: tuple[tuple[DetourReason, int], ...], one: DetourReason
-) -> tuple[tuple[DetourReason, int], ...]:
+def _count_reason(sakes: tuple[tuple[Sake, int], ...], one: Sake) -> tuple[tuple[Sake, int], ...]:
     for place, (other, count) in enumerate(sakes):
         if other is one:
             return (*sakes[:place], (one, count + 1), *sakes[place + 1 :])

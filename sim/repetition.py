@@ -1,9 +1,9 @@
 """Detects cycles: once a situation repeats, everything after it repeats as well.
 
 This holds where the future is certain and the planner decides from the ego's row, the row ahead and things
-that never move (`planner_names.LOCAL`). Movers keep to their rows and the ego never moves backwards, so
-nothing else matters while the ego stays in its row. Each situation is compared with a stored one, which is
-renewed after 1, 2, 4, ... ticks, so a cycle is detected within three times its length.
+that never move (`local` in `sim.plan.protocol.Traits`). Movers keep to their rows and the ego never moves
+backwards, so nothing else matters while the ego stays in its row. Each situation is compared with a stored
+one, which is renewed after 1, 2, 4, ... ticks, so a cycle is detected within three times its length.
 Source: Brent, "An improved Monte Carlo factorization algorithm" (BIT, 1980), section 2.
 """
 
@@ -11,7 +11,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from sim.rules.traffic import PEDESTRIAN_PERIOD
+from sim.rules.kinds import common_period
+from sim.types import MARKED
 from sim.world import World
 from sim.world.grid import Board
 
@@ -21,10 +22,11 @@ class Situation(NamedTuple):
 
     cell: int
     beat: int
-    """`episode_tick` modulo the pedestrians' period"""
+    """`episode_tick` modulo the period in which the steps of all movers repeat"""
     right: Board
     left: Board
-    pedestrians: Board
+    marked: tuple[Board, ...]
+    """the movers of each kind in `MARKED`"""
 
 
 class Watch(NamedTuple):
@@ -38,6 +40,7 @@ class Watch(NamedTuple):
 
 
 NOTHING_KEPT = Watch()
+_NONE_MARKED = (0,) * len(MARKED)
 
 
 def situation(world: World) -> Situation:
@@ -45,12 +48,13 @@ def situation(world: World) -> Situation:
     columns, cell = world.road.columns, world.avs[0]
     first = max(0, cell // columns - 1) * columns
     rows = (1 << 2 * columns) - 1
+    boards = world.boards
     return Situation(
         cell,
-        (world.tick - world.episode_start) % PEDESTRIAN_PERIOD,
+        (world.tick - world.episode_start) % common_period(boards),
         world.right >> first & rows,
         world.left >> first & rows,
-        world.pedestrians >> first & rows,
+        tuple([board >> first & rows for board in boards.marked]) if boards.others else _NONE_MARKED,
     )
 
 

@@ -14,11 +14,10 @@ from sim.events import Event, EventType
 from sim.fast_replace import fast_constructor, field_setter
 from sim.generation import GenerationError, generate
 from sim.metrics import Metrics
-from sim.perceive import perceive
-from sim.plan import Decision
+from sim.perceive import NO_BELIEF, Belief, Percept, perceive, sensor_named
+from sim.plan import Decision, traits_of
 from sim.plan.manual_override import override
 from sim.plan.safe_planning import hold_position, is_foreign, plan_safely
-from sim.planner_names import LOCAL
 from sim.repetition import NOTHING_KEPT, Watch, update_watch
 from sim.transition import transition
 from sim.types import Mode, Move, Outcome
@@ -37,9 +36,13 @@ __all__ = [
     "apply_move",
     "commit",
     "decide",
+    "decide_on",
+    "next_belief",
     "next_episode",
     "reconfigure",
+    "repeats_for_ever",
     "restart_episode",
+    "sense",
     "step",
 ]
 
@@ -62,6 +65,8 @@ class SimState:
     """what the episode has come to so far"""
     watch: Watch = NOTHING_KEPT
     """for a cycle that the vehicle is in (`sim.repetition`)"""
+    belief: Belief = NO_BELIEF
+    """what the sensor carries from the ticks before this one (`sim.perceive.sensor`)"""
 
     @staticmethod
     def start(config: Config) -> SimState:
@@ -78,16 +83,30 @@ class StepResult:
     events: tuple[Event, ...]
 
 
-_advanced = field_setter(SimState, "world", "metrics", "queue", "fault", "record", "watch")
+_advanced = field_setter(SimState, "world", "metrics", "queue", "fault", "record", "watch", "belief")
 _ticked = fast_constructor(StepResult, "state", "decision", "events")
+
+
+def sense(state: SimState) -> tuple[Percept, Belief]:
+    """What the vehicle sees in a state, and the belief it takes into the next tick."""
+    return perceive(state.world, state.config, 0, state.belief)
+
+
+def next_belief(state: SimState) -> Belief:
+    """The belief after the present tick; a stateless sensor is not asked."""
+    return NO_BELIEF if sensor_named(state.config.sensor).stateless else sense(state)[1]
 
 
 def decide(state: SimState) -> Decision | None:
     """The decision the present state leads to; None once the episode has ended."""
-    world, config = state.world, state.config
-    if world.outcome is not Outcome.RUNNING:
+    if state.world.outcome is not Outcome.RUNNING:
         return None
-    percept = perceive(world, config)
+    return decide_on(state, sense(state)[0])
+
+
+def decide_on(state: SimState, percept: Percept) -> Decision:
+    """The decision a state leads to where this is what the vehicle sees; the world has no say in it."""
+    config = state.config
     by_hand = bool(state.queue) or state.mode is Mode.MANUAL
     # A person's move needs no planner, and a foreign one may be what is being taken over from.
     decision = (
@@ -156,12 +175,18 @@ def apply_move(state: SimState, move: Move, *, by_person: bool, fault: str | Non
         faulty=fault is not None,
         ended=ended,
     )
-    return _advanced(state, after, metrics, state.queue[1:], fault, record, watch or NOTHING_KEPT)
+    belief = next_belief(state)
+    return _advanced(state, after, metrics, state.queue[1:], fault, record, watch or NOTHING_KEPT, belief)
 
 
 def _recurs(config: Config) -> bool:
     """Whether a situation that repeats ends the episode."""
-    return config.repetition and config.planner in LOCAL and config.certain
+    return config.repetition and repeats_for_ever(config)
+
+
+def repeats_for_ever(config: Config) -> bool:
+    """Whether a situation that has repeated goes on repeating: nothing else has a part in what is decided."""
+    return traits_of(config.planner).local and config.certain and sensor_named(config.sensor).faithful
 
 
 def next_episode(state: SimState) -> tuple[SimState, Event]:
@@ -190,7 +215,13 @@ def _begin(state: SimState, config: Config, episode: int) -> tuple[SimState, Eve
     world = generate(config, episode, tick=state.world.tick, numbered=state.world.numbered)
     event = Event(world.tick, EventType.EPISODE_STARTED, episode)
     return replace(
-        state, config=config, world=world, queue=(), record=EpisodeRecord(), watch=NOTHING_KEPT
+        state,
+        config=config,
+        world=world,
+        queue=(),
+        record=EpisodeRecord(),
+        watch=NOTHING_KEPT,
+        belief=NO_BELIEF,
     ), event
 
 

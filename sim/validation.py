@@ -8,11 +8,12 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from itertools import combinations
 
 from sim.commit import commit
 from sim.config import Config
 from sim.judge import collisions, outcome
-from sim.types import Cell, Kind, Move, Outcome, kind_of
+from sim.types import HAZARDS, KINDS, MARKED, MOVERS, Cell, Move, Outcome, kind_of
 from sim.world import World
 from sim.world.grid import Board, bits, board_of
 
@@ -50,29 +51,30 @@ def _of_state(world: World) -> Iterator[Defect]:
             yield Defect(code, tick, _names(world, index), road.cell(index))
 
     boards = {
-        "potholes": world.potholes,
-        "barriers": world.barriers,
+        **{KINDS[kind].plural: world.board(kind) for kind in HAZARDS},
         "movers": world.moving,
-        "pedestrians": world.pedestrians,
+        **{KINDS[kind].plural: world.board(kind) for kind in MARKED},
     }
     for name, board in boards.items():
         if board & ~road.all:
             yield Defect(f"{name}_off_road", tick)
     yield from at("two_headings", world.right & world.left)
-    yield from at("pothole_and_barrier", world.potholes & world.barriers & road.all)
-    yield from at("mover_in_barrier", world.moving & world.barriers & road.all)
-    yield from at("pedestrian_without_heading", world.pedestrians & ~world.moving & road.all)
+    for one, other in combinations(HAZARDS, 2):
+        yield from at(f"{one}_and_{other}", world.board(one) & world.board(other) & road.all)
+    for kind in HAZARDS:
+        if not KINDS[kind].holds_movers:
+            yield from at(f"mover_in_{kind}", world.moving & world.board(kind) & road.all)
+    for kind in MARKED:
+        yield from at(f"{kind}_without_heading", world.board(kind) & ~world.moving & road.all)
+    for one, other in combinations(MARKED, 2):
+        yield from at(f"{one}_and_{other}", world.board(one) & world.board(other) & road.all)
     yield from at("no_mover_here", board_of(world.movers) & ~world.moving)
     yield from at("mover_without_id", world.moving & ~board_of(world.movers) & road.all)
     yield from at("no_hazard_here", board_of(world.hazards) & ~world.fixed)
     yield from at("hazard_without_id", world.fixed & ~board_of(world.hazards) & road.all)
-    for table, kinds in (
-        (world.movers, (Kind.PEDESTRIAN, Kind.VEHICLE)),
-        (world.hazards, (Kind.POTHOLE, Kind.BARRIER)),
-    ):
+    for table, kinds in ((world.movers, MOVERS), (world.hazards, HAZARDS)):
         for index, name in table.items():
-            first, second = kinds
-            wanted = first if world.board(first) >> index & 1 else second
+            wanted = next((kind for kind in kinds if world.board(kind) >> index & 1), kinds[-1])
             if not name.startswith(f"{wanted}-"):
                 yield Defect("wrong_kind", tick, (name,), road.cell(index))
             elif int(name.rpartition("-")[2]) > world.numbered.get(kind_of(name), 0):

@@ -22,10 +22,9 @@ from service.problems import FieldProblem, Invalid, NotRestorable, UnknownSessio
 from service.sessions.elsewhere import QUESTION_S, asks_others, off_loop
 from sim.forecast import predict
 from sim.oracle.regret import regret
-from sim.perceive import perceive
 from sim.plan import Decision as Taken
 from sim.session.timeline import Timeline
-from sim.state import SimState
+from sim.state import SimState, sense
 from sim.types import Move
 
 router = APIRouter(tags=["watching"], route_class=StrictRoute)
@@ -96,7 +95,7 @@ async def forecast(
     if tick is not None and tick > way.tick:
         raise invalid([FieldProblem("tick", f"has not come yet: it is tick {way.tick}")])
     run, decision = await off_loop(asks_others(way), QUESTION_S, lambda: _decided(way, tick))
-    expected = predict(perceive(run.world, run.config), ticks)
+    expected = predict(sense(run)[0], ticks)
     if decision is not None:
         expected = expected.after(decision.move)
     road, now = run.world.road, run.world.tick

@@ -11,12 +11,12 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from contextlib import suppress
 
-from sim.perceive import Percept, perceive
+from sim.perceive import Percept
 from sim.plan import Decision
 from sim.plan.safe_planning import is_foreign, plan_answered
 from sim.plan.sandbox.answer import Answer
 from sim.plan.sandbox.client import ask
-from sim.state import SimState
+from sim.state import SimState, sense
 from sim.types import Mode, Outcome
 
 
@@ -37,7 +37,7 @@ class Asking:
         """Ask what a state leads to, if another package's planner is to say; needs a running loop."""
         if not decides(run):
             return False
-        percept, loop = perceive(run.world, run.config), asyncio.get_running_loop()
+        percept, loop = sense(run)[0], asyncio.get_running_loop()
         asked = ask(percept, run.config)
         self._asked = asked
 

@@ -7,6 +7,7 @@ from typing import Final
 
 import pygame
 
+from service.refusals import refusals
 from service.window import look
 from sim.config import Config, ConfigError
 from sim.render import render, theme
@@ -69,7 +70,8 @@ class Start:
         try:
             run = SimState.start(self._config_of(int(self.text or 0)))
         except ConfigError as error:
-            self.message = "; ".join(problem.message for problem in error.problems).capitalize() + "."
+            told = "; ".join(refusals().problem(problem) for problem in error.problems)
+            self.message = f"{told.capitalize()}."
             return
         self.message = "" if self.text else "A number, please: 0 is one too."
         self._before, self._tick = None, StepResult(run, None, ())

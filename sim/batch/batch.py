@@ -70,31 +70,37 @@ from sim.batch.observe import observe
 from sim.batch.reachability import exact_moves
 from sim.batch.roads import begin_all, renew
 from sim.batch.tick import END_FIELD, MAX_TICKS_A_CALL, MOVE_FIELD, ticks_kernel
-from sim.config import Config
+from sim.config import COUNTS, Config
 from sim.generation import GenerationError, assign_ids
+from sim.planner_names import Alias, canonical
 from sim.randomness import Stream
 from sim.repetition import Watch
 from sim.search.costs import weights
 from sim.state import SimState
-from sim.types import Kind, Outcome
+from sim.types import KINDS, MARKED, PLACEABLE, Kind, Outcome
 from sim.world import World
+from sim.world.boards import Boards
 from sim.world.grid import Board, bits
 
 After = Literal["next", "restart", "stop"]
 """What follows an end: the next road as live, once the result has stood; the lane's first road, at once;
 or nothing."""
 
-BatchPlanner = Literal["priority", "exact", "weighted", "astar", "dijkstra"]
-"""The rule; the least ticks; the least cost by three names, since `astar` and `dijkstra` decide the same."""
+BatchPlanner = Literal["priority", "bfs", "weighted", "astar", "dijkstra", Alias]
+"""The rule; the least ticks, by an older name as well; the least cost by three names, since `astar` and
+`dijkstra` decide the same."""
 
 _KERNELS: Final[dict[str, Any]] = {
-    "exact": exact_moves,
+    "bfs": exact_moves,
     "weighted": weighted_moves,
     "astar": weighted_moves,
     "dijkstra": weighted_moves,
 }
 """Planners that look ahead, apart from the tick."""
 
+_KINDS: Final = (Kind.POTHOLE, Kind.BARRIER, Kind.VEHICLE, Kind.PEDESTRIAN)
+"""The kinds that the kernels know."""
+_UNKNOWN: Final = tuple(kind for kind in PLACEABLE if kind not in _KINDS)
 _OUTCOMES: Final = tuple(Outcome)
 _NEXT, _THIS = 1, 2
 _STATE: Final = ("_state", "_lanes", "_wholes", "_ticks", "_counts")
@@ -133,6 +139,9 @@ class Batch:
         sizes = {(config.columns, config.rows) for config in configs}
         if len(sizes) != 1:
             raise ValueError(f"a batch has roads of one size, not of {len(sizes)}")
+        for kind in _UNKNOWN:
+            if kind in COUNTS and any(getattr(config, COUNTS[kind]) for config in configs):
+                raise ValueError(_not_known(kind))
         if any(config.layout for config in configs):
             raise ValueError('roads of a layout: make them with Batch.of, and after="stop" or "restart"')
         self.configs = list(configs)
@@ -214,7 +223,7 @@ class Batch:
 
         Raises `ValueError` for a planner that there is not, less than 0 ticks, and less than 1 thread.
         """
-        _known(planner)
+        planner = _known(planner)
         if ticks < 0:
             raise ValueError(f"a batch runs 0 ticks or more, not {ticks}")
         _some(threads)
@@ -229,7 +238,7 @@ class Batch:
 
         Raises `ValueError` unless made with `after="stop"`, and as `run` does.
         """
-        _known(planner)
+        planner = _known(planner)
         _some(threads)
         if self.after != "stop":
             raise ValueError('only a batch made with after="stop" has an end')
@@ -263,7 +272,7 @@ class Batch:
         return self._plan(planner, threads)[0]
 
     def least(self, planner: BatchPlanner, *, threads: int = 1) -> NDArray[np.int64]:
-        """Least ticks (`exact`) or least cost (`weighted`) to the goal (shape: lanes).
+        """Least ticks (`bfs`) or least cost (`weighted`) to the goal (shape: lanes).
 
         −1 where no way leads there, 0 where a result stands. Raises `ValueError` as `moves` does.
         """
@@ -365,7 +374,7 @@ class Batch:
         return self._lane_values(EPISODE_TICK).astype(np.int64)
 
     def observe(self) -> NDArray[np.uint8]:
-        """Every lane's cells (shape: lanes, 7, rows, columns; planes as in `sim.env.observation`)."""
+        """Every lane's cells (shape: lanes, 7, rows, columns; planes as in `sim.perceive.observe`)."""
         columns, rows = self.layout.columns, self.layout.rows
         out = np.empty((len(self), 7, rows, columns), np.uint8)
         observe(self._state, self._lanes, len(self), columns, rows, out)
@@ -396,11 +405,9 @@ class Batch:
             outcome=outcome,
             ended=None if outcome is Outcome.RUNNING else tick - since,
             avs=(int(self.vehicles[lane]),),
-            potholes=potholes,
-            barriers=barriers,
             right=right,
             left=left,
-            pedestrians=walkers,
+            boards=Boards.of({Kind.POTHOLE: potholes, Kind.BARRIER: barriers, Kind.PEDESTRIAN: walkers}),
             movers=ids(Kind.VEHICLE, vehicles) | ids(Kind.PEDESTRIAN, walkers),
             hazards=ids(Kind.POTHOLE, potholes) | ids(Kind.BARRIER, barriers),
             numbered=numbered,
@@ -431,7 +438,7 @@ class Batch:
             ticks -= now
 
     def _plan(self, planner: BatchPlanner, threads: int) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:
-        _known(planner)
+        planner = _known(planner)
         _some(threads)
         if planner not in _KERNELS:
             raise ValueError(f"{planner!r} decides within the tick; use run")
@@ -509,6 +516,9 @@ class Batch:
     def _place(self, lane: int, run: SimState) -> None:
         """Put a moment of a run into a lane."""
         world = run.world
+        for kind in _UNKNOWN:
+            if world.count(kind):
+                raise ValueError(_not_known(kind))
         block, inner = divmod(lane, LANES)
         boards = self._state[block].reshape(self.layout.words, PLANES, LANES)
         planes = (world.right, world.left, world.fixed, world.potholes, world.pedestrians)
@@ -544,7 +554,7 @@ class Batch:
         for own, ahead, board in (
             (KEPT_RIGHT, KEPT_RIGHT_AHEAD, kept.right),
             (KEPT_LEFT, KEPT_LEFT_AHEAD, kept.left),
-            (KEPT_WALKERS, KEPT_WALKERS_AHEAD, kept.pedestrians),
+            (KEPT_WALKERS, KEPT_WALKERS_AHEAD, kept.marked[MARKED.index(Kind.PEDESTRIAN)]),
         ):
             values[own] = board >> columns << row % per_word * columns
             values[ahead] = (board & whole) << (row - 1) % per_word * columns
@@ -568,10 +578,19 @@ def _listed(names: Sequence[str]) -> str:
     return f"{', '.join(names[:-1])} or {names[-1]}"
 
 
-def _known(planner: str) -> None:
-    """Raises `ValueError` for a planner that decides for no batch."""
-    if planner not in get_args(BatchPlanner):
-        raise ValueError(f"a batch is driven by {_listed(get_args(BatchPlanner))}, not by {planner!r}")
+def _known(planner: str) -> BatchPlanner:
+    """The present name of a planner. Raises `ValueError` for one that decides for no batch."""
+    found: BatchPlanner = canonical(planner)
+    if found != "priority" and found not in _KERNELS:
+        there = _listed(["priority", *_KERNELS])
+        raise ValueError(f"a batch is driven by {there}, not by {planner!r}")
+    return found
+
+
+def _not_known(kind: Kind) -> str:
+    """What is said of things of a kind that the kernels do not know."""
+    known = _listed([KINDS[each].plural for each in _KINDS])
+    return f"a batch has {known} on its roads, and no {KINDS[kind].plural}; run such roads one by one"
 
 
 def _some(threads: int) -> None:

@@ -24,6 +24,8 @@ from numba.cpython.unsafe import numbers
 
 from sim import randomness
 from sim.rules import traffic as rules
+from sim.rules.kinds import PERIODS
+from sim.types import Kind
 
 config: Any = numba.config
 
@@ -94,7 +96,7 @@ word_at = _with_names(randomness.word_at, "uint64(uint64, int64)", mix=mix)
 fraction = _with_names(randomness.fraction, "float64(uint64)")
 scaled = _with_names(randomness.scaled, "uint64(uint64, uint64)")
 
-pedestrians_walk = _with_names(rules.pedestrians_walk)
+steps_in_tick = _with_names(rules.steps_in_tick)
 move_movers = _with_names(rules.move_movers)
 brake = _with_names(rules.brake)
 followed_board = _with_names(rules.shift_board)
@@ -105,6 +107,15 @@ beside = _with_names(rules.beside)
 
 
 _trailing_zeros: Any = numbers.trailing_zeros
+
+
+_PEDESTRIAN_PERIOD: Final = PERIODS[Kind.PEDESTRIAN]
+
+
+@compiled
+def pedestrians_walk(episode_tick):
+    """Whether pedestrians step in the tick that begins at `episode_tick`."""
+    return steps_in_tick(_PEDESTRIAN_PERIOD, episode_tick)
 
 
 @compiled

@@ -13,11 +13,12 @@ from numpy.typing import NDArray
 from sim.config import Config
 from sim.env import saved_state as saving
 from sim.env.actions import MOVES, STAY, action_mask, checked_action
-from sim.env.observation import Observer, observed
+from sim.env.observation import Observer
 from sim.env.options import boolean, one_of, refuse_unknown, reset_options, road_config
 from sim.env.reward import Rewards
 from sim.env.seeds import DRAWN_BELOW, check_seed, fold_seed
-from sim.state import SimState, apply_move, next_episode
+from sim.perceive.observe import observe
+from sim.state import SimState, apply_move, next_episode, sense
 from sim.types import Outcome
 from sim.world import notation
 
@@ -161,8 +162,9 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
         return self._run
 
     def _observation(self) -> NDArray[np.uint8]:
-        world = self._begun().world
-        shown: NDArray[np.uint8] = self._observer.of_planes(observed(world)[None], np.array([world.av]))[0]
+        state = self._begun()
+        planes = observe(sense(state)[0])
+        shown: NDArray[np.uint8] = self._observer.of_planes(planes[None], np.array([state.world.av]))[0]
         return shown
 
     def _info(self) -> dict[str, Any]:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from sim.batch import Batch
 from sim.env import saved_state as saving
 from sim.env.actions import MOVES, action_masks, checked_actions
-from sim.env.observation import Observer
+from sim.env.observation import Observer, batch_planes
 from sim.env.options import boolean, one_of, refuse_unknown, reset_options, road_config, whole_number
 from sim.env.reward import Rewards
 from sim.env.seeds import DRAWN_BELOW, check_seed, fold_seed
@@ -209,7 +209,7 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
         return mask.copy()
 
     def _observations(self, batch: Batch) -> Observations:
-        return self._observer.of_planes(batch.observe(), batch.vehicles)
+        return self._observer.of_planes(batch_planes(batch.observe()), batch.vehicles)
 
     def _info(self, batch: Batch, lanes: LaneMask) -> dict[str, Any]:
         """Returns `info` of these lanes; the others have 0 or None, and False in the masks `_…`."""

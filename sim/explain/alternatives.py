@@ -1,7 +1,8 @@
 """What was at stake: where the other move would have led, run to the end, beside where this one leads.
 
 After its first move each future goes on as it would: the planner decides, nobody speaks. Ticks lost
-are those of the best way on after each move (`sim.oracle`), whatever the planner makes of it.
+are those of the best way on after each move (`sim.oracle`), whatever the planner makes of it. On the way it
+is decided by what is seen, and judged by what is there.
 """
 
 from __future__ import annotations
@@ -11,10 +12,9 @@ from dataclasses import dataclass, replace
 from sim.explain.rollout import rollout
 from sim.oracle.lower_bounds import PATIENCE, least_ticks
 from sim.plan import Decision
-from sim.planner_names import LOCAL
 from sim.repetition import NOTHING_KEPT, Situation, situation
 from sim.search.reactive import ImpatientError
-from sim.state import SimState
+from sim.state import SimState, next_belief, repeats_for_ever
 from sim.transition import transition
 from sim.types import Mode, Move, Outcome
 
@@ -68,7 +68,8 @@ def _compared(other: SimState, real: SimState) -> tuple[int | None, bool]:
 
 def after_move(state: SimState, move: Move) -> SimState:
     """The state after a move, judged."""
-    return replace(state, world=transition(state.world, move, state.config), queue=(), watch=NOTHING_KEPT)
+    world = transition(state.world, move, state.config)
+    return replace(state, world=world, queue=(), watch=NOTHING_KEPT, belief=next_belief(state))
 
 
 def _end(state: SimState) -> Future | None:
@@ -76,7 +77,7 @@ def _end(state: SimState) -> Future | None:
     if state.mode is Mode.MANUAL and state.world.outcome is Outcome.RUNNING:
         return None
     # With `repetition` the run itself ends there.
-    recurs = state.config.planner in LOCAL and state.config.certain and not state.config.repetition
+    recurs = repeats_for_ever(state.config) and not state.config.repetition
     seen: set[Situation] = set()
     last = state
     if state.world.outcome is Outcome.RUNNING:

@@ -13,10 +13,9 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Final
 
-from sim.episode_record import DetourReason, EpisodeRecord
-from sim.forecast import predict
+from sim.episode_record import EpisodeRecord, Sake
+from sim.forecast import Forecast
 from sim.oracle.lower_bounds import can_arrive, least_ticks
-from sim.perceive import perceive
 from sim.search.reachability import steps_left
 from sim.search.reactive import ImpatientError
 from sim.state import SimState
@@ -40,7 +39,7 @@ class Summary:
 
     outcome: Outcome
     ticks: int
-    sakes: tuple[tuple[DetourReason, int], ...]
+    sakes: tuple[tuple[Sake, int], ...]
     """detours by whose sake, in the order they first came"""
     best: int | None
     """least ticks from the beginning; None where there is no way, or where it is not certain, or not found"""
@@ -87,7 +86,7 @@ def summary(state: SimState) -> Summary:
             best = least_ticks(_at_first(state, course), states)
     if world.outcome is Outcome.CRASH and course.last is not None:
         before = replace(state, world=course.last, queue=())
-        free = any(predict(perceive(before.world, state.config), 1).own_steps())
+        free = any(Forecast.of_truth(before.world, state.config, 1).own_steps())
         with suppress(ImpatientError):
             open_before = can_arrive(before, states) if course.certain else None
     if world.outcome is Outcome.STUCK and certain:
@@ -134,7 +133,7 @@ def _open_until(state: SimState, course: EpisodeRecord) -> int | None:
     """
     world = _at_first(state, course).world
     road, limit = world.road, steps_left(state.config, 0)
-    forecast = predict(perceive(world, state.config), limit)
+    forecast = Forecast.of_truth(world, state.config, limit)
     cells = _cells(world.av, course.move_list(), road.columns)
     goal = road.row(0)
     reaching = goal

@@ -9,11 +9,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
+from sim.config import Config
 from sim.fast_replace import fast_constructor
 from sim.forecast.rollout import RollOut
-from sim.perceive import Percept
+from sim.perceive import Percept, perceive_truth
 from sim.rules.traffic import Steps, free_steps, spread, spread_back, swap_conflicts
-from sim.types import Move
+from sim.types import HAZARDS, Kind, Move
+from sim.world import World
+from sim.world.boards import Boards
 from sim.world.grid import Board, Road
 
 
@@ -37,6 +40,9 @@ class StepVerdict(StrEnum):
         return self is not StepVerdict.FREE
 
 
+_VERDICTS = {kind: StepVerdict(kind) for kind in HAZARDS}
+
+
 @dataclass(frozen=True, slots=True)
 class Forecast:
     """`slices[k]` is expected k + 1 ticks from now; fixed hazards hold throughout."""
@@ -46,18 +52,41 @@ class Forecast:
     episode_tick: int
     ego: int
     ego_id: str
-    potholes: Board
-    barriers: Board
+    boards: Boards
+    """which cells hold what kind of thing now"""
     disabled: Board
     swept: bool
     """whether bodies collide by what they sweep within a tick"""
     hazards: Mapping[int, str]
     slices: RollOut
 
+    @staticmethod
+    def of_truth(world: World, config: Config, horizon: int, ego: int = 0) -> Forecast:
+        """What follows from what *is*, whatever the sensors show: the ground of every proof.
+
+        `horizon` is in ticks, at least one; `ego` numbers the autonomous vehicles from 0.
+        """
+        return predict(perceive_truth(world, config, ego), horizon)
+
+    @property
+    def potholes(self) -> Board:
+        """The cells of potholes."""
+        return self.boards[Kind.POTHOLE]
+
+    @property
+    def barriers(self) -> Board:
+        """The cells of barriers."""
+        return self.boards[Kind.BARRIER]
+
+    @property
+    def percept(self) -> Percept:
+        """What the forecast was made from: headings, pedestrians, ids, and all else that is seen."""
+        return self.slices.percept
+
     @property
     def fixed(self) -> Board:
-        """Every pothole and barrier."""
-        return self.potholes | self.barriers
+        """Everything that does not move."""
+        return self.boards.fixed
 
     def blocked(self, ahead: int = 0) -> Board:
         """Every cell that anything stands in, `ahead` + 1 ticks from now."""
@@ -91,7 +120,7 @@ class Forecast:
         return spread(
             start,
             start >> road.columns,
-            self.potholes | self.barriers | right | left,
+            self.boards.fixed | right | left,
             came_right,
             came_left,
             *self.cut_off(ahead),
@@ -118,7 +147,7 @@ class Forecast:
         return free_steps(
             start,
             start >> road.columns,
-            self.potholes | self.barriers | right | left,
+            self.boards.fixed | right | left,
             came_right,
             came_left,
             *self.cut_off(ahead),
@@ -162,10 +191,10 @@ class Forecast:
                 verdict = StepVerdict.MOVER_ENTERS
             else:
                 verdict = StepVerdict.MOVER_STAYS
-        if bit & (self.potholes | self.barriers):
+        if bit & self.boards.fixed:
             who = (self.hazards[end], *who)
             if not bit & self.disabled:
-                verdict = StepVerdict.POTHOLE if bit & self.potholes else StepVerdict.BARRIER
+                verdict = _VERDICTS[self.boards.fixed_kind(end)]
         return verdict, who
 
     def _crossing(self, start: int, end: int, ahead: int) -> tuple[int, ...]:
@@ -189,8 +218,7 @@ _expected = fast_constructor(
     "episode_tick",
     "ego",
     "ego_id",
-    "potholes",
-    "barriers",
+    "boards",
     "disabled",
     "swept",
     "hazards",
@@ -200,15 +228,15 @@ _expected = fast_constructor(
 
 def predict(percept: Percept, horizon: int) -> Forecast:
     """What to expect of the next `horizon` ticks (at least one)."""
+    boards = percept.boards
     return _expected(
         percept.road,
         percept.tick,
         percept.episode_tick,
         percept.ego,
         percept.ego_id,
-        percept.potholes,
-        percept.barriers,
-        (percept.right | percept.left) & percept.potholes,
+        boards,
+        (percept.right | percept.left) & boards.holding,
         percept.swept,
         percept.hazards,
         RollOut(percept, horizon),

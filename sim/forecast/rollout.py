@@ -12,9 +12,10 @@ from collections.abc import Mapping, Sequence
 from typing import overload
 
 from sim.perceive import Percept
-from sim.rules.traffic import Motion, brake, move_movers, pedestrians_walk, shift_board
+from sim.rules.kinds import resting_movers, shift_boards
+from sim.rules.traffic import Motion, brake, move_movers
 from sim.rules.traffic_cache import cached_move_movers, cached_shift_table
-from sim.world.grid import Board
+from sim.world.boards import Boards
 
 
 class RollOut(Sequence[Motion]):
@@ -25,13 +26,12 @@ class RollOut(Sequence[Motion]):
         "_fixed",
         "_horizon",
         "_left",
-        "_pedestrians",
-        "_percept",
         "_right",
+        "_shifted",
         "_slices",
         "_stands",
         "_tables",
-        "_walked",
+        "percept",
     )
 
     def __init__(self, percept: Percept, horizon: int, *, stands: bool = False) -> None:
@@ -41,15 +41,17 @@ class RollOut(Sequence[Motion]):
         """
         if horizon < 1:
             raise ValueError("a horizon is at least one tick")
-        self._percept = percept
+        self.percept = percept
+        """what it was made from"""
         self._horizon = horizon
         self._stands = stands
-        self._fixed = percept.potholes | percept.barriers
-        self._disabled = (percept.right | percept.left) & percept.potholes
+        boards = percept.boards
+        self._fixed = boards.fixed
+        self._disabled = (percept.right | percept.left) & boards.holding
         self._slices: list[Motion] = []
-        self._walked: list[Board] = []
+        self._shifted = [boards]
         self._tables: list[Mapping[int, str]] = []
-        self._right, self._left, self._pedestrians = percept.right, percept.left, percept.pedestrians
+        self._right, self._left = percept.right, percept.left
 
     def __len__(self) -> int:
         return self._horizon
@@ -74,18 +76,21 @@ class RollOut(Sequence[Motion]):
     def movers(self, ahead: int) -> Mapping[int, str]:
         """Who is expected in which cell, `ahead` + 1 ticks from now."""
         while len(self._tables) <= ahead:
-            before = self._tables[-1] if self._tables else self._percept.movers
+            before = self._tables[-1] if self._tables else self.percept.movers
             self._tables.append(cached_shift_table(before, self[len(self._tables)]))
         return self._tables[ahead]
 
-    def pedestrians(self, ahead: int) -> Board:
-        """Where pedestrians are expected, `ahead` + 1 ticks from now."""
-        self[ahead]  # rolls out that far
-        return self._walked[ahead]
+    def boards(self, ahead: int) -> Boards:
+        """Where things of which kind are expected, `ahead` + 1 ticks from now."""
+        if not self._shifted[0].others:
+            return self._shifted[0]  # none of them moves
+        while len(self._shifted) <= ahead + 1:
+            self._shifted.append(shift_boards(self._shifted[-1], self[len(self._shifted) - 1]))
+        return self._shifted[ahead + 1]
 
     def if_standing(self) -> RollOut | None:
         """The roll-out where the vehicle does not move in the first tick; None where that changes nothing."""
-        percept, motion = self._percept, self[0]
+        percept, motion = self.percept, self[0]
         held = percept.attentive & (motion.came_right >> 1 | motion.came_left << 1)
         if self._stands or not held or not motion.occupied >> percept.ego & 1:
             return None
@@ -93,15 +98,15 @@ class RollOut(Sequence[Motion]):
         return None if other[0] == motion else other
 
     def _next(self) -> Motion:
-        percept, ahead = self._percept, len(self._slices)
+        percept, ahead = self.percept, len(self._slices)
         road = percept.road
-        walking = pedestrians_walk(percept.episode_tick + ahead)
+        boards = self.boards(ahead - 1) if ahead else percept.boards
         # Only the first tick is asked for again: when it comes.
         move = move_movers if ahead else cached_move_movers
         motion = move(
             self._right,
             self._left,
-            self._disabled if walking else self._disabled | self._pedestrians,
+            resting_movers(self._disabled, boards, percept.episode_tick + ahead),
             self._fixed,
             0 if ahead else percept.yielding,
             percept.vehicles,
@@ -111,7 +116,4 @@ class RollOut(Sequence[Motion]):
         if self._stands and not ahead:
             motion = brake(motion, 1 << percept.ego, percept.attentive)
         self._right, self._left = motion.right, motion.left
-        if self._pedestrians:
-            self._pedestrians = shift_board(self._pedestrians, motion)
-        self._walked.append(self._pedestrians)
         return motion

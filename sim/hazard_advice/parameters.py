@@ -147,7 +147,25 @@ DISTANCES_M: Final = (0.1, 1000.0)
 """Range of questions. Beyond it there is nothing to do, or the vehicle is no road car."""
 
 
+def width_of(hazard: Kind) -> Quantity:
+    """The width of a hazard; a kind that is not listed is taken to be as wide as an obstacle vehicle."""
+    return WIDTH.get(hazard, WIDTH[Kind.VEHICLE])
+
+
+def clearing_of(hazard: Kind) -> float:
+    """Metres of what must pass beside a hazard; the car where the kind is not listed."""
+    return CLEARING.get(hazard, CLEARING[Kind.VEHICLE])
+
+
 def parameters(hazard: Kind, weather: Weather) -> tuple[Quantity, ...]:
     """Lists the quantities used for a hazard in this weather."""
-    always = (REACTION, FRICTION[weather], DISTANCE[weather], SPEED, LATERAL, TURNING_RADIUS, WIDTH[hazard])
+    always = (
+        REACTION,
+        FRICTION[weather],
+        DISTANCE[weather],
+        SPEED,
+        LATERAL,
+        TURNING_RADIUS,
+        width_of(hazard),
+    )
     return (*always, HARM) if hazard is Kind.POTHOLE else always

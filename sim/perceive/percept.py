@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Iterator, Mapping
+from dataclasses import dataclass, replace
 
+from sim.types import Kind
+from sim.world import Thing
+from sim.world.boards import Boards
 from sim.world.grid import Board, Road
 
 
@@ -18,11 +21,9 @@ class Percept:
     ego: int
     """cell index of the vehicle that looks"""
     ego_id: str
-    potholes: Board
-    barriers: Board
     right: Board
     left: Board
-    pedestrians: Board
+    boards: Boards
     yielding: Board
     """movers seen to give way to autonomous vehicles in this tick"""
     attentive: Board
@@ -33,3 +34,63 @@ class Percept:
     """whether bodies collide by what they sweep within a tick (`Config.collision`)"""
     movers: Mapping[int, str]
     hazards: Mapping[int, str]
+
+    @property
+    def potholes(self) -> Board:
+        """The cells of potholes."""
+        return self.boards[Kind.POTHOLE]
+
+    @property
+    def barriers(self) -> Board:
+        """The cells of barriers."""
+        return self.boards[Kind.BARRIER]
+
+    @property
+    def pedestrians(self) -> Board:
+        """The cells of pedestrians."""
+        return self.boards[Kind.PEDESTRIAN]
+
+    def things(self) -> Iterator[Thing]:
+        """Everything that is seen but autonomous vehicles, hazards first."""
+        for table in (self.hazards, self.movers):
+            for index in table:
+                yield self._thing(index, table)
+
+    def find(self, name: str) -> Thing | None:
+        """The thing with this id as it is seen, if it is."""
+        for table in (self.hazards, self.movers):
+            for index, other in table.items():
+                if other == name:
+                    return self._thing(index, table)
+        return None
+
+    def without(self, ids: Collection[str]) -> Percept:
+        """The same percept had these things not been detected. Unknown ids are ignored."""
+        return self._filtered(lambda name: name not in ids)
+
+    def keeping(self, ids: Collection[str]) -> Percept:
+        """The same percept had nothing but these things been detected."""
+        return self._filtered(lambda name: name in ids)
+
+    def _thing(self, index: int, table: Mapping[int, str]) -> Thing:
+        name, cell, bit = table[index], self.road.cell(index), 1 << index
+        if table is self.hazards:
+            return Thing(name, self.boards.fixed_kind(index), cell)
+        heading = "right" if self.right & bit else "left"
+        return Thing(name, self.boards.mover_kind(index), cell, heading, bool(self.boards.holding & bit))
+
+    def _filtered(self, kept: Callable[[str], bool]) -> Percept:
+        movers = {index: name for index, name in self.movers.items() if kept(name)}
+        hazards = {index: name for index, name in self.hazards.items() if kept(name)}
+        moving = sum(1 << index for index in movers)
+        fixed = sum(1 << index for index in hazards)
+        return replace(
+            self,
+            right=self.right & moving,
+            left=self.left & moving,
+            boards=self.boards.within(fixed, moving),
+            yielding=self.yielding & moving,
+            attentive=self.attentive & moving,
+            movers=movers,
+            hazards=hazards,
+        )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from sim.config import Config
 from sim.fast_replace import fast_constructor
 from sim.perceive.percept import Percept
+from sim.perceive.sensor import NO_BELIEF, Belief
 from sim.rules.yielding import attentive_movers, yielding_movers
 from sim.types import Kind
 from sim.world import World
@@ -16,11 +17,9 @@ _seen = fast_constructor(
     "episode_tick",
     "ego",
     "ego_id",
-    "potholes",
-    "barriers",
     "right",
     "left",
-    "pedestrians",
+    "boards",
     "yielding",
     "attentive",
     "vehicles",
@@ -30,19 +29,17 @@ _seen = fast_constructor(
 )
 
 
-def perceive(world: World, config: Config, av: int = 0) -> Percept:
-    """What autonomous vehicle number `av` (from 0) sees of the world."""
+def perceive_truth(world: World, config: Config, ego: int = 0) -> Percept:
+    """All that is, as autonomous vehicle number `ego` (from 0) sees it with perfect sight."""
     return _seen(
         world.road,
         world.tick,
         world.episode_tick,
-        world.avs[av],
-        f"{Kind.AV}-{av + 1}",
-        world.potholes,
-        world.barriers,
+        world.avs[ego],
+        f"{Kind.AV}-{ego + 1}",
         world.right,
         world.left,
-        world.pedestrians,
+        world.boards,
         yielding_movers(world, config),
         attentive_movers(world, config),
         world.driven,
@@ -50,3 +47,15 @@ def perceive(world: World, config: Config, av: int = 0) -> Percept:
         world.movers,
         world.hazards,
     )
+
+
+class PerfectSensor:
+    """Sees the truth, every tick anew."""
+
+    name = "perfect"
+    stateless = True
+    faithful = True
+
+    def perceive(self, world: World, config: Config, ego: int, belief: Belief) -> tuple[Percept, Belief]:  # noqa: ARG002
+        """See `Sensor.perceive`."""
+        return perceive_truth(world, config, ego), NO_BELIEF

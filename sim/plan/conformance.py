@@ -20,8 +20,9 @@ from typing import Any, Final
 
 from sim.config import Config
 from sim.forecast import predict
-from sim.perceive import Percept, perceive
-from sim.plan.registry import Planner, planner_named
+from sim.perceive import Percept
+from sim.plan.protocol import Planner
+from sim.plan.registry import planner_named
 from sim.plan.sandbox.answer import (
     FAULTS,
     Answer,
@@ -35,7 +36,7 @@ from sim.plan.sandbox.answer import (
 )
 from sim.plan.sandbox.codec import parse_question, question
 from sim.planner_names import installed, refused
-from sim.state import SimState, step
+from sim.state import SimState, sense, step
 from sim.types import Move, Outcome
 
 MAX_TOLD = 20
@@ -170,7 +171,7 @@ class _Trial:
             if self._is_over():
                 return False
             self._report_progress(f"road {state.config.seed + 1}, tick {state.world.tick}")
-            self._check_moment(perceive(state.world, state.config), state.config)
+            self._check_moment(sense(state)[0], state.config)
         for number, (percept, config, before) in enumerate(reversed(self.answers), start=1):
             if self._is_over():
                 return False

@@ -69,6 +69,14 @@ SCHEMATIC: Final[dict[str, Colour]] = {
     "barrier": (240, 122, 48),
 }
 
+OTHER_KIND: Final[Colour] = (190, 130, 230)
+
+
+def colour_of(kind: str) -> Colour:
+    """The colour of a kind where it is a mark and not a picture; one for all kinds without their own."""
+    return SCHEMATIC.get(kind, OTHER_KIND)
+
+
 REASONS: Final[dict[str, str]] = {
     "free": "free",
     "off_road": "off the road",

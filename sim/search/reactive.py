@@ -16,11 +16,13 @@ from typing import NamedTuple
 
 from sim.config import Config
 from sim.forecast import Forecast
-from sim.rules.traffic import Motion, brake, free_steps, move_movers, pedestrians_walk, shift_board
+from sim.rules.kinds import resting_marked, shift_marked
+from sim.rules.traffic import Motion, brake, free_steps, move_movers
 from sim.rules.yielding import attentive_movers, yielding_movers
 from sim.search.dead_ends import cells_that_may_arrive
 from sim.types import Move
 from sim.world import World
+from sim.world.boards import Boards
 from sim.world.grid import Board, bits
 
 _MOVES = tuple(Move)
@@ -36,7 +38,8 @@ class Row(NamedTuple):
     number: int
     right: Board
     left: Board
-    pedestrians: Board
+    marked: tuple[Board, ...]
+    """the movers of each kind in `MARKED`; empty where there are none"""
 
 
 Layer = dict[Row, Board]
@@ -85,7 +88,7 @@ class ReactiveSearch:
         """The states reached after 0, 1, ... ticks, up to the first in row 0; None if there is none."""
         world = self.world
         number, column = divmod(world.av, world.road.columns)
-        first = self._row(number, world.right, world.left, world.pedestrians)
+        first = self._row(number, world.right, world.left, _marked(world.boards))
         layers: list[Layer] = [{first: 1 << column}]
         if number == 0:
             return layers
@@ -156,15 +159,14 @@ class ReactiveSearch:
         world, config = self.world, self.config
         columns, bit = world.road.columns, 1 << column
         moving = row.right | row.left
-        disabled = moving & (world.potholes >> row.number * columns & (1 << columns) - 1)
-        walking = pedestrians_walk(world.episode_tick + ahead)
+        disabled = moving & (world.boards.holding >> row.number * columns & (1 << columns) - 1)
         giving = braking = 0
         if moving & (bit << 1 | bit >> 1):
             giving, braking = self._reacting(row, column, ahead)
         moved = move_movers(
             row.right,
             row.left,
-            disabled if walking else disabled | row.pedestrians,
+            disabled | resting_marked(row.marked, world.episode_tick + ahead) if row.marked else disabled,
             fixed,
             giving,
             bit if config.courtesy else 0,
@@ -190,19 +192,23 @@ class ReactiveSearch:
         )
 
     def _after(self, row: Row, motion: Motion) -> Row:
-        pedestrians = shift_board(row.pedestrians, motion) if row.pedestrians else 0
-        return Row(row.number, motion.right, motion.left, pedestrians)
+        return Row(row.number, motion.right, motion.left, shift_marked(row.marked, motion))
 
     def _entered(self, number: int, ahead: int) -> Row:
         """A row that no vehicle has been in, after this tick."""
         motion = self.forecast.slices[ahead]
-        return self._row(number, motion.right, motion.left, self.forecast.slices.pedestrians(ahead))
+        return self._row(number, motion.right, motion.left, _marked(self.forecast.slices.boards(ahead)))
 
-    def _row(self, number: int, right: Board, left: Board, pedestrians: Board) -> Row:
+    def _row(self, number: int, right: Board, left: Board, marked: tuple[Board, ...]) -> Row:
         columns = self.world.road.columns
         below, whole = number * columns, (1 << columns) - 1
-        return Row(number, right >> below & whole, left >> below & whole, pedestrians >> below & whole)
+        here = tuple([board >> below & whole for board in marked])
+        return Row(number, right >> below & whole, left >> below & whole, here if any(here) else ())
 
     def _fixed(self, number: int) -> Board:
         columns = self.world.road.columns
         return self.world.fixed >> number * columns & (1 << columns) - 1
+
+
+def _marked(boards: Boards) -> tuple[Board, ...]:
+    return boards.marked if boards.others else ()

@@ -11,10 +11,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Final
 
-from sim.perceive import perceive
 from sim.plan.decision import Decision
 from sim.plan.safe_planning import failed_decision, is_foreign
-from sim.state import SimState, apply_move, step
+from sim.state import SimState, apply_move, sense, step
 from sim.types import Move
 
 BLOCK: Final = 256
@@ -82,7 +81,7 @@ class MoveLog:
             move, by_person = meant
             return apply_move(state, move, by_person=by_person)
         if sign == _FAILED[0]:
-            decision = failed_decision(perceive(state.world, state.config), state.config)
+            decision = failed_decision(sense(state)[0], state.config)
             return apply_move(state, decision.move, by_person=False, fault=decision.fault)
         return step(state).state
 

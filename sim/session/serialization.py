@@ -4,6 +4,9 @@ Consecutive states share most of their parts: configurations, tables of ids, the
 Each shared part gets a number when it is first seen, and is one object again after reading. Boards are
 hexadecimal strings, since JSON readers cannot take such large integers. Storage and trust are the caller's
 concern.
+
+A stateless sensor has no belief, and nothing is written for it. Only its sensor knows the form of any other
+belief: such a state is not written (`BeliefError`), and is restored by a replay of its session.
 """
 
 from __future__ import annotations
@@ -13,19 +16,26 @@ from dataclasses import fields
 from hashlib import blake2b
 from typing import Any, TypeVar
 
-from sim.config import Config
-from sim.episode_record import DetourReason, EpisodeRecord
+from sim.config import COUNTS, Config
+from sim.episode_record import EpisodeRecord, sake_of
 from sim.metrics import Metrics
+from sim.perceive import NO_BELIEF
 from sim.repetition import Situation, Watch
 from sim.state import SimState
-from sim.types import Kind, Mode, Move, Outcome
+from sim.types import MARKED, Kind, Mode, Move, Outcome
 from sim.world import Cause, World
+from sim.world.boards import Boards
 from sim.world.grid import Road
 
 Part = TypeVar("Part")
 
 _CONFIG = tuple(field.name for field in fields(Config))
+_ALWAYS = {name for name in _CONFIG if name not in COUNTS.values()}
 _METRICS = tuple(field.name for field in fields(Metrics))
+
+
+class BeliefError(ValueError):
+    """A state whose sensor holds a belief, which cannot be written; a replay comes to it again."""
 
 
 class Pool:
@@ -56,7 +66,7 @@ class Packer:
         self._digests = blake2b(digest_size=16)
 
     def run(self, state: SimState) -> int:
-        """Adds a state and returns its number."""
+        """Adds a state and returns its number. Raises `BeliefError`."""
         return self._runs.number(state, self._run)
 
     def packed(self) -> dict[str, Any]:
@@ -79,6 +89,8 @@ class Packer:
         return self._configs.number(config, _config)
 
     def _run(self, state: SimState) -> list[Any]:
+        if state.belief is not NO_BELIEF:
+            raise BeliefError(f"the belief of the sensor {state.config.sensor} is rebuilt by replay alone")
         record = state.record
         return [
             self.config(state.config),
@@ -120,6 +132,7 @@ class Packer:
             self._tables.number(world.movers, _table),
             self._tables.number(world.hazards, _table),
             self._numbered.number(world.numbered, lambda numbered: [[*each] for each in numbered.items()]),
+            *([kind, f"{board:x}"] for kind, board in world.boards.later),
         ]
 
 
@@ -153,7 +166,8 @@ def _config(config: Config) -> dict[str, Any]:
 
 
 def _read_config(parts: Mapping[str, Any]) -> Config:
-    if {*parts} != set(_CONFIG):
+    # Counts of kinds that came later are at their defaults.
+    if not _ALWAYS <= {*parts} <= set(_CONFIG):
         raise ValueError("a configuration has other fields")
     return Config(**{**parts, "preferences": tuple(parts["preferences"])})
 
@@ -167,7 +181,8 @@ def _world(
 ) -> World:
     columns, rows, tick, episode, start, outcome, ended, cause, avs, *rest = parts
     potholes, barriers, right, left, pedestrians = (int(board, 16) for board in rest[:5])
-    movers, hazards, last = rest[5:]
+    movers, hazards, last, *later = rest[5:]
+    boards = {Kind.POTHOLE: potholes, Kind.BARRIER: barriers, Kind.PEDESTRIAN: pedestrians}
     return World(
         road=Road.of(columns, rows),
         tick=tick,
@@ -177,11 +192,9 @@ def _world(
         ended=ended,
         cause=None if cause is None else _cause(*cause),
         avs=tuple(avs),
-        potholes=potholes,
-        barriers=barriers,
         right=right,
         left=left,
-        pedestrians=pedestrians,
+        boards=Boards.of(boards | {Kind(kind): int(board, 16) for kind, board in later}),
         movers=tables[movers],
         hazards=tables[hazards],
         numbered=numbered[last],
@@ -197,8 +210,8 @@ def _watch(watch: Watch) -> list[Any]:
     kept, ticks, span = watch
     if kept is None:
         return [None, ticks, span]
-    cell, beat, *boards = kept
-    return [[cell, beat, *(f"{board:x}" for board in boards)], ticks, span]
+    cell, beat, right, left, marked = kept
+    return [[cell, beat, *(f"{board:x}" for board in (right, left, *marked))], ticks, span]
 
 
 def _read_watch(parts: Sequence[Any]) -> Watch:
@@ -206,7 +219,9 @@ def _read_watch(parts: Sequence[Any]) -> Watch:
     if kept is None:
         return Watch(None, ticks, span)
     cell, beat, *boards = kept
-    return Watch(Situation(cell, beat, *(int(board, 16) for board in boards)), ticks, span)
+    right, left, *marked = (int(board, 16) for board in boards)
+    marked += [0] * (len(MARKED) - len(marked))  # kinds that came later
+    return Watch(Situation(cell, beat, right, left, tuple(marked)), ticks, span)
 
 
 def _run(parts: Sequence[Any], configs: Sequence[Config], worlds: Sequence[World]) -> SimState:
@@ -226,7 +241,7 @@ def _run(parts: Sequence[Any], configs: Sequence[Config], worlds: Sequence[World
             changed,
             certain,
             moves,
-            tuple((DetourReason(sake), count) for sake, count in sakes),
+            tuple((sake_of(sake), count) for sake, count in sakes),
             None if last is None else worlds[last],
         ),
         _read_watch(watch),

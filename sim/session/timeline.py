@@ -16,13 +16,12 @@ from dataclasses import dataclass
 from sim.actions import WorldAction
 from sim.config import Config
 from sim.events import Event, EventType
-from sim.perceive import perceive
-from sim.plan import Decision
+from sim.plan import Decision, traits_of
 from sim.plan.safe_planning import failed_decision, is_foreign, recorded_decision
 from sim.session.edits import Applied, apply
 from sim.session.move_log import MoveLog
 from sim.session.persistent_list import PersistentList
-from sim.state import SimState, StepResult, decide, step
+from sim.state import SimState, StepResult, decide, sense, step
 
 SNAPSHOT_TICKS = 128
 """Work between two snapshots, in ticks that are driven again; twice that each time there are too many."""
@@ -39,10 +38,6 @@ THINGS_AN_ACTION = 10
 ROAD_WORK, ROAD_CELLS = 4, 80
 """What drawing a road costs, and the cells that cost one such tick more."""
 
-SEARCH_WORK = 16
-"""What a tick costs with a planner that searches, or one that is not known here."""
-
-_SIMPLE_PLANNERS = frozenset(("priority", "rules", "dwa"))
 _DRAWN = frozenset((EventType.EPISODE_STARTED, EventType.ROAD_KEPT))
 
 RECENT_RUNS = 8
@@ -56,7 +51,7 @@ class PlannerSilentError(Exception):
     """A planner from another package did not answer in time."""
 
     def __init__(self, planner: str, fault: str) -> None:
-        super().__init__(f"The planner {planner} {fault}")
+        super().__init__(f"{planner}: {fault}")
         self.planner = planner
         self.fault = fault
 
@@ -266,9 +261,9 @@ class Timeline:
         if tick < self.tick and is_foreign(config.planner):
             move = self._track.planned(tick)
             if move is not None:
-                return recorded_decision(perceive(state.world, config), config, move)
+                return recorded_decision(sense(state)[0], config, move)
             if self._track.failed(tick):
-                return failed_decision(perceive(state.world, config), config)
+                return failed_decision(sense(state)[0], config)
         return decide(state)
 
     def led_to(self, state: SimState) -> StepResult:
@@ -342,7 +337,7 @@ def _answered(tick: StepResult) -> StepResult:
 
 
 def _tick_work(state: SimState) -> int:
-    return 1 if state.config.planner in _SIMPLE_PLANNERS else SEARCH_WORK
+    return traits_of(state.config.planner).work
 
 
 def _action_work(applied: Applied) -> int:

@@ -84,7 +84,7 @@ async def otherwise(walker: Any, path: str, tick: int, actions: list[Json]) -> N
         for action in contract.load(road):
             changed = apply(changed, action).state
     except EditError as error:
-        holds(f"a change that cannot be: {error.message}", status in (409, 422), told)
+        holds(f"a change that cannot be: {error}", status in (409, 422), told)
         return
     if status != 200:
         holds("a change that is not offered", any(each.get("kind") == "av" for each in road), told)

@@ -22,8 +22,8 @@ from sim.oracle.outlook import Outlook, outlook, quickly_open
 from sim.plan import Decision
 from sim.session.edits import apply
 from sim.session.errors import EditError
-from sim.session.scenario import unavailable
-from sim.session.settings import offered
+from sim.session.scenario import find_unavailable
+from sim.session.settings import is_available
 from sim.state import SimState, decide, step
 from sim.types import Outcome
 
@@ -322,9 +322,9 @@ def _check_offered(action: Action) -> None:
         raise RefusedError(f"{do} is not offered")
     if do in ("show", "hide") and action.view == "sensors":
         raise RefusedError("no sensors")
-    if isinstance(action, Scenario) and unavailable(action) is not None:
+    if isinstance(action, Scenario) and find_unavailable(action) is not None:
         raise RefusedError("such a scenario is not offered")
-    if isinstance(action, Set | Adjust) and not is_pace(action) and not offered(action):
+    if isinstance(action, Set | Adjust) and not is_pace(action) and not is_available(action):
         raise RefusedError("such a setting is not offered")
 
 
@@ -366,7 +366,7 @@ class _Doing:
         try:
             applied = apply(now.state, action)
         except EditError as error:
-            raise RefusedError(error.message) from error
+            raise RefusedError(str(error)) from error
         now.stand = replace(now.stand, log=(*now.stand.log, Said(now.sequence, now.tick, action)))
         now._write(applied.events)
 

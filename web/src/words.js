@@ -47,7 +47,7 @@ export const PLANNERS = /** @type {Record<string, string>} */ ({
   priority: "Priority rules of the source",
   astar: "A*",
   dijkstra: "Dijkstra",
-  exact: "Quickest",
+  bfs: "Quickest",
 });
 
 /** Families of roads as they are asked for, in the order in which they are offered. @type {Record<string, string>} */

@@ -15,6 +15,7 @@ from typing import Any, Final, get_type_hints
 
 from sim.config import Config
 from sim.perceive import Percept
+from sim.world.boards import Boards
 from sim.world.grid import Road
 
 EXACT: Final = 2**53
@@ -60,6 +61,8 @@ def _to_json(value: object) -> Any:
         return value.value if isinstance(value, Enum) else value
     if isinstance(value, int):
         return value if -EXACT < value < EXACT else {"hex": hex(value)}
+    if isinstance(value, Boards):
+        return {"boards": [_to_json(board) for board in value.by_kind]}
     if isinstance(value, Road):
         return {"road": [value.columns, value.rows]}
     if isinstance(value, Mapping):
@@ -75,6 +78,8 @@ def _from_json(value: Any) -> Any:
     ((kind, content),) = value.items()
     if kind == "hex":
         return int(content, 16)
+    if kind == "boards":
+        return Boards.in_order([_from_json(board) for board in content])
     if kind == "road":
         return Road.of(*content)
     if kind == "map":

@@ -77,7 +77,7 @@ def test_planners_decide_the_same_along_any_way(
     world: World, rules: dict[str, Any], buffer: int, waits: int
 ) -> None:
     """Least ticks and least cost with their moves, also after waits that no planner would choose."""
-    for live, name in (("exact", "exact"), ("dijkstra", "weighted")):
+    for live, name in (("bfs", "bfs"), ("dijkstra", "weighted")):
         run = run_on(world, **rules, safety_buffer=buffer, planner=live)
         batch = Batch.of([run])
         for tick in range(6):
@@ -105,7 +105,7 @@ def test_what_lies_near_is_charged_on_its_own_side() -> None:
 def test_a_mover_brakes_for_a_vehicle_that_stays() -> None:
     """And the rule, the planners and moves handed in know it."""
     walled = road(".....", "#####", ".>A#.", ".###.", ".....")
-    for planner, name in (("priority", "priority"), ("exact", "exact"), ("dijkstra", "weighted")):
+    for planner, name in (("priority", "priority"), ("bfs", "bfs"), ("dijkstra", "weighted")):
         run = run_on(walled, planner=planner, attentive=1.0, repetition=False)
         batch = Batch.of([run])
         batch.run(1, name)
@@ -295,12 +295,12 @@ def test_a_lane_can_be_looked_at_as_a_world() -> None:
 def test_a_planner_that_there_is_not_is_refused(planner: Any) -> None:
     batch = Batch([Config(rows=5)], after="stop")
     for use in (lambda: batch.run(1, planner), lambda: batch.run_to_end(planner)):
-        with pytest.raises(ValueError, match="priority, exact, weighted, astar or dijkstra"):
+        with pytest.raises(ValueError, match="priority, bfs, weighted, astar or dijkstra"):
             use()
     for ask in (batch.moves, batch.least):
-        with pytest.raises(ValueError, match="priority, exact, weighted, astar or dijkstra"):
+        with pytest.raises(ValueError, match="priority, bfs, weighted, astar or dijkstra"):
             ask(planner)
-    with pytest.raises(ValueError, match="priority, exact"):
+    with pytest.raises(ValueError, match="priority, bfs"):
         batch.run(0, planner)
     assert (batch.episode_ticks == 0).all()
 
@@ -318,7 +318,7 @@ def test_planners_that_weigh_costs_go_by_their_own_names(name: BatchPlanner) -> 
     batch = Batch(configs, after="stop")
     assert (batch.moves(name) == batch.moves("weighted")).all()
     assert (batch.least(name) == batch.least("weighted")).all()
-    assert (batch.least(name) != batch.least("exact")).any()
+    assert (batch.least(name) != batch.least("bfs")).any()
     batch.run_to_end(name)
     run = SimState.start(replace(configs[3], planner=name))
     while run.world.outcome is Outcome.RUNNING:
@@ -337,9 +337,9 @@ def test_threads_ticks_and_what_follows_an_end_are_checked() -> None:
         with pytest.raises(ValueError, match="1 thread or more"):
             batch.step(stay, threads=threads)
         with pytest.raises(ValueError, match="1 thread or more"):
-            batch.moves("exact", threads=threads)
+            batch.moves("bfs", threads=threads)
         with pytest.raises(ValueError, match="1 thread or more"):
-            batch.least("exact", threads=threads)
+            batch.least("bfs", threads=threads)
     with pytest.raises(ValueError, match="0 ticks or more"):
         batch.run(-1)
     batch.run(0)

@@ -20,7 +20,7 @@ from sim.session.timeline import Timeline
 from sim.state import SimState, step
 from sim.types import Outcome
 
-PLANNERS = ("priority",) * 8 + ("exact", "astar")
+PLANNERS = ("priority",) * 8 + ("bfs", "astar")
 
 
 @dataclass(frozen=True, slots=True)

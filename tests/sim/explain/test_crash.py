@@ -74,14 +74,14 @@ def test_the_move_that_would_have_saved_it_does_when_the_quickest_way_is_taken_f
         moment = timeline.at(saving.tick)
         assert timeline.decision(saving.tick).move is saving.made  # type: ignore[union-attr]
         state = after_move(moment, saving.instead)
-        state = replace(state, config=state.config.with_parts(planner="exact"))
+        state = replace(state, config=state.config.with_parts(planner="bfs"))
         while state.world.outcome is Outcome.RUNNING:
             state = step(state).state
         assert state.world.outcome is Outcome.SUCCESS
         assert state.world.episode_tick == saving.ticks
         for tick in range(saving.tick + 1, crash.end):
             lost = timeline.at(tick)
-            lost = replace(lost, config=lost.config.with_parts(planner="exact"))
+            lost = replace(lost, config=lost.config.with_parts(planner="bfs"))
             while lost.world.outcome is Outcome.RUNNING:
                 lost = step(lost).state
             assert lost.world.outcome is not Outcome.SUCCESS

@@ -14,7 +14,7 @@ from sim.explain.summary import long_to_tell, summary
 from sim.oracle import least_ticks
 from sim.session.timeline import Timeline
 from sim.state import SimState, step
-from sim.types import Mode, Move, Outcome
+from sim.types import Kind, Mode, Move, Outcome
 from tests.sim.explain.moments import moments
 from tests.sim.roads import road, run_on
 
@@ -57,7 +57,7 @@ def test_a_result_that_stands_is_waited_out() -> None:
 def test_whoever_would_have_been_met_is_whom_a_detour_is_for() -> None:
     told = story(WALLED)
     first = told.detours[0]
-    assert (first.move, first.sake, first.ids) == (Move.LEFT, DetourReason.POTHOLE, ("pothole-1",))
+    assert (first.move, first.sake, first.ids) == (Move.LEFT, Kind.POTHOLE, ("pothole-1",))
     assert told.outcome is Outcome.SUCCESS
 
 
@@ -72,7 +72,7 @@ def test_driven_by_hand_and_asked_for_nothing_it_stays() -> None:
 
 
 def test_a_search_on_a_very_long_road_is_cut_short() -> None:
-    told = story(SimState.start(Config(rows=512, columns=12, planner="exact", vehicles=0, potholes=0)))
+    told = story(SimState.start(Config(rows=512, columns=12, planner="bfs", vehicles=0, potholes=0)))
     assert (told.outcome, told.driven) == (Outcome.RUNNING, 4)
 
 

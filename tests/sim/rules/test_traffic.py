@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from hypothesis import given, settings
 
-from sim.rules.traffic import pedestrians_walk, swap_conflicts
+from sim.rules.traffic import steps_in_tick, swap_conflicts
 from sim.state import commit
 from sim.types import Kind, Move
 from sim.world import World, notation
@@ -86,7 +86,7 @@ def test_pedestrians_step_in_odd_ticks_of_the_episode(row: str, tick: int, expec
 
 
 def test_the_beat_counts_from_the_start_of_the_episode() -> None:
-    assert [pedestrians_walk(tick) for tick in range(4)] == [False, True, False, True]
+    assert [steps_in_tick(2, tick) for tick in range(4)] == [False, True, False, True]
     world = road(EMPTY, "..)....", EMPTY, "...A...", tick=0)
     text = "road 7x4 tick 8 episode 2 from 7 running"
     later = notation.read(notation.write(world).replace("road 7x4 tick 0 episode 1 from 0 running", text))

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from sim.commit import commit
 from sim.config import Config
-from sim.forecast import predict
-from sim.perceive import perceive
+from sim.forecast import Forecast
 from sim.rules.traffic import Motion, move_movers, shift_table
 from sim.rules.traffic_cache import cached_move_movers, cached_shift_table
 from sim.state import SimState, step
@@ -17,7 +16,7 @@ def test_what_is_expected_is_what_comes_and_no_second_table_is_made() -> None:
     state = SimState.start(Config(seed=3, pedestrians=4))
     for _ in range(12):
         world = state.world
-        forecast = predict(perceive(world, state.config), 1)
+        forecast = Forecast.of_truth(world, state.config, 1)
         after = commit(world, Move.FORWARD, state.config)
         assert after.movers == forecast.slices.movers(0)
         assert after.movers is forecast.slices.movers(0)

@@ -28,7 +28,7 @@ def noted(ticks: int) -> MoveLog:
     return track
 
 
-@pytest.mark.parametrize("planner", ["rules", "priority", "astar", "exact", "dijkstra"])
+@pytest.mark.parametrize("planner", ["rules", "priority", "astar", "bfs", "dijkstra"])
 def test_a_state_is_come_to_by_the_move_as_by_the_decision(
     planner: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:

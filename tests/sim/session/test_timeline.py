@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from sim.actions import Add, Drive, Remove, Reset, Scenario, SetCount, SetMode, Where, WorldAction
 from sim.config import Config
-from sim.session.edits import EditError
+from sim.session.errors import EditError
 from sim.session.timeline import MAX_SNAPSHOTS, RECENT_RUNS, SNAPSHOT_TICKS, Entry, Timeline
 from sim.state import SimState, StepResult, decide, step
 from sim.types import Kind, Mode, Move
