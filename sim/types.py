@@ -18,7 +18,7 @@ Cell = tuple[int, int]
 
 
 class Kind(StrEnum):
-    """What a thing on the road is. What each kind does stands in `KINDS`."""
+    """What a thing on the road is."""
 
     POTHOLE = "pothole"
     BARRIER = "barrier"

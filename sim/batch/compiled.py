@@ -31,7 +31,8 @@ config: Any = numba.config
 
 _SIM: Final = Path(__file__).parent.parent
 _COMPILED_IN: Final = tuple(
-    _SIM / name for name in ("rules/traffic.py", "randomness.py", "generation.py", "types.py")
+    _SIM / name
+    for name in ("rules/traffic.py", "rules/kinds.py", "randomness.py", "generation.py", "types.py")
 )
 """Sources outside this package whose functions or constants are compiled into it."""
 _KEPT_VERSIONS: Final = 3

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
+from sim.fast_replace import field_setter
 from sim.types import Kind
 from sim.world import Thing
 from sim.world.boards import Boards
@@ -84,13 +85,25 @@ class Percept:
         hazards = {index: name for index, name in self.hazards.items() if kept(name)}
         moving = sum(1 << index for index in movers)
         fixed = sum(1 << index for index in hazards)
-        return replace(
+        return _cut_down(
             self,
-            right=self.right & moving,
-            left=self.left & moving,
-            boards=self.boards.within(fixed, moving),
-            yielding=self.yielding & moving,
-            attentive=self.attentive & moving,
-            movers=movers,
-            hazards=hazards,
+            self.right & moving,
+            self.left & moving,
+            self.boards.within(fixed, moving),
+            self.yielding & moving,
+            self.attentive & moving,
+            movers,
+            hazards,
         )
+
+
+_cut_down = field_setter(
+    Percept,
+    "right",
+    "left",
+    "boards",
+    "yielding",
+    "attentive",
+    "movers",
+    "hazards",
+)

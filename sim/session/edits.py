@@ -1,8 +1,8 @@
-"""Actions on a run: what a person may change, one function an action. All or nothing.
+"""Actions on a session: what a person may change, one function an action. All or nothing.
 
-A run is a value: either `apply` answers a new one, or it raises `EditError` and nothing was done.
-While a result stands, a change begins the next episode first, since the road it would touch is
-about to go; what points at a thing on the old road is refused instead.
+States are values: `apply` returns a new one, or raises `EditError` and nothing is done. While the result of
+an episode stands, a change begins the next episode first, since the road it would touch is about to go;
+actions that point at a thing on the old road are refused.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ class Applied:
 
 
 def apply(state: SimState, action: WorldAction) -> Applied:
-    """The run with an action done at its present tick. Raises `EditError`."""
+    """Applies an action at the present tick. Raises `EditError`."""
     begun = state
     events: tuple[Event, ...] = ()
     if state.world.outcome is not Outcome.RUNNING and isinstance(action, Add | Remove | SetCount | Drive):
@@ -103,7 +103,7 @@ def _apply(state: SimState, action: WorldAction) -> Applied:
 
 
 def _set(state: SimState, action: Set | Adjust) -> Applied:
-    """A setting given a value. Those a road is made from show from the next road on, or begin one."""
+    """Gives a setting a value. Settings that a road is made from show from the next road on, or begin one."""
     config = change_setting(state.config, action)
     if action.parameter in NEEDS_A_NEW_ROAD and config != state.config:
         return _begin_road(state, action, config)
@@ -131,7 +131,7 @@ def _add(state: SimState, action: Add) -> Applied:
     if place.cells.bit_count() == 1 and action.count == 1:
         (cell,) = bits(place.cells)
         _refuse_occupied(world, kind, cell)
-        return _placed(state, action, kind, [cell])
+        return _place_things(state, action, kind, [cell])
     free = place.cells & ~world.occupied
     if free.bit_count() < action.count:
         raise _no_room(action.count, kind, free, "there" if where else "between_start_and_goal")
@@ -139,11 +139,11 @@ def _add(state: SimState, action: Add) -> Applied:
         cells = nearest_first(bits(free), world)[: action.count]
     else:
         cells = lowest_ranked(free, action.count, _draws(state))
-    return _placed(state, action, kind, cells)
+    return _place_things(state, action, kind, cells)
 
 
-def _placed(state: SimState, action: Add | SetCount, kind: Kind, cells: list[int]) -> Applied:
-    """New things in these cells; movers face a random way."""
+def _place_things(state: SimState, action: Add | SetCount, kind: Kind, cells: list[int]) -> Applied:
+    """Places new things in these cells; movers face a random way."""
     world = state.world
     board = board_of(cells)
     last = dict(world.numbered)
@@ -164,7 +164,7 @@ def _placed(state: SimState, action: Add | SetCount, kind: Kind, cells: list[int
         for cell in bits(after.disabled & ~world.disabled)
     )
     added = tuple(thing for name in table.values() if (thing := after.find(name)))
-    return Applied(action, _edited(state, after), added=added, events=events)
+    return Applied(action, _with_world(state, after), added=added, events=events)
 
 
 def _remove(state: SimState, action: Remove) -> Applied:
@@ -184,18 +184,18 @@ def _remove(state: SimState, action: Remove) -> Applied:
             key=lambda thing: near[world.road.index(thing.cell)],
         )
     if action.count == "all":
-        return _taken(state, action, found) if found else Applied(action, state)
+        return _remove_things(state, action, found) if found else Applied(action, state)
     there = "there" if where is not None and not where.nearest else "road"
     if not found:
         raise EditError("none_there", "kind", kind=action.kind, place=there)
     if len(found) < action.count:
         raise EditError("too_few", "count", count=len(found), kind=action.kind, place=there)
-    return _taken(state, action, found[: action.count])
+    return _remove_things(state, action, found[: action.count])
 
 
-def _taken(state: SimState, action: Remove | SetCount, things: list[Thing]) -> Applied:
+def _remove_things(state: SimState, action: Remove | SetCount, things: list[Thing]) -> Applied:
     after = state.world.without({thing.id for thing in things})
-    return Applied(action, _edited(state, after), removed=tuple(things))
+    return Applied(action, _with_world(state, after), removed=tuple(things))
 
 
 def _set_count(state: SimState, action: SetCount) -> Applied:
@@ -205,12 +205,12 @@ def _set_count(state: SimState, action: SetCount) -> Applied:
         free = state.world.road.between & ~state.world.occupied
         if free.bit_count() < more:
             raise _no_room(action.count, kind, free, "between_start_and_goal")
-        return _placed(state, action, kind, lowest_ranked(free, more, _draws(state)))
+        return _place_things(state, action, kind, lowest_ranked(free, more, _draws(state)))
     if more == 0:
         return Applied(action, state)
     going = lowest_ranked(state.world.board(kind), -more, _draws(state))
     names = [state.world.id_at(cell, kind) for cell in going]
-    return _taken(state, action, [thing for name in names if (thing := state.world.find(name))])
+    return _remove_things(state, action, [thing for name in names if (thing := state.world.find(name))])
 
 
 def _scenario(state: SimState, action: Scenario) -> Applied:
@@ -229,7 +229,7 @@ def _scenario(state: SimState, action: Scenario) -> Applied:
 
 
 def _begin_road(state: SimState, action: WorldAction, config: Config) -> Applied:
-    """A new road of this configuration."""
+    """Begins a new road of this configuration."""
     try:
         begun, event = reconfigure(state, config)
     except GenerationError as error:
@@ -259,13 +259,13 @@ def _thing(world: World, name: str, kinds: tuple[Kind, ...]) -> Thing:
 
 
 def _refuse_what_is_gone(action: Add | Remove | SetCount | Drive) -> None:
-    """A place that points at a thing points at the road whose episode has ended."""
+    """Refuses a place that points at a thing: its road goes with the episode that has ended."""
     if isinstance(action, Remove) and action.where is not None and (action.where.nearest or action.where.id):
         raise EditError("road_is_gone", "where")
 
 
 def _refuse_occupied(world: World, kind: Kind, cell: int) -> None:
-    """One cell was named: only a pothole under a mover may share it."""
+    """Refuses a named cell that is taken; only a pothole under a mover may share one."""
     holds = KINDS[kind].holds_movers
     blocked = world.occupied & ~world.moving if holds else world.occupied
     bit = 1 << cell
@@ -283,12 +283,12 @@ def _draws(state: SimState) -> Stream:
     return Stream.of(state.config.seed, "edit", state.edits)
 
 
-def _edited(state: SimState, world: World) -> SimState:
+def _with_world(state: SimState, world: World) -> SimState:
     return replace(state, world=world, edits=state.edits + 1)
 
 
 def differences(before: SimState, after: SimState) -> tuple[Change, ...]:
-    """Every figure that a change has changed."""
+    """Lists every figure that differs between two states."""
     changes = []
     if before.world.episode != after.world.episode:
         changes.append(Change("episode", before.world.episode, after.world.episode))

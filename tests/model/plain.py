@@ -364,7 +364,7 @@ class _Doing:
             return
         now = self.now
         try:
-            applied = apply(now.state, action)
+            applied = apply(now.run, action)
         except EditError as error:
             raise RefusedError(str(error)) from error
         now.stand = replace(now.stand, log=(*now.stand.log, Said(now.sequence, now.tick, action)))

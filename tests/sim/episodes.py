@@ -255,7 +255,7 @@ def lines_of(group: str) -> Iterator[str]:
                 try:
                     applied = apply(state, action)
                 except EditError as error:
-                    yield f"refused {error.code} {error.field}"
+                    yield f"refused {error.category} {error.field}"
                 else:
                     state = applied.state
                     yield changed(applied)

@@ -16,7 +16,7 @@ from hypothesis import given, settings
 from sim.actions import Add, PlaceableKind, Remove, Scenario, Where
 from sim.config import COUNTS, Config
 from sim.explain.why_causes import explain_why
-from sim.forecast import StepVerdict, predict
+from sim.forecast import Forecast, StepVerdict
 from sim.generation import generate
 from sim.perceive import perceive
 from sim.plan.sandbox import codec
@@ -97,7 +97,7 @@ def test_it_is_written_and_read(kind: Kind, world: World) -> None:
     assert notation.read(notation.write(world)) == world
     state = replace(run_on(world), watch=Watch(situation(world), 1, 2))
     assert saved(state) == state
-    percept = perceive(world, state.config)
+    percept, _ = perceive(world, state.config)
     assert codec.asked(codec.question(percept, state.config)) == (percept, state.config)
 
 
@@ -157,7 +157,7 @@ def test_it_is_found_where_it_cannot_be(kind: Kind, world: World) -> None:
 def test_it_is_foreseen_where_the_twin_moves_it(kind: Kind, world: World) -> None:
     one = with_one(world, kind)
     horizon = 7
-    forecast = predict(perceive(one, run_on(one).config), horizon)
+    forecast = Forecast.of_truth(one, run_on(one).config, horizon)
     now = twin.position(one)
     for ahead in range(horizon):
         now = replace(now, bodies=twin.moved_bodies(now), episode_tick=now.episode_tick + 1)
@@ -179,7 +179,7 @@ def test_it_is_in_the_way_and_named_as_the_cause(kind: Kind) -> None:
     state = run_on(world, visible_rows=4)
     ahead = world.av - world.road.columns
     name = world.id_at(ahead, kind)
-    verdict, ids = predict(perceive(world, state.config), 1).check_step(world.av, ahead)
+    verdict, ids = Forecast.of_truth(world, state.config, 1).check_step(world.av, ahead)
     assert ids == (name,)
     assert verdict is (StepVerdict.MOVER_STAYS if kind.moves else StepVerdict(kind.value))
     decision = step(state).decision

@@ -41,7 +41,8 @@ def with_pothole(percept: Percept, index: int, number: int = 1) -> Percept:
     if (percept.potholes | percept.barriers | percept.right | percept.left | percept.vehicles) & bit:
         return percept
     hazards = {**percept.hazards, index: phantom_id(Kind.POTHOLE, number)}
-    return replace(percept, potholes=percept.potholes | bit, hazards=hazards)
+    boards = percept.boards.with_kind(Kind.POTHOLE, percept.potholes | bit)
+    return replace(percept, boards=boards, hazards=hazards)
 
 
 @dataclass(frozen=True)
