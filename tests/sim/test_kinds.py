@@ -98,7 +98,7 @@ def test_it_is_written_and_read(kind: Kind, world: World) -> None:
     state = replace(run_on(world), watch=Watch(situation(world), 1, 2))
     assert saved(state) == state
     percept, _ = perceive(world, state.config)
-    assert codec.asked(codec.question(percept, state.config)) == (percept, state.config)
+    assert codec.parse_question(codec.question(percept, state.config)) == (percept, state.config)
 
 
 @every_kind
