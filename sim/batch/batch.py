@@ -19,7 +19,7 @@ from copy import copy
 from dataclasses import astuple, dataclass, replace
 from functools import partial
 from itertools import pairwise
-from typing import Any, Final, Literal, get_args
+from typing import Any, Final, Literal, NoReturn, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -143,7 +143,7 @@ class Batch:
             raise ValueError(f"a batch has roads of one size, not of {len(sizes)}")
         for kind in _UNKNOWN:
             if kind in COUNTS and any(getattr(config, COUNTS[kind]) for config in configs):
-                raise ValueError(_not_known(kind))
+                _refuse_kind(kind)
         if any(config.layout for config in configs):
             raise ValueError('roads of a layout: make them with Batch.of, and after="stop" or "restart"')
         self.configs = list(configs)
@@ -525,7 +525,7 @@ class Batch:
         world = run.world
         for kind in _UNKNOWN:
             if world.count(kind):
-                raise ValueError(_not_known(kind))
+                _refuse_kind(kind)
         block, inner = divmod(lane, LANES)
         boards = self._state[block].reshape(self.layout.words, PLANES, LANES)
         planes = (world.right, world.left, world.fixed, world.potholes, world.pedestrians)
@@ -594,10 +594,12 @@ def _known(planner: str) -> BatchPlanner:
     return found
 
 
-def _not_known(kind: Kind) -> str:
-    """What is said of things of a kind that the kernels do not know."""
+def _refuse_kind(kind: Kind) -> NoReturn:
+    """Raises `ValueError`: the kernels do not know things of this kind."""
     known = _listed([KINDS[each].plural for each in _KINDS])
-    return f"a batch has {known} on its roads, and no {KINDS[kind].plural}; run such roads one by one"
+    raise ValueError(
+        f"a batch has {known} on its roads, and no {KINDS[kind].plural}; run such roads one by one"
+    )
 
 
 def _some(threads: int) -> None:

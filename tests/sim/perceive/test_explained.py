@@ -29,6 +29,7 @@ from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.transition import next_world, step
 from sim.types import Kind, Move, Outcome
+from sim.world.boards import BOARDED
 from tests.sim.perceive.rides import rides
 from tests.sim.perceive.sensors import NAMES
 from tests.sim.roads import road, run_on
@@ -53,10 +54,12 @@ def seen_by(state: SimState, *, only: Iterable[str] | None = None, gone: Iterabl
             bit = 1 << state.world.road.index(thing.cell)
             table = "hazards" if thing.kind.fixed else "movers"
             names = {cell: name for cell, name in getattr(percept, table).items() if name != thing.id}
-            boards = ("potholes", "barriers") if thing.kind.fixed else ("right", "left", "pedestrians")
-            boards = boards if thing.kind.fixed else (*boards, "yielding", "attentive")
-            cleared = {board: getattr(percept, board) & ~bit for board in boards}
-            percept = replace(percept, **{table: names}, **cleared)
+            marks = () if thing.kind.fixed else ("right", "left", "yielding", "attentive")
+            cleared = {mark: getattr(percept, mark) & ~bit for mark in marks}
+            boards = percept.boards
+            if thing.kind in BOARDED:
+                boards = boards.with_kind(thing.kind, boards[thing.kind] & ~bit)
+            percept = replace(percept, boards=boards, **{table: names}, **cleared)
     return percept
 
 
