@@ -91,7 +91,7 @@ def check_flips(state: SimState, explanation: Explanation) -> None:
 
 def same_proofs(state: SimState, made: Move) -> None:
     """Proofs come to the same whatever the sensor."""
-    clear = replace(state, config=state.config.with_parts(sensor="perfect"), belief=None)
+    clear = replace(state.with_ego(belief=None), config=state.config.with_parts(sensor="perfect"))
     for proof in (certify, least_ticks, least_cost, outlook):
         assert proof(state) == proof(clear)
     assert regret(state, made) == regret(clear, made)
@@ -155,7 +155,9 @@ def test_no_proof_believes_a_sensor_and_nothing_raises(sensor: str) -> None:
         assert real.real is not None
         assert (real.real.outcome, real.real.ticks) == (end.world.outcome, end.world.episode_tick)
         told = summary(end)
-        best = least_ticks((end.record.start and replace(end, world=end.record.start, belief=None)) or end)
+        best = least_ticks(
+            (end.record.start and replace(end.with_ego(belief=None), world=end.record.start)) or end
+        )
         assert told.best is None or told.best == best
 
 
