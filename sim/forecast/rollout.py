@@ -64,6 +64,9 @@ class RollOut(Sequence[Motion]):
     def __len__(self) -> int:
         return self._horizon
 
+    def __repr__(self) -> str:
+        return f"RollOut(horizon={self._horizon}, stands={self._stands})"
+
     @overload
     def __getitem__(self, ahead: int) -> Motion: ...
     @overload
