@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from sim.config import Config
 from sim.fast_replace import field_setter
-from sim.rules.traffic import brake, pedestrians_walk, shift_board
-from sim.rules.traffic_cache import cached_move_movers, cached_shift_table
-from sim.rules.yielding import attentive_movers, yielding_movers
+from sim.rules.behaviour import Movers
+from sim.rules.traffic import shift_board
+from sim.rules.traffic_cache import cached_shift_table, cached_step
 from sim.types import Move
 from sim.world import World
 
@@ -18,22 +18,22 @@ def commit(world: World, move: Move, config: Config) -> World:
 
     Raises `ValueError` where the move leads off the road.
     """
-    road = world.road
-    disabled = world.disabled
-    resting = disabled if pedestrians_walk(world.episode_tick) else disabled | world.pedestrians
-    motion = cached_move_movers(
+    behaviour, road = config.mover_behaviour, world.road
+    reactions = behaviour.reactions(world, config)
+    movers = Movers(
         world.right,
         world.left,
-        resting,
+        world.pedestrians,
+        world.disabled,
         world.fixed,
-        yielding_movers(world, config),
-        world.driven,
         road.left_edge,
         road.right_edge,
+        world.episode_tick,
     )
+    motion = cached_step(behaviour, movers, world.driven, reactions)
     if move is Move.STAY and motion.occupied >> world.av & 1:
-        motion = brake(motion, 1 << world.av, attentive_movers(world, config))
-    target = road.moved(world.av, move)
+        motion = behaviour.brake(motion, 1 << world.av, reactions)
+    target = config.ego_dynamics(road).target(world.av, move)
     if target is None:
         raise ValueError(f"{move} leads off the road")
     return _moved(

@@ -12,6 +12,10 @@ from typing import Any, Final, Literal, get_args
 from sim import planner_names
 from sim.actions import Layout, Preference, RoadType, SensorName, Traffic
 from sim.randomness import MAX_SEED
+from sim.rules.behaviour import DEFAULT_BEHAVIOUR, Behaviour
+from sim.rules.behaviours import BEHAVIOURS
+from sim.rules.dynamics import DEFAULT_DYNAMICS, DYNAMICS, Dynamics, dynamics_named
+from sim.rules.limits import max_ticks
 from sim.rules.versions import RULES
 from sim.world.grid import Road
 from sim.world.layouts import has_barriers, least_room
@@ -65,12 +69,15 @@ CHOICES: Final[dict[str, tuple[str, ...]]] = {
     "layout": get_args(Layout),
     "traffic": get_args(Traffic),
     "sensor": ("perfect",),
+    "dynamics": tuple(DYNAMICS),
+    "behaviour": tuple(BEHAVIOURS),
 }
 """The words that may stand where a word is asked for."""
 
 PROMISED: Final[dict[str, tuple[str, ...]]] = {
     "planner": planner_names.PROMISED,
     "sensor": tuple(name for name in get_args(SensorName) if name != "perfect"),
+    "dynamics": ("continuous",),
 }
 """Values that people may ask for and this version has not."""
 
@@ -134,6 +141,10 @@ class Config:
     safety_buffer: int = 1
     """cells around a mover that cost something to be in, for planners that weigh costs"""
     sensor: SensorName = "perfect"
+    dynamics: str = DEFAULT_DYNAMICS
+    """how autonomous vehicles move (`sim.rules.dynamics`)"""
+    behaviour: str = DEFAULT_BEHAVIOUR
+    """how obstacle vehicles and pedestrians move, and whether they react (`sim.rules.behaviours`)"""
     rules: int = RULES
     """version of the rules that defaults come from (`sim.rules.versions`)"""
     solvable: bool = False
@@ -156,19 +167,33 @@ class Config:
         return replace(self, **parts)
 
     @property
+    def mover_behaviour(self) -> Behaviour:
+        """How obstacle vehicles and pedestrians move."""
+        return BEHAVIOURS[self.behaviour]
+
+    def ego_dynamics(self, road: Road) -> Dynamics:
+        """How autonomous vehicles move on a road."""
+        return dynamics_named(self.dynamics, road.columns, road.rows, bodies=self.collision == "swept")
+
+    @property
     def certain(self) -> bool:
-        """Whether nothing about the movers is left to chance once the road is drawn."""
-        return self.courtesy == 0.0 and self.attentive in (0.0, 1.0)
+        """Whether the future is certain: nothing about the movers is left to chance on a road once drawn."""
+        return self.mover_behaviour.certain(self)
 
     @property
     def reacting(self) -> bool:
         """Whether movers react to the vehicle, so that where they go depends on where it is."""
-        return self.courtesy > 0.0 or self.attentive > 0.0
+        return self.mover_behaviour.reads_egos(self)
+
+    @property
+    def free_ways_hold(self) -> bool:
+        """Whether a way that meets nothing in a forecast without reactions meets nothing when driven."""
+        return self.mover_behaviour.free_ways_hold(self)
 
     @property
     def max_ticks(self) -> int:
         """An episode that lasts longer is STUCK."""
-        return 10 * self.rows
+        return max_ticks(self.rows)
 
     @property
     def reset_delay_ticks(self) -> int:

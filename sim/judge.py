@@ -7,17 +7,22 @@ rules as well as on the driving. All defects are listed, not the first.
 from __future__ import annotations
 
 from sim.config import Collision
+from sim.rules.dynamics import DEFAULT_DYNAMICS, Swept, dynamics_named
 from sim.types import Kind, Outcome, kind_of
 from sim.world import Cause, World
 
 
-def collisions(before: World, after: World, rule: Collision) -> tuple[Cause, ...]:
+def collisions(
+    before: World, after: World, rule: Collision, dynamics: str = DEFAULT_DYNAMICS
+) -> tuple[Cause, ...]:
     """Every collision of an autonomous vehicle in the tick from `before` to `after`.
 
     `swept`: two bodies of stated size that move linearly within the tick touch (`sim.rules.bodies` derives
-    the cases); `cell`: they are in one cell after it, or have changed places.
+    the cases); `cell`: they are in one cell after it, or have changed places. What a step sweeps, the motion
+    says (`sim.rules.dynamics`).
     """
     found = []
+    motion = dynamics_named(dynamics, after.road.columns, after.road.rows, bodies=rule == "swept")
     for number, (start, end) in enumerate(zip(before.avs, after.avs, strict=True)):
         if end in after.hazards:
             name = after.hazards[end]
@@ -25,11 +30,14 @@ def collisions(before: World, after: World, rule: Collision) -> tuple[Cause, ...
         if end in after.movers:
             name = after.movers[end]
             found.append(Cause("hit", kind_of(name), (name,), after.road.cell(end)))
-        passed = after.movers.get(start)
-        if start != end and passed is not None and before.movers.get(end) == passed:
-            found.append(Cause("swap", kind_of(passed), (passed,), after.road.cell(end)))
-        if rule == "swept":
-            found += _crossings(before, after, start, end)
+        swept = motion.swept(start, end)
+        for cell in swept.cells[1:]:
+            found += [
+                Cause("hit", kind_of(table[cell]), (table[cell],), after.road.cell(cell))
+                for table in (after.hazards, after.movers)
+                if cell in table
+            ]
+        found += _passed(before, after, start, end, swept)
         for other in range(number):
             met = after.avs[other] == end
             if met or (after.avs[other] == start != end == before.avs[other]):
@@ -39,21 +47,17 @@ def collisions(before: World, after: World, rule: Collision) -> tuple[Cause, ...
     return tuple(found)
 
 
-def _crossings(before: World, after: World, start: int, end: int) -> list[Cause]:
-    """Movers that a diagonal from `start` to `end` runs into on the way.
-
-    A vehicle that goes forward and to the left meets a mover that comes from the left into the cell it
-    leaves, or into the one straight ahead; to the right it is the mirror image.
-    """
-    ahead = start - after.road.columns
-    side = end - ahead
-    if side not in (-1, 1):
-        return []
-    return [
-        Cause("cross", kind_of(name), (name,), after.road.cell(cell))
-        for cell in (ahead, start)
-        if (name := after.movers.get(cell)) is not None and before.movers.get(cell + side) == name
-    ]
+def _passed(before: World, after: World, start: int, end: int, swept: Swept) -> list[Cause]:
+    """Movers that the vehicle runs into on the way from `start` to `end`: those that come through it."""
+    road, found = after.road, []
+    aside = start // road.columns == end // road.columns
+    for cells, origin in ((swept.from_left, -1), (swept.from_right, 1)):
+        for cell in cells:
+            name = after.movers.get(cell)
+            if name is not None and before.movers.get(cell + origin) == name:
+                how, where = ("swap", end) if aside else ("cross", cell)
+                found.append(Cause(how, kind_of(name), (name,), road.cell(where)))
+    return found
 
 
 def outcome(after: World, crashes: tuple[Cause, ...], max_ticks: int) -> Outcome:

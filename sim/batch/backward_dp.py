@@ -12,7 +12,7 @@ from typing import Final
 
 import numpy as np
 
-from sim.batch.compiled import beside, compiled
+from sim.batch.compiled import beside, compiled, max_ticks, steps_left
 from sim.batch.layout import CELL, EPISODE_TICK, LANES, OUTCOME, SWEPT
 from sim.batch.reachability import (
     ALL_FIXED,
@@ -33,7 +33,6 @@ from sim.batch.reachability import (
     search,
     someone_brakes,
     step_from,
-    steps_left,
 )
 
 TICK, SIDEWAYS, DIAGONAL, WAITING, NEAR_FIXED, NEAR_MOVER, BUFFER = range(7)
@@ -196,7 +195,7 @@ def weighted_moves(state, lanes, shares, charges, columns, rows, left_edge, righ
     """For every lane the move of least cost to the goal and that cost (−1: no way)."""
     words = -(-rows // (64 // columns))
     now = np.empty((BOARDS, words), np.uint64)
-    layers = np.empty((10 * rows + 3, FIELDS, words), np.uint64)
+    layers = np.empty((max_ticks(rows) + 3, FIELDS, words), np.uint64)
     near = np.empty((2 + charges[:, BUFFER].max(), words), np.uint64)
     value = np.full((rows, columns + 2), FAR, np.int32)
     entering = np.full((rows, columns + 2), FAR, np.int32)
@@ -211,7 +210,7 @@ def weighted_moves(state, lanes, shares, charges, columns, rows, left_edge, righ
         behind = max(1, weights[BUFFER])
         last = prepare(now, block, lane_block, inner, columns, rows, shares[lane], behind)
         episode_tick = np.int64(lane_block[EPISODE_TICK * LANES + inner])
-        limit = steps_left(lane_block, inner, rows)
+        limit = steps_left(rows, episode_tick)
         swept = lane_block[SWEPT * LANES + inner]
         cell = np.int64(lane_block[CELL * LANES + inner])
         row = cell // columns

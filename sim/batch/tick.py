@@ -16,10 +16,12 @@ import numpy as np
 from sim.batch.compiled import (
     brake,
     compiled,
+    cut_off,
     first_bit,
     followed_board,
     fraction,
     free_steps,
+    max_ticks,
     move_movers,
     pedestrians_walk,
     word_at,
@@ -171,7 +173,7 @@ def ticks_kernel(
         row_size = np.uint64(columns)
         top = np.uint64((rows_per_word - 1) * columns)
         last_bit = _ONE << np.uint64(columns - 1)
-        limit = np.uint64(10 * rows)
+        limit = np.uint64(max_ticks(rows))
         end_field = np.uint64(END_FIELD)
         sideways = _ONE << np.uint64(MOVE_FIELD)
         diagonal = _ONE << np.uint64(2 * MOVE_FIELD)
@@ -256,8 +258,12 @@ def ticks_kernel(
                     cut_left = cut_right = held_back = _ZERO
                     if bodily:
                         swept = v[SWEPT * LANES + i]
-                        cut_left = (came_right | v[CAME_RIGHT_AHEAD * LANES + i] >> shift_ahead) & swept
-                        cut_right = (came_left | v[CAME_LEFT_AHEAD * LANES + i] >> shift_ahead) & swept
+                        cut_left, cut_right = cut_off(
+                            v[CAME_RIGHT_AHEAD * LANES + i] >> shift_ahead & swept,
+                            v[CAME_LEFT_AHEAD * LANES + i] >> shift_ahead & swept,
+                            came_right & swept,
+                            came_left & swept,
+                        )
                         attentive = v[BRAKING * LANES + i]
                         if courteous:
                             draws = word_at(

@@ -113,7 +113,7 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
         before = state.world
         if before.outcome is not Outcome.RUNNING:
             raise RuntimeError("the episode has ended; call reset")
-        if before.road.moved(before.av, MOVES[number]) is None:
+        if state.config.ego_dynamics(before.road).target(before.av, MOVES[number]) is None:
             number = STAY
         # As a person's move: what repeats then proves nothing about a planner.
         self._run = apply_move(state, MOVES[number], by_person=True)

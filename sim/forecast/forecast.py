@@ -12,7 +12,8 @@ from enum import StrEnum
 from sim.fast_replace import fast_constructor
 from sim.forecast.rollout import RollOut
 from sim.perceive import Percept
-from sim.rules.traffic import Steps, free_steps, spread, spread_back, swap_conflicts
+from sim.rules.dynamics import Dynamics, dynamics_named
+from sim.rules.ego_step import Steps
 from sim.types import Move
 from sim.world.grid import Board, Road
 
@@ -49,8 +50,8 @@ class Forecast:
     potholes: Board
     barriers: Board
     disabled: Board
-    swept: bool
-    """whether bodies collide by what they sweep within a tick"""
+    dynamics: Dynamics
+    """how the vehicle moves, and what its steps sweep"""
     hazards: Mapping[int, str]
     slices: RollOut
 
@@ -73,58 +74,29 @@ class Forecast:
         """The forecast that holds once the vehicle has made this move now."""
         return self.standing or self if move is Move.STAY else self
 
-    def cut_off(self, ahead: int = 0) -> tuple[Board, Board]:
-        """The cells straight ahead of vehicles whose diagonal to the left, or to the right, is cut off."""
-        if not self.swept:
-            return 0, 0
-        _, _, came_right, came_left = self.slices[ahead]
-        columns = self.road.columns
-        return came_right | came_right >> columns, came_left | came_left >> columns
-
     def spread(self, start: Board, ahead: int = 0) -> Board:
         """Every cell a vehicle in any cell of `start` may be in one tick later, `ahead` ticks from now.
 
         Nobody brakes: `standing` is the forecast for a vehicle that stays where it would be hit.
         """
-        road = self.road
         right, left, came_right, came_left = self.slices[ahead]
-        return spread(
-            start,
-            start >> road.columns,
-            self.potholes | self.barriers | right | left,
-            came_right,
-            came_left,
-            *self.cut_off(ahead),
-            road.left_edge,
-            road.right_edge,
-        )
+        blocked = self.potholes | self.barriers | right | left
+        return self.dynamics.spread(start, blocked, came_right, came_left)
 
     def spread_back(self, end: Board, ahead: int = 0) -> Board:
         """Every cell from which one move, made `ahead` ticks from now, leads into a cell of `end`.
 
         The cells of `end` are taken to be free.
         """
-        road = self.road
-        _, _, came_right, came_left = self.slices[ahead]
-        beside, on = spread_back(
-            end, came_right, came_left, *self.cut_off(ahead), road.left_edge, road.right_edge
-        )
-        return beside | on << road.columns & road.all
+        right, left, came_right, came_left = self.slices[ahead]
+        blocked = self.potholes | self.barriers | right | left
+        return self.dynamics.spread_back(end, blocked, came_right, came_left)
 
     def steps(self, start: Board, ahead: int = 0) -> Steps:
         """Where vehicles in `start` may be one tick later, `ahead` ticks from now. Nobody brakes."""
-        road = self.road
         right, left, came_right, came_left = self.slices[ahead]
-        return free_steps(
-            start,
-            start >> road.columns,
-            self.potholes | self.barriers | right | left,
-            came_right,
-            came_left,
-            *self.cut_off(ahead),
-            road.left_edge,
-            road.right_edge,
-        )
+        blocked = self.potholes | self.barriers | right | left
+        return self.dynamics.steps(start, blocked, came_right, came_left)
 
     def own_steps(self) -> Steps:
         """Where the forecast's own vehicle may be after the coming tick; a mover may brake for it."""
@@ -143,39 +115,31 @@ class Forecast:
             return StepVerdict.OFF_ROAD, ()
         if start == end == self.ego and ahead == 0 and (standing := self.standing) is not None:
             return standing.check_step(start, end)
-        right, left, came_right, came_left = self.slices[ahead]
-        bit = 1 << end
+        motion = self.slices[ahead]
+        swept = self.dynamics.swept(start, end)
         verdict = StepVerdict.FREE
         who: tuple[str, ...] = ()
-        if swap_conflicts(1 << start, bit, came_right, came_left):
-            verdict, who = StepVerdict.MOVER_SWAPS, (self.slices.movers(ahead)[start],)
-        elif crossing := self._crossing(start, end, ahead):
-            verdict, who = (
-                StepVerdict.MOVER_CROSSES,
-                tuple(self.slices.movers(ahead)[cell] for cell in crossing),
-            )
-        if bit & (right | left):
-            who = (self.slices.movers(ahead)[end], *who)
-            if bit & self.disabled:
-                verdict = StepVerdict.DISABLED_MOVER
-            elif bit & (came_right | came_left):
-                verdict = StepVerdict.MOVER_ENTERS
-            else:
-                verdict = StepVerdict.MOVER_STAYS
-        if bit & (self.potholes | self.barriers):
-            who = (self.hazards[end], *who)
-            if not bit & self.disabled:
-                verdict = StepVerdict.POTHOLE if bit & self.potholes else StepVerdict.BARRIER
+        passed = [cell for cell in swept.from_left if motion.came_right >> cell & 1]
+        passed += [cell for cell in swept.from_right if motion.came_left >> cell & 1]
+        if passed:
+            aside = passed == [start] and start // self.road.columns == end // self.road.columns
+            verdict = StepVerdict.MOVER_SWAPS if aside else StepVerdict.MOVER_CROSSES
+            who = tuple(self.slices.movers(ahead)[cell] for cell in passed)
+        for cell in swept.cells:
+            bit = 1 << cell
+            if bit & (motion.right | motion.left):
+                who = (self.slices.movers(ahead)[cell], *who)
+                if bit & self.disabled:
+                    verdict = StepVerdict.DISABLED_MOVER
+                elif bit & (motion.came_right | motion.came_left):
+                    verdict = StepVerdict.MOVER_ENTERS
+                else:
+                    verdict = StepVerdict.MOVER_STAYS
+            if bit & (self.potholes | self.barriers):
+                who = (self.hazards[cell], *who)
+                if not bit & self.disabled:
+                    verdict = StepVerdict.POTHOLE if bit & self.potholes else StepVerdict.BARRIER
         return verdict, who
-
-    def _crossing(self, start: int, end: int, ahead: int) -> tuple[int, ...]:
-        """The cells of the movers that cut off a diagonal, after the tick; empty for any other step."""
-        on = start - self.road.columns
-        if not self.swept or end not in (on - 1, on + 1):
-            return ()
-        motion = self.slices[ahead]
-        came = motion.came_right if end < on else motion.came_left
-        return tuple(cell for cell in (on, start) if came >> cell & 1)
 
     def will_be_free(self, start: int, end: int | None, ahead: int = 0) -> bool:
         """Whether a step meets nothing."""
@@ -192,7 +156,7 @@ _expected = fast_constructor(
     "potholes",
     "barriers",
     "disabled",
-    "swept",
+    "dynamics",
     "hazards",
     "slices",
 )
@@ -200,8 +164,9 @@ _expected = fast_constructor(
 
 def predict(percept: Percept, horizon: int) -> Forecast:
     """What to expect of the next `horizon` ticks (at least one)."""
+    road = percept.road
     return _expected(
-        percept.road,
+        road,
         percept.tick,
         percept.episode_tick,
         percept.ego,
@@ -209,7 +174,7 @@ def predict(percept: Percept, horizon: int) -> Forecast:
         percept.potholes,
         percept.barriers,
         (percept.right | percept.left) & percept.potholes,
-        percept.swept,
+        dynamics_named(percept.dynamics, road.columns, road.rows, bodies=percept.swept),
         percept.hazards,
         RollOut(percept, horizon),
     )

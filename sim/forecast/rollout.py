@@ -1,9 +1,9 @@
 """Movers rolled out by the rules, as far ahead as is read and no further than was asked for.
 
 The roll-out assumes that movers do not react to the vehicle after the first tick: nobody gives way and
-nobody brakes. With perfect sight and no courtesy it *is* what happens along every way that meets nothing,
-since a mover only brakes for a vehicle that stands where it would be hit. `if_standing` is the roll-out where
-it brakes in the first tick.
+nobody brakes. With perfect sight it *is* what happens along every way that meets nothing, where movers leave
+alone who meets nothing (`Behaviour.free_ways_hold`). `if_standing` is the roll-out where a mover brakes in
+the first tick.
 """
 
 from __future__ import annotations
@@ -12,8 +12,10 @@ from collections.abc import Mapping, Sequence
 from typing import overload
 
 from sim.perceive import Percept
-from sim.rules.traffic import Motion, brake, move_movers, pedestrians_walk, shift_board
-from sim.rules.traffic_cache import cached_move_movers, cached_shift_table
+from sim.rules.behaviour import NOBODY, Movers, Reactions
+from sim.rules.behaviours import BEHAVIOURS
+from sim.rules.traffic import Motion, shift_board
+from sim.rules.traffic_cache import cached_shift_table, cached_step
 from sim.world.grid import Board
 
 
@@ -21,12 +23,14 @@ class RollOut(Sequence[Motion]):
     """`roll_out[k]` is expected k + 1 ticks from now. Ticks are computed when they are first read."""
 
     __slots__ = (
+        "_behaviour",
         "_disabled",
         "_fixed",
         "_horizon",
         "_left",
         "_pedestrians",
         "_percept",
+        "_reactions",
         "_right",
         "_slices",
         "_stands",
@@ -44,6 +48,8 @@ class RollOut(Sequence[Motion]):
         self._percept = percept
         self._horizon = horizon
         self._stands = stands
+        self._behaviour = BEHAVIOURS[percept.behaviour]
+        self._reactions = Reactions(percept.yielding, percept.attentive)
         self._fixed = percept.potholes | percept.barriers
         self._disabled = (percept.right | percept.left) & percept.potholes
         self._slices: list[Motion] = []
@@ -85,31 +91,33 @@ class RollOut(Sequence[Motion]):
 
     def if_standing(self) -> RollOut | None:
         """The roll-out where the vehicle does not move in the first tick; None where that changes nothing."""
-        percept, motion = self._percept, self[0]
-        held = percept.attentive & (motion.came_right >> 1 | motion.came_left << 1)
-        if self._stands or not held or not motion.occupied >> percept.ego & 1:
+        ego, motion = self._percept.ego, self[0]
+        if self._stands or not motion.occupied >> ego & 1:
             return None
-        other = RollOut(percept, self._horizon, stands=True)
-        return None if other[0] == motion else other
+        if self._behaviour.brake(motion, 1 << ego, self._reactions) == motion:
+            return None
+        return RollOut(self._percept, self._horizon, stands=True)
 
     def _next(self) -> Motion:
         percept, ahead = self._percept, len(self._slices)
         road = percept.road
-        walking = pedestrians_walk(percept.episode_tick + ahead)
-        # Only the first tick is asked for again: when it comes.
-        move = move_movers if ahead else cached_move_movers
-        motion = move(
+        movers = Movers(
             self._right,
             self._left,
-            self._disabled if walking else self._disabled | self._pedestrians,
+            self._pedestrians,
+            self._disabled,
             self._fixed,
-            0 if ahead else percept.yielding,
-            percept.vehicles,
             road.left_edge,
             road.right_edge,
+            percept.episode_tick + ahead,
         )
-        if self._stands and not ahead:
-            motion = brake(motion, 1 << percept.ego, percept.attentive)
+        if ahead:
+            motion = self._behaviour.step(movers, 0, NOBODY)
+        else:
+            # Only the first tick is asked for again: when it comes.
+            motion = cached_step(self._behaviour, movers, percept.vehicles, self._reactions)
+            if self._stands:
+                motion = self._behaviour.brake(motion, 1 << percept.ego, self._reactions)
         self._right, self._left = motion.right, motion.left
         if self._pedestrians:
             self._pedestrians = shift_board(self._pedestrians, motion)

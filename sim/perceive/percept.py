@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from sim.rules.behaviour import DEFAULT_BEHAVIOUR
+from sim.rules.dynamics import DEFAULT_DYNAMICS
 from sim.world.grid import Board, Road
 
 
@@ -33,3 +35,7 @@ class Percept:
     """whether bodies collide by what they sweep within a tick (`Config.collision`)"""
     movers: Mapping[int, str]
     hazards: Mapping[int, str]
+    dynamics: str = DEFAULT_DYNAMICS
+    """how autonomous vehicles move (`sim.rules.dynamics`)"""
+    behaviour: str = DEFAULT_BEHAVIOUR
+    """how the others move (`sim.rules.behaviour`)"""

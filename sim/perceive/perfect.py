@@ -5,7 +5,6 @@ from __future__ import annotations
 from sim.config import Config
 from sim.fast_replace import fast_constructor
 from sim.perceive.percept import Percept
-from sim.rules.yielding import attentive_movers, yielding_movers
 from sim.types import Kind
 from sim.world import World
 
@@ -27,11 +26,14 @@ _seen = fast_constructor(
     "swept",
     "movers",
     "hazards",
+    "dynamics",
+    "behaviour",
 )
 
 
 def perceive(world: World, config: Config, av: int = 0) -> Percept:
     """What autonomous vehicle number `av` (from 0) sees of the world."""
+    reactions = config.mover_behaviour.reactions(world, config)
     return _seen(
         world.road,
         world.tick,
@@ -43,10 +45,12 @@ def perceive(world: World, config: Config, av: int = 0) -> Percept:
         world.right,
         world.left,
         world.pedestrians,
-        yielding_movers(world, config),
-        attentive_movers(world, config),
+        reactions.yielding,
+        reactions.attentive,
         world.driven,
         config.collision == "swept",
         world.movers,
         world.hazards,
+        config.dynamics,
+        config.behaviour,
     )

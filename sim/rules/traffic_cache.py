@@ -9,21 +9,28 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from sim.rules.traffic import Motion, move_movers, shift_table
+from sim.rules.behaviour import Behaviour, Movers, Reactions
+from sim.rules.traffic import Motion, shift_table
 from sim.world.grid import Board
 
-_moved: tuple[tuple[Board, ...], Motion] | None = None
+_moved: tuple[Behaviour, Movers, Board, Reactions, Motion] | None = None
 
 
-def cached_move_movers(*boards: Board) -> Motion:
-    """`move_movers`; the boards of the latest question are answered with one and the same motion."""
+def cached_step(behaviour: Behaviour, movers: Movers, vehicles: Board, reactions: Reactions) -> Motion:
+    """`Behaviour.step`; the latest question is answered with one and the same motion."""
     global _moved
     # As below. Comparing takes less than hashing does: most of the boards are the very same.
     latest = _moved
-    if latest is not None and latest[0] == boards:
-        return latest[1]
-    motion = move_movers(*boards)
-    _moved = boards, motion
+    if (
+        latest is not None
+        and latest[1] == movers
+        and latest[0] is behaviour
+        and latest[2] == vehicles
+        and latest[3] == reactions
+    ):
+        return latest[4]
+    motion = behaviour.step(movers, vehicles, reactions)
+    _moved = behaviour, movers, vehicles, reactions, motion
     return motion
 
 

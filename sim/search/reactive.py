@@ -11,19 +11,18 @@ search (Silver, "Cooperative pathfinding", 2005), with the part of the environme
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 from sim.config import Config
 from sim.forecast import Forecast
-from sim.rules.traffic import Motion, brake, free_steps, move_movers, pedestrians_walk, shift_board
-from sim.rules.yielding import attentive_movers, yielding_movers
+from sim.rules.behaviour import NOBODY, Movers, Reactions
+from sim.rules.dynamics import Dynamics, dynamics_named
+from sim.rules.traffic import Motion, shift_board
 from sim.search.dead_ends import cells_that_may_arrive
-from sim.types import Move
+from sim.types import MOVES, Move
 from sim.world import World
 from sim.world.grid import Board, bits
-
-_MOVES = tuple(Move)
 
 
 class ImpatientError(Exception):
@@ -52,6 +51,15 @@ class ReactiveSearch:
     forecast: Forecast
     patience: int | None = None
     """states that are looked at before it is given up; None: all there are"""
+    _windows: tuple[Dynamics, ...] = field(init=False)
+    """the motion on a road of so many rows ahead of the vehicle"""
+
+    def __post_init__(self) -> None:
+        dynamics, columns = self.forecast.dynamics, self.world.road.columns
+        self._windows = tuple(
+            dynamics_named(dynamics.name, columns, ahead + 1, bodies=dynamics.bodies)
+            for ahead in range(dynamics.rows_a_tick + 1)
+        )
 
     def least_ticks(self, limit: int) -> int | None:
         """Ticks of a quickest way to row 0 within `limit` ticks; None if there is none.
@@ -68,12 +76,12 @@ class ReactiveSearch:
             return None
         row = next(row for row in layers[-1] if row.number == 0)
         column = next(bits(layers[-1][row]))
-        moves = []
+        moves, rows_a_tick = [], self.forecast.dynamics.rows_a_tick
         for ahead in range(len(layers) - 2, -1, -1):
             row, column, move = next(
-                (before, start, _MOVES[index])
+                (before, start, MOVES[index])
                 for before, columns in layers[ahead].items()
-                if before.number - row.number in (0, 1)
+                if 0 <= before.number - row.number <= rows_a_tick
                 for start in bits(columns)
                 for index, there, end in self._steps(before, start, ahead)
                 if there == row and end == column
@@ -120,74 +128,71 @@ class ReactiveSearch:
     def _steps(self, row: Row, column: int, ahead: int) -> Iterator[tuple[int, Row, int]]:
         """The moves that meet nothing: place in `Move`, the row after it, and the column."""
         columns = self.world.road.columns
-        bit, last = 1 << column, 1 << columns - 1
         fixed = self._fixed(row.number)
         moved, stood = self._motions(row, column, fixed, ahead)
-        swept = self.forecast.swept
-        slices = self.forecast.slices
-        below = row.number * columns
-        whole = (1 << columns) - 1
-        on_start = below - columns
-        coming = slices[ahead]
-        on_right, on_left = coming.came_right >> on_start & whole, coming.came_left >> on_start & whole
-        cut_left = (moved.came_right | on_right) if swept else 0
-        cut_right = (moved.came_left | on_left) if swept else 0
-        blocked_on = self._fixed(row.number - 1) | coming.occupied >> on_start & whole
-        own = free_steps(bit, 0, fixed | moved.occupied, moved.came_right, moved.came_left, 0, 0, 1, last)
-        on = free_steps(0, bit, blocked_on, 0, 0, cut_left, cut_right, 1, last)
+        coming, world = self.forecast.slices[ahead], self.world
+        # The vehicle's row and those that a move may lead to, as a road of their own.
+        window = self._windows[min(row.number, len(self._windows) - 1)]
+        ahead_rows = (window.road.rows - 1) * columns
+        below, front = row.number * columns - ahead_rows, (1 << ahead_rows) - 1
+        came_right = coming.came_right >> below & front | moved.came_right << ahead_rows
+        came_left = coming.came_left >> below & front | moved.came_left << ahead_rows
+        unmoved = world.fixed >> below
+        taken = coming.occupied >> below & front
+        start = 1 << ahead_rows + column
+        steps = window.steps(start, unmoved | taken | moved.occupied << ahead_rows, came_right, came_left)
         here = self._after(row, moved)
-        front = self._entered(row.number - 1, ahead)
-        for index, (there, end) in enumerate(
-            (
-                (front, on.forward),
-                (here, own.left),
-                (here, own.right),
-                (front, on.forward_left),
-                (front, on.forward_right),
-            )
-        ):
+        entered: dict[int, Row] = {row.number: here}
+        for index, end in enumerate(steps[:-1]):
             if end:
-                yield index, there, end.bit_length() - 1
-        if not bit & (fixed | stood.occupied):
-            yield len(_MOVES) - 1, self._after(row, stood), column
+                number, to = divmod(end.bit_length() - 1 + below, columns)
+                if number not in entered:
+                    entered[number] = self._entered(number, ahead)
+                yield index, entered[number], to
+        if stood is moved:
+            if steps.stay:
+                yield len(MOVES) - 1, here, column
+        elif window.steps(
+            start,
+            unmoved | taken | stood.occupied << ahead_rows,
+            coming.came_right >> below & front | stood.came_right << ahead_rows,
+            coming.came_left >> below & front | stood.came_left << ahead_rows,
+        ).stay:
+            yield len(MOVES) - 1, self._after(row, stood), column
 
     def _motions(self, row: Row, column: int, fixed: Board, ahead: int) -> tuple[Motion, Motion]:
         """The movers of the row in this tick while the vehicle leaves its cell, and while it stands."""
-        world, config = self.world, self.config
+        world, behaviour = self.world, self.config.mover_behaviour
         columns, bit = world.road.columns, 1 << column
         moving = row.right | row.left
-        disabled = moving & (world.potholes >> row.number * columns & (1 << columns) - 1)
-        walking = pedestrians_walk(world.episode_tick + ahead)
-        giving = braking = 0
-        if moving & (bit << 1 | bit >> 1):
-            giving, braking = self._reacting(row, column, ahead)
-        moved = move_movers(
+        reactions = self._reactions(row, column, ahead) if moving & (bit << 1 | bit >> 1) else NOBODY
+        movers = Movers(
             row.right,
             row.left,
-            disabled if walking else disabled | row.pedestrians,
+            row.pedestrians,
+            moving & world.potholes >> row.number * columns,
             fixed,
-            giving,
-            bit if config.courtesy else 0,
             1,
             1 << columns - 1,
+            world.episode_tick + ahead,
         )
-        return moved, brake(moved, bit, braking) if braking else moved
+        moved = behaviour.step(movers, bit, reactions)
+        stood = behaviour.brake(moved, bit, reactions) if moved.occupied & bit else moved
+        return moved, stood
 
-    def _reacting(self, row: Row, column: int, ahead: int) -> tuple[Board, Board]:
-        """The movers of the row that give way, and those that brake, in this tick: as they are drawn."""
+    def _reactions(self, row: Row, column: int, ahead: int) -> Reactions:
+        """Who of the row may react in this tick, as it is drawn."""
         world, below = self.world, row.number * self.world.road.columns
-        whole = (1 << world.road.columns) - 1
         there = replace(
             world,
             tick=world.tick + ahead,
             avs=(below + column,),
             right=row.right << below,
             left=row.left << below,
+            pedestrians=row.pedestrians << below,
         )
-        return (
-            yielding_movers(there, self.config) >> below & whole,
-            attentive_movers(there, self.config) >> below & whole,
-        )
+        found = self.config.mover_behaviour.reactions(there, self.config)
+        return Reactions(found.yielding >> below, found.attentive >> below)
 
     def _after(self, row: Row, motion: Motion) -> Row:
         pedestrians = shift_board(row.pedestrians, motion) if row.pedestrians else 0

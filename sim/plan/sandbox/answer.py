@@ -145,7 +145,7 @@ def decision_of(answer: Answer, percept: Percept, config: Config) -> Decision:
 
     Cheapest first, a move without a cost last. Raises `FaultError` for a move that leads off the road.
     """
-    if percept.road.moved(percept.ego, answer.move) is None:
+    if config.ego_dynamics(percept.road).target(percept.ego, answer.move) is None:
         raise CodedError("off-road", detail=answer.move)
     costs = dict(zip(Move, answer.costs, strict=True))
     options = [
