@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from sim.config import Config
 from sim.fast_replace import field_setter
-from sim.rules.behaviour import Movers
 from sim.rules.traffic import shift_board
-from sim.rules.traffic_cache import cached_shift_table, cached_step
+from sim.rules.traffic_cache import cached_reactions, cached_shift_table, cached_step
 from sim.types import Move
 from sim.world import World
 
@@ -19,8 +18,9 @@ def commit(world: World, move: Move, config: Config) -> World:
     Raises `ValueError` where the move leads off the road.
     """
     behaviour, road = config.mover_behaviour, world.road
-    reactions = behaviour.reactions(world, config)
-    movers = Movers(
+    reactions = cached_reactions(world, config)
+    motion = cached_step(
+        behaviour,
         world.right,
         world.left,
         world.pedestrians,
@@ -29,8 +29,9 @@ def commit(world: World, move: Move, config: Config) -> World:
         road.left_edge,
         road.right_edge,
         world.episode_tick,
+        world.driven,
+        reactions,
     )
-    motion = cached_step(behaviour, movers, world.driven, reactions)
     if move is Move.STAY and motion.occupied >> world.av & 1:
         motion = behaviour.brake(motion, 1 << world.av, reactions)
     target = config.ego_dynamics(road).target(world.av, move)

@@ -14,7 +14,7 @@ from sim.actions import Layout, Preference, RoadType, SensorName, Traffic
 from sim.randomness import MAX_SEED
 from sim.rules.behaviour import DEFAULT_BEHAVIOUR, Behaviour
 from sim.rules.behaviours import BEHAVIOURS
-from sim.rules.dynamics import DEFAULT_DYNAMICS, DYNAMICS, Dynamics, dynamics_named
+from sim.rules.dynamics import DEFAULT_DYNAMICS, DYNAMICS, Dynamics, dynamics_on
 from sim.rules.limits import max_ticks
 from sim.rules.versions import RULES
 from sim.world.grid import Road
@@ -173,22 +173,22 @@ class Config:
 
     def ego_dynamics(self, road: Road) -> Dynamics:
         """How autonomous vehicles move on a road."""
-        return dynamics_named(self.dynamics, road.columns, road.rows, bodies=self.collision == "swept")
+        return dynamics_on(road, self.dynamics, self.collision == "swept")
 
     @property
     def certain(self) -> bool:
         """Whether the future is certain: nothing about the movers is left to chance on a road once drawn."""
-        return self.mover_behaviour.certain(self)
+        return BEHAVIOURS[self.behaviour].certain(self)
 
     @property
     def reacting(self) -> bool:
         """Whether movers react to the vehicle, so that where they go depends on where it is."""
-        return self.mover_behaviour.reads_egos(self)
+        return BEHAVIOURS[self.behaviour].reads_egos(self)
 
     @property
     def free_ways_hold(self) -> bool:
         """Whether a way that meets nothing in a forecast without reactions meets nothing when driven."""
-        return self.mover_behaviour.free_ways_hold(self)
+        return BEHAVIOURS[self.behaviour].free_ways_hold(self)
 
     @property
     def max_ticks(self) -> int:

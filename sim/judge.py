@@ -6,23 +6,18 @@ rules as well as on the driving. All defects are listed, not the first.
 
 from __future__ import annotations
 
-from sim.config import Collision
-from sim.rules.dynamics import DEFAULT_DYNAMICS, Swept, dynamics_named
+from sim.rules.dynamics import Dynamics, Swept
 from sim.types import Kind, Outcome, kind_of
 from sim.world import Cause, World
 
 
-def collisions(
-    before: World, after: World, rule: Collision, dynamics: str = DEFAULT_DYNAMICS
-) -> tuple[Cause, ...]:
+def collisions(before: World, after: World, motion: Dynamics) -> tuple[Cause, ...]:
     """Every collision of an autonomous vehicle in the tick from `before` to `after`.
 
-    `swept`: two bodies of stated size that move linearly within the tick touch (`sim.rules.bodies` derives
-    the cases); `cell`: they are in one cell after it, or have changed places. What a step sweeps, the motion
-    says (`sim.rules.dynamics`).
+    It is in a cell after the tick that something else is in, or has run into something on the way: what a
+    step sweeps, the motion says (`sim.rules.dynamics`).
     """
     found = []
-    motion = dynamics_named(dynamics, after.road.columns, after.road.rows, bodies=rule == "swept")
     for number, (start, end) in enumerate(zip(before.avs, after.avs, strict=True)):
         if end in after.hazards:
             name = after.hazards[end]
@@ -31,13 +26,14 @@ def collisions(
             name = after.movers[end]
             found.append(Cause("hit", kind_of(name), (name,), after.road.cell(end)))
         swept = motion.swept(start, end)
-        for cell in swept.cells[1:]:
+        for cell in swept.cells[1:] if len(swept.cells) > 1 else ():
             found += [
                 Cause("hit", kind_of(table[cell]), (table[cell],), after.road.cell(cell))
                 for table in (after.hazards, after.movers)
                 if cell in table
             ]
-        found += _passed(before, after, start, end, swept)
+        if swept.from_left or swept.from_right:
+            found += _passed(before, after, start, end, swept)
         for other in range(number):
             met = after.avs[other] == end
             if met or (after.avs[other] == start != end == before.avs[other]):

@@ -17,7 +17,7 @@ def transition(world: World, move: Move, config: Config) -> World:
     Raises `ValueError` where the move leads off the road.
     """
     after = commit(world, move, config)
-    crashes = collisions(world, after, config.collision, config.dynamics)
+    crashes = collisions(world, after, config.ego_dynamics(world.road))
     result = outcome(after, crashes, config.max_ticks)
     if result is Outcome.RUNNING:
         return after

@@ -110,7 +110,7 @@ def _of_plan(world: World, plan: Iterable[Move], config: Config) -> Iterator[Def
             yield Defect("off_road", world.tick, cell=world.road.cell(world.av))
             continue
         after = commit(world, move, config)
-        for crash in collisions(world, after, config.collision, config.dynamics):
+        for crash in collisions(world, after, config.ego_dynamics(world.road)):
             yield Defect(f"{crash.how}_{crash.kind}", after.tick, crash.ids, crash.cell)
         # What was hit is noted, the plan goes on.
         result = outcome(after, (), config.max_ticks)

@@ -12,7 +12,7 @@ from enum import StrEnum
 from sim.fast_replace import fast_constructor
 from sim.forecast.rollout import RollOut
 from sim.perceive import Percept
-from sim.rules.dynamics import Dynamics, dynamics_named
+from sim.rules.dynamics import Dynamics, dynamics_on
 from sim.rules.ego_step import Steps
 from sim.types import Move
 from sim.world.grid import Board, Road
@@ -119,8 +119,11 @@ class Forecast:
         swept = self.dynamics.swept(start, end)
         verdict = StepVerdict.FREE
         who: tuple[str, ...] = ()
-        passed = [cell for cell in swept.from_left if motion.came_right >> cell & 1]
-        passed += [cell for cell in swept.from_right if motion.came_left >> cell & 1]
+        passed = None
+        if swept.from_left:
+            passed = [cell for cell in swept.from_left if motion.came_right >> cell & 1]
+        if swept.from_right:
+            passed = [cell for cell in swept.from_right if motion.came_left >> cell & 1] + (passed or [])
         if passed:
             aside = passed == [start] and start // self.road.columns == end // self.road.columns
             verdict = StepVerdict.MOVER_SWAPS if aside else StepVerdict.MOVER_CROSSES
@@ -174,7 +177,7 @@ def predict(percept: Percept, horizon: int) -> Forecast:
         percept.potholes,
         percept.barriers,
         (percept.right | percept.left) & percept.potholes,
-        dynamics_named(percept.dynamics, road.columns, road.rows, bodies=percept.swept),
+        dynamics_on(road, percept.dynamics, percept.swept),
         percept.hazards,
         RollOut(percept, horizon),
     )

@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from typing import overload
 
 from sim.perceive import Percept
-from sim.rules.behaviour import NOBODY, Movers, Reactions
+from sim.rules.behaviour import NOBODY, Reactions
 from sim.rules.behaviours import BEHAVIOURS
 from sim.rules.traffic import Motion, shift_board
 from sim.rules.traffic_cache import cached_shift_table, cached_step
@@ -49,7 +49,8 @@ class RollOut(Sequence[Motion]):
         self._horizon = horizon
         self._stands = stands
         self._behaviour = BEHAVIOURS[percept.behaviour]
-        self._reactions = Reactions(percept.yielding, percept.attentive)
+        yielding, attentive = percept.yielding, percept.attentive
+        self._reactions = Reactions(yielding, attentive) if yielding or attentive else NOBODY
         self._fixed = percept.potholes | percept.barriers
         self._disabled = (percept.right | percept.left) & percept.potholes
         self._slices: list[Motion] = []
@@ -101,7 +102,8 @@ class RollOut(Sequence[Motion]):
     def _next(self) -> Motion:
         percept, ahead = self._percept, len(self._slices)
         road = percept.road
-        movers = Movers(
+        movers = (
+            self._behaviour,
             self._right,
             self._left,
             self._pedestrians,
@@ -111,11 +113,11 @@ class RollOut(Sequence[Motion]):
             road.right_edge,
             percept.episode_tick + ahead,
         )
+        # Only the first tick is asked for again: when it comes.
         if ahead:
-            motion = self._behaviour.step(movers, 0, NOBODY)
+            motion = self._behaviour.step(*movers[1:], 0, NOBODY)
         else:
-            # Only the first tick is asked for again: when it comes.
-            motion = cached_step(self._behaviour, movers, percept.vehicles, self._reactions)
+            motion = cached_step(*movers, percept.vehicles, self._reactions)
             if self._stands:
                 motion = self._behaviour.brake(motion, 1 << percept.ego, self._reactions)
         self._right, self._left = motion.right, motion.left

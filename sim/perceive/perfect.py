@@ -5,6 +5,7 @@ from __future__ import annotations
 from sim.config import Config
 from sim.fast_replace import fast_constructor
 from sim.perceive.percept import Percept
+from sim.rules.traffic_cache import cached_reactions
 from sim.types import Kind
 from sim.world import World
 
@@ -33,7 +34,7 @@ _seen = fast_constructor(
 
 def perceive(world: World, config: Config, av: int = 0) -> Percept:
     """What autonomous vehicle number `av` (from 0) sees of the world."""
-    reactions = config.mover_behaviour.reactions(world, config)
+    reactions = cached_reactions(world, config)
     return _seen(
         world.road,
         world.tick,

@@ -40,21 +40,6 @@ class Reactions(NamedTuple):
 NOBODY: Final = Reactions()
 
 
-class Movers(NamedTuple):
-    """What moves, and what it meets: boards of one road, or of a part of it that holds whole rows."""
-
-    right: Board
-    left: Board
-    pedestrians: Board
-    """those of them that walk"""
-    disabled: Board
-    """those of them that a pothole holds"""
-    fixed: Board
-    left_edge: Board
-    right_edge: Board
-    episode_tick: int
-
-
 class Behaviour:
     """What movers do by themselves, and no reaction at all. A subclass gives `name` and what differs."""
 
@@ -88,18 +73,34 @@ class Behaviour:
         """A configuration under which exactly this is drawn in the coming tick."""
         return config
 
-    def step(self, movers: Movers, vehicles: Board, reactions: Reactions) -> Motion:
-        """Where all movers are after the tick, unless someone brakes. `vehicles`: the autonomous ones."""
-        walking = pedestrians_walk(movers.episode_tick)
+    def step(
+        self,
+        right: Board,
+        left: Board,
+        pedestrians: Board,
+        disabled: Board,
+        fixed: Board,
+        left_edge: Board,
+        right_edge: Board,
+        episode_tick: int,
+        vehicles: Board,
+        reactions: Reactions,
+    ) -> Motion:
+        """Where all movers are after the tick that begins at `episode_tick`, unless someone brakes.
+
+        Boards of one road, or of a part of it that holds whole rows: movers by heading, those of them that
+        walk, those that a pothole holds; fixed hazards; the first and the last column; and the autonomous
+        vehicles, where it is known where they are.
+        """
         return move_movers(
-            movers.right,
-            movers.left,
-            movers.disabled if walking else movers.disabled | movers.pedestrians,
-            movers.fixed,
+            right,
+            left,
+            disabled if pedestrians_walk(episode_tick) else disabled | pedestrians,
+            fixed,
             reactions.yielding,
             vehicles,
-            movers.left_edge,
-            movers.right_edge,
+            left_edge,
+            right_edge,
         )
 
     def brake(self, motion: Motion, standing: Board, reactions: Reactions) -> Motion:
@@ -125,7 +126,7 @@ class SidewaysTraffic(Behaviour):
 
     def certain(self, config: Config) -> bool:
         """See `Behaviour`. Nothing is drawn where all give way; it has never been taken for certain."""
-        return not self.draws(config) and config.courtesy == 0.0
+        return config.courtesy == 0.0 and config.attentive in (0.0, 1.0)
 
     def free_ways_hold(self, config: Config) -> bool:
         """See `Behaviour`. A mover brakes only for a vehicle that it would hit."""
@@ -133,6 +134,8 @@ class SidewaysTraffic(Behaviour):
 
     def reactions(self, world: World, config: Config) -> Reactions:
         """See `Behaviour`."""
+        if not movers_beside(world):
+            return NOBODY
         return Reactions(yielding_movers(world, config), attentive_movers(world, config))
 
     def possible_reactions(self, world: World, config: Config) -> list[tuple[Reactions, float]]:

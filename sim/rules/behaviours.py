@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from types import MappingProxyType
 from typing import Final
 
 from sim.rules.behaviour import Behaviour, SidewaysTraffic
 
-BEHAVIOURS: Final[Mapping[str, Behaviour]] = MappingProxyType(
-    {each.name: each for each in (SidewaysTraffic(),)}
-)
+BEHAVIOURS: Final[Mapping[str, Behaviour]] = {each.name: each for each in (SidewaysTraffic(),)}
 """Every behaviour by its name in `Config.behaviour`."""

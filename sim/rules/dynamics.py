@@ -11,9 +11,8 @@ A further motion is a class here or in a module of its own, named in `DYNAMICS`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import lru_cache
-from types import MappingProxyType
 from typing import Any, ClassVar, Final, NamedTuple
 
 from sim.rules.ego_step import (
@@ -232,7 +231,9 @@ class GridDynamics(Dynamics):
         """See `Dynamics`."""
         road = self.road
         columns = road.columns
-        cut_left, cut_right = self._cut_off(came_right, came_left)
+        cut_left = cut_right = 0
+        if self.bodies:
+            cut_left, cut_right = cut_off(came_right, came_left, came_right >> columns, came_left >> columns)
         return free_steps(
             start,
             start >> columns,
@@ -249,7 +250,9 @@ class GridDynamics(Dynamics):
         """See `Dynamics`."""
         road = self.road
         columns = road.columns
-        cut_left, cut_right = self._cut_off(came_right, came_left)
+        cut_left = cut_right = 0
+        if self.bodies:
+            cut_left, cut_right = cut_off(came_right, came_left, came_right >> columns, came_left >> columns)
         return spread(
             start,
             start >> columns,
@@ -266,7 +269,9 @@ class GridDynamics(Dynamics):
         """See `Dynamics`."""
         road = self.road
         columns = road.columns
-        cut_left, cut_right = self._cut_off(came_right, came_left)
+        cut_left = cut_right = 0
+        if self.bodies:
+            cut_left, cut_right = cut_off(came_right, came_left, came_right >> columns, came_left >> columns)
         aside, on = spread_back(
             end, came_right, came_left, cut_left, cut_right, road.left_edge, road.right_edge
         )
@@ -306,13 +311,6 @@ class GridDynamics(Dynamics):
             ends.append((5, cell))
         return ends
 
-    def _cut_off(self, came_right: Board, came_left: Board) -> tuple[Board, Board]:
-        """The cells straight ahead of vehicles whose diagonal to the left, or to the right, is cut off."""
-        if not self.bodies:
-            return 0, 0
-        columns = self.road.columns
-        return cut_off(came_right, came_left, came_right >> columns, came_left >> columns)
-
     def unhindered(self, start: Board) -> Board:
         """See `Dynamics`: nobody is met on the way straight on."""
         return start >> self.road.columns
@@ -329,14 +327,25 @@ class GridDynamics(Dynamics):
         return (beside(end, road.left_edge, road.right_edge) | behind) & road.all
 
 
-DYNAMICS: Final[Mapping[str, Callable[..., Dynamics]]] = MappingProxyType(
-    {each.name: each for each in (GridDynamics,)}
-)
+DYNAMICS: Final[Mapping[str, type[Dynamics]]] = {each.name: each for each in (GridDynamics,)}
 """Every motion by its name in `Config.dynamics`."""
 DEFAULT_DYNAMICS: Final = GridDynamics.name
 
+_latest: tuple[Road, str, bool, Dynamics] | None = None
+
+
+def dynamics_on(road: Road, name: str = DEFAULT_DYNAMICS, bodies: bool = True) -> Dynamics:
+    """The motion of that name on a road; mostly one object for the same question."""
+    global _latest
+    # The latest answer: it is asked for three times a tick, and even a look into a table adds up.
+    latest = _latest
+    if latest is not None and latest[0] is road and latest[1] == name and latest[2] is bodies:
+        return latest[3]
+    motion = _made(road.columns, road.rows, name, bodies)
+    _latest = road, name, bodies, motion
+    return motion
+
 
 @lru_cache(maxsize=128)
-def dynamics_named(name: str, columns: int, rows: int, *, bodies: bool) -> Dynamics:
-    """The motion of that name on a road of that size; one object for the same question."""
+def _made(columns: int, rows: int, name: str, bodies: bool) -> Dynamics:
     return DYNAMICS[name](Road.of(columns, rows), bodies=bodies)

@@ -8,29 +8,42 @@ The rules themselves are in `sim.rules.traffic`, which is compiled as well and s
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
-from sim.rules.behaviour import Behaviour, Movers, Reactions
+from sim.rules.behaviour import Behaviour, Reactions
 from sim.rules.traffic import Motion, shift_table
-from sim.world.grid import Board
 
-_moved: tuple[Behaviour, Movers, Board, Reactions, Motion] | None = None
+if TYPE_CHECKING:
+    from sim.config import Config
+    from sim.world import World
+
+_reacted: tuple[World, Config, Reactions] | None = None
 
 
-def cached_step(behaviour: Behaviour, movers: Movers, vehicles: Board, reactions: Reactions) -> Motion:
-    """`Behaviour.step`; the latest question is answered with one and the same motion."""
+def cached_reactions(world: World, config: Config) -> Reactions:
+    """`Behaviour.reactions` of the configuration's; the very same world and configuration have one answer."""
+    global _reacted
+    latest = _reacted
+    if latest is not None and latest[0] is world and latest[1] is config:
+        return latest[2]
+    reactions = config.mover_behaviour.reactions(world, config)
+    _reacted = world, config, reactions
+    return reactions
+
+
+_moved: tuple[tuple[Any, ...], Motion] | None = None
+
+
+def cached_step(*question: Any) -> Motion:
+    """`Behaviour.step` of a behaviour, which comes first; the latest question has one and the same answer."""
     global _moved
     # As below. Comparing takes less than hashing does: most of the boards are the very same.
     latest = _moved
-    if (
-        latest is not None
-        and latest[1] == movers
-        and latest[0] is behaviour
-        and latest[2] == vehicles
-        and latest[3] == reactions
-    ):
-        return latest[4]
-    motion = behaviour.step(movers, vehicles, reactions)
-    _moved = behaviour, movers, vehicles, reactions, motion
+    if latest is not None and latest[0] == question:
+        return latest[1]
+    behaviour: Behaviour = question[0]
+    motion = behaviour.step(*question[1:])
+    _moved = question, motion
     return motion
 
 

@@ -30,7 +30,7 @@ def movers_beside(world: World) -> Board:
     """The movers next to an autonomous vehicle, in its row: those that may have a reason to react."""
     # Cells beside it across the edge of the road are in another row; a mover there meets no vehicle.
     vehicles = world.driven
-    return (vehicles >> 1 | vehicles << 1) & world.moving
+    return (vehicles >> 1 | vehicles << 1) & (world.right | world.left)
 
 
 def _drawn(world: World, config: Config, purpose: str, share: float) -> Board:

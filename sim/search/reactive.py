@@ -16,13 +16,13 @@ from typing import NamedTuple
 
 from sim.config import Config
 from sim.forecast import Forecast
-from sim.rules.behaviour import NOBODY, Movers, Reactions
-from sim.rules.dynamics import Dynamics, dynamics_named
+from sim.rules.behaviour import NOBODY, Reactions
+from sim.rules.dynamics import Dynamics, dynamics_on
 from sim.rules.traffic import Motion, shift_board
 from sim.search.dead_ends import cells_that_may_arrive
 from sim.types import MOVES, Move
 from sim.world import World
-from sim.world.grid import Board, bits
+from sim.world.grid import Board, Road, bits
 
 
 class ImpatientError(Exception):
@@ -57,7 +57,7 @@ class ReactiveSearch:
     def __post_init__(self) -> None:
         dynamics, columns = self.forecast.dynamics, self.world.road.columns
         self._windows = tuple(
-            dynamics_named(dynamics.name, columns, ahead + 1, bodies=dynamics.bodies)
+            dynamics_on(Road.of(columns, ahead + 1), dynamics.name, dynamics.bodies)
             for ahead in range(dynamics.rows_a_tick + 1)
         )
 
@@ -166,7 +166,7 @@ class ReactiveSearch:
         columns, bit = world.road.columns, 1 << column
         moving = row.right | row.left
         reactions = self._reactions(row, column, ahead) if moving & (bit << 1 | bit >> 1) else NOBODY
-        movers = Movers(
+        moved = behaviour.step(
             row.right,
             row.left,
             row.pedestrians,
@@ -175,8 +175,9 @@ class ReactiveSearch:
             1,
             1 << columns - 1,
             world.episode_tick + ahead,
+            bit,
+            reactions,
         )
-        moved = behaviour.step(movers, bit, reactions)
         stood = behaviour.brake(moved, bit, reactions) if moved.occupied & bit else moved
         return moved, stood
 

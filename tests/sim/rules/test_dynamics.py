@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from sim.rules.bodies import Path, first_contact
-from sim.rules.dynamics import Dynamics, GridDynamics, Swept, dynamics_named
+from sim.rules.dynamics import Dynamics, GridDynamics, Swept, dynamics_on
 from sim.types import MOVERS, MOVES, Kind, Move
 from sim.world.grid import Board, Road, bits
 
@@ -96,5 +96,5 @@ def test_what_a_step_sweeps_is_what_its_body_touches(move: Move, kind: Kind) -> 
 
 
 def test_one_object_for_the_same_road() -> None:
-    assert dynamics_named("grid", 5, 7, bodies=True) is dynamics_named("grid", 5, 7, bodies=True)
-    assert dynamics_named("grid", 5, 7, bodies=False).step(17, Move.FORWARD_LEFT) == (11, Swept((11,)))
+    assert dynamics_on(Road(5, 7)) is dynamics_on(Road.of(5, 7), "grid", True)
+    assert dynamics_on(Road.of(5, 7), bodies=False).step(17, Move.FORWARD_LEFT) == (11, Swept((11,)))
