@@ -102,8 +102,26 @@ _SWITCHES: Final = frozenset(("solvable", "repetition"))
 _OPTIONAL: Final = frozenset(("potholes", "vehicles", "road", "layout", "traffic"))
 
 
+class Derived:
+    """What follows from the fields of a configuration. Worked out once, since every tick asks for it."""
+
+    __slots__ = ("_dynamics", "certain", "free_ways_hold", "max_ticks", "mover_behaviour", "reacting")
+
+    mover_behaviour: Behaviour
+    """how obstacle vehicles and pedestrians move"""
+    certain: bool
+    """whether the future is certain: nothing about the movers is left to chance once the road is drawn"""
+    reacting: bool
+    """whether movers react to the vehicle, so that where they go depends on where it is"""
+    free_ways_hold: bool
+    """whether a way that meets nothing in a forecast without reactions meets nothing when driven"""
+    max_ticks: int
+    """an episode that lasts longer is STUCK"""
+    _dynamics: Dynamics
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Config:
+class Config(Derived):
     """Everything a world is made from besides the seed's own draws.
 
     `potholes` and `vehicles` are exact numbers that replace their probabilities when given;
@@ -155,6 +173,25 @@ class Config:
         problems = tuple(self._problems())
         if problems:
             raise ConfigError(problems)
+        self._derive()
+
+    def _derive(self) -> None:
+        behaviour = BEHAVIOURS[self.behaviour]
+        known = {
+            "mover_behaviour": behaviour,
+            "certain": behaviour.certain(self),
+            "reacting": behaviour.reads_egos(self),
+            "free_ways_hold": behaviour.free_ways_hold(self),
+            "max_ticks": max_ticks(self.rows),
+            "_dynamics": dynamics_on(self.geometry, self.dynamics, self.collision == "swept"),
+        }
+        for name, value in known.items():
+            object.__setattr__(self, name, value)
+
+    def __setstate__(self, values: list[Any]) -> None:
+        for field, value in zip(fields(self), values, strict=True):
+            object.__setattr__(self, field.name, value)
+        self._derive()
 
     def with_parts(self, **parts: Any) -> Config:
         """This configuration with some fields changed. Raises `ConfigError`."""
@@ -166,34 +203,12 @@ class Config:
             raise ConfigError(tuple(Problem(name, _unknown(name)) for name in unknown))
         return replace(self, **parts)
 
-    @property
-    def mover_behaviour(self) -> Behaviour:
-        """How obstacle vehicles and pedestrians move."""
-        return BEHAVIOURS[self.behaviour]
-
     def ego_dynamics(self, road: Road) -> Dynamics:
         """How autonomous vehicles move on a road."""
+        motion = self._dynamics
+        if motion.road is road:
+            return motion
         return dynamics_on(road, self.dynamics, self.collision == "swept")
-
-    @property
-    def certain(self) -> bool:
-        """Whether the future is certain: nothing about the movers is left to chance on a road once drawn."""
-        return BEHAVIOURS[self.behaviour].certain(self)
-
-    @property
-    def reacting(self) -> bool:
-        """Whether movers react to the vehicle, so that where they go depends on where it is."""
-        return BEHAVIOURS[self.behaviour].reads_egos(self)
-
-    @property
-    def free_ways_hold(self) -> bool:
-        """Whether a way that meets nothing in a forecast without reactions meets nothing when driven."""
-        return BEHAVIOURS[self.behaviour].free_ways_hold(self)
-
-    @property
-    def max_ticks(self) -> int:
-        """An episode that lasts longer is STUCK."""
-        return max_ticks(self.rows)
 
     @property
     def reset_delay_ticks(self) -> int:

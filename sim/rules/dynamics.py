@@ -11,7 +11,7 @@ A further motion is a class here or in a module of its own, named in `DYNAMICS`.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import lru_cache
 from typing import Any, ClassVar, Final, NamedTuple
 
@@ -76,6 +76,9 @@ class Dynamics:
         """`bodies`: whether bodies of stated size collide within a tick (`collision: swept`), or cells."""
         self.road = road
         self.bodies = bodies
+        self._columns = road.columns
+        self.swept: Callable[[int, int], Swept] = lru_cache(maxsize=4_096)(self._swept)
+        """what the step from one cell to another sweeps; the end alone where no move leads there"""
         self._steps_from: dict[int, tuple[_Step, ...]] = {}
         self._sources_of: dict[int, tuple[tuple[int, _Step], ...]] = {}
 
@@ -95,10 +98,6 @@ class Dynamics:
         """The cell a move leads to; None if that is off the road."""
         found = self.step(cell, move)
         return None if found is None else found[0]
-
-    def swept(self, start: int, end: int) -> Swept:
-        """What the step from one cell to another sweeps; the end alone where no move leads there."""
-        return _swept(self, start, end)
 
     def steps(self, start: Board, blocked: Board, came_right: Board, came_left: Board) -> Steps:
         """Where vehicles in the cells `start` may be one tick later, by move."""
@@ -128,11 +127,14 @@ class Dynamics:
         """What `free_ends` asks for, made once for all cells of a tick."""
         return Obstacles(blocked, came_right, came_left)
 
-    def free_ends(self, obstacles: Any, cell: int) -> list[tuple[int, int]]:
-        """(place in `MOVES`, cell) of every move from a cell that meets nothing, in the order of moves."""
+    def free_ends(self, obstacles: Any, cell: int, origin: int = 0) -> list[tuple[int, int]]:
+        """(place in `MOVES`, cell) of every move from a cell that meets nothing, in the order of moves.
+
+        The cells are counted from `origin`, which is not beyond any cell that a move leads to.
+        """
         blocked, came_right, came_left = obstacles
         return [
-            (step.place, step.end)
+            (step.place, step.end - origin)
             for step in self._from(cell)
             if not (step.cells & blocked or step.from_left & came_right or step.from_right & came_left)
         ]
@@ -154,6 +156,10 @@ class Dynamics:
             for start, _ in self._to(cell)
             if (end if start // columns == cell // columns else entered) >> cell & 1
         )
+
+    def _swept(self, start: int, end: int) -> Swept:
+        found = (self.step(start, move) for move in MOVES)
+        return next((step[1] for step in found if step is not None and step[0] == end), Swept((end,)))
 
     def _from(self, cell: int) -> tuple[_Step, ...]:
         found = self._steps_from.get(cell)
@@ -185,12 +191,6 @@ class Dynamics:
                 if step.end == cell
             )
         return found
-
-
-@lru_cache(maxsize=4_096)
-def _swept(dynamics: Dynamics, start: int, end: int) -> Swept:
-    found = (dynamics.step(start, move) for move in MOVES)
-    return next((step[1] for step in found if step is not None and step[0] == end), Swept((end,)))
 
 
 class GridMasks(NamedTuple):
@@ -287,28 +287,25 @@ class GridDynamics(Dynamics):
         edges = road.left_edge, road.right_edge
         return GridMasks(blocked, closed_starts(came_right, came_left, cut_left, cut_right, *edges))
 
-    def free_ends(self, obstacles: GridMasks, cell: int) -> list[tuple[int, int]]:
+    def free_ends(self, obstacles: GridMasks, cell: int, origin: int = 0) -> list[tuple[int, int]]:
         """See `Dynamics`."""
-        columns = self.road.columns
         taken, (no_left, no_right, no_forward_left, no_forward_right) = obstacles
-        # The two rows that matter, brought to the lowest bits: short numbers are quick.
-        low = cell - columns - 1 if cell > columns else 0
-        blocked = taken >> low
-        here = cell - low
-        on = here - columns
+        blocked = taken >> origin
+        here = cell - origin
+        on = here - self._columns
         ends = []
         if not blocked >> on & 1:
-            ends.append((0, low + on))
+            ends.append((0, on))
         if not (no_left >> cell | blocked >> here - 1) & 1:
-            ends.append((1, cell - 1))
+            ends.append((1, here - 1))
         if not (no_right >> cell | blocked >> here + 1) & 1:
-            ends.append((2, cell + 1))
+            ends.append((2, here + 1))
         if not (no_forward_left >> cell & 1) and not blocked >> on - 1 & 1:
-            ends.append((3, low + on - 1))
+            ends.append((3, on - 1))
         if not (no_forward_right >> cell | blocked >> on + 1) & 1:
-            ends.append((4, low + on + 1))
+            ends.append((4, on + 1))
         if not blocked >> here & 1:
-            ends.append((5, cell))
+            ends.append((5, here))
         return ends
 
     def unhindered(self, start: Board) -> Board:

@@ -49,9 +49,10 @@ class TimeExpandedGraph:
         self.near_fixed = around(forecast.fixed, forecast.road) if weights.fixed else 0
         self._layers: list[Layer] = []
         self._costs = [step.cost for step in self.moves]
-        self._ahead = min(weights.of(move) for move in Move if move.offset[1])
-        self._rows_a_tick = forecast.dynamics.rows_a_tick
-        self._window = (self._rows_a_tick + 1) * self._columns
+        ahead = min(weights.of(move) for move in Move if move.offset[1])
+        gained = forecast.dynamics.rows_a_tick
+        self._by_row = [-(-row // gained) * ahead for row in range(forecast.road.rows)]
+        self._window = (gained + 1) * self._columns
         self._free_ends = forecast.dynamics.free_ends
 
     def layer(self, ahead: int) -> Layer:
@@ -81,8 +82,7 @@ class TimeExpandedGraph:
         near = [board >> low for board in layer.near]
         charge_fixed, charge_mover = self.weights.fixed, self.weights.mover
         found = []
-        for move, end in self._free_ends(layer.obstacles, cell):
-            end -= low
+        for move, end in self._free_ends(layer.obstacles, cell, low):
             cost = costs[move]
             if fixed >> end & 1:
                 cost += charge_fixed
@@ -98,8 +98,7 @@ class TimeExpandedGraph:
 
     def heuristic(self, state: State) -> int:
         """A tick gains no more rows than the motion can, and no step on costs less than the cheapest."""
-        rows = state % self._cells // self._columns
-        return -(-rows // self._rows_a_tick) * self._ahead
+        return self._by_row[state % self._cells // self._columns]
 
     def _made(self, ahead: int) -> Layer:
         forecast, road = self._forecast, self._forecast.road
