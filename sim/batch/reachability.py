@@ -10,6 +10,20 @@ that nobody gives way. Where no way leads to the goal, the move after which one 
 longest.
 
 The same as `sim.search.reachability`, which serves one live world with Python's integers.
+
+Array arguments, here and in `sim.batch.backward_dp` (words: those of a board, `Layout.words`):
+
+- `state` (blocks, words · `PLANES` · `LANES`; uint64) and `lanes` (blocks, `LANE_PLANES` · `LANES`; uint64);
+  `block` and `lane_block` are a row of each (`sim.batch.layout`), `lane` and `inner` a world's number in it;
+- `shares` (lanes, 4; float64), in functions of one lane its row: probabilities, by `COURTESY`, `ATTENTIVE`;
+- `now` (8, words; uint64): boards of the tick that is rolled out next, see `NOW_RIGHT`;
+- `layers` (ticks, 8, words; uint64): what is known of each tick, see `BLOCKED`;
+- `board` (words; uint64): one board;
+- `moves` (lanes; uint8), `ticks` (lanes; int64): the answers, a place in `MOVES` and a number of ticks.
+
+Numbers: `ahead`, `ticks`, `limit`, `rolled`, `episode_tick` are in ticks; `cell`, `row`, `columns`, `rows` on the
+road; `first`, `last`, `w` number words; `left_edge`, `right_edge` are the first and last column of a word
+(uint64); `swept` is all ones where bodies collide by what they sweep, else 0 (uint64).
 """
 
 from __future__ import annotations

@@ -4,6 +4,14 @@ One text is specialised in several ways, so that a batch without pedestrians, co
 results does not pay for them. All loops over lanes are written so that a compiler turns them into
 instructions on several worlds at once; only what is rare is handled lane by lane: a mover that brakes, a
 situation to be kept or compared, the end of an episode.
+
+Array arguments of the kernel (lane planes are read at `PLANE * LANES + lane`, `sim.batch.layout`):
+
+- `state`, `first_state` (blocks, words · `PLANES` · `LANES`; uint64): boards now, and of the first roads;
+  `boards` is one block of them;
+- `lanes`, `first_lanes` (blocks, `LANE_PLANES` · `LANES`; uint64): what a world has once; `v` is one block;
+- `wholes` (lanes, 8; int64), `shares` (lanes, 4; float64): numbers and probabilities, by column;
+- `left_edge`, `right_edge` (uint64): the first and the last column of a word; `ticks`: how many are run.
 """
 
 from __future__ import annotations
