@@ -21,8 +21,8 @@ Array arguments, here and in `sim.batch.backward_dp` (words: those of a board, `
 - `board` (words; uint64): one board;
 - `moves` (lanes; uint8), `ticks` (lanes; int64): the answers, a place in `MOVES` and a number of ticks.
 
-Numbers: `ahead`, `ticks`, `limit`, `rolled`, `episode_tick` are in ticks; `cell`, `row`, `columns`, `rows` on the
-road; `first`, `last`, `w` number words; `left_edge`, `right_edge` are the first and last column of a word
+Numbers: `ahead`, `ticks`, `limit`, `rolled`, `episode_tick` are in ticks; `cell`, `row`, `columns`, `rows` on
+the road; `first`, `last`, `w` number words; `left_edge`, `right_edge` are the first and last column of a word
 (uint64); `swept` is all ones where bodies collide by what they sweep, else 0 (uint64).
 """
 
