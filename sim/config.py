@@ -13,8 +13,9 @@ from sim import planner_names
 from sim.actions import Layout, Preference, RoadType, SensorName, Traffic
 from sim.randomness import MAX_SEED
 from sim.rules.behaviour import DEFAULT_BEHAVIOUR, Behaviour
-from sim.rules.behaviours import BEHAVIOURS
-from sim.rules.dynamics import DEFAULT_DYNAMICS, DYNAMICS, Dynamics, dynamics_on
+from sim.rules.behaviour_registry import BEHAVIOURS
+from sim.rules.dynamics import DEFAULT_DYNAMICS, Dynamics
+from sim.rules.dynamics_registry import DYNAMICS, dynamics_on
 from sim.rules.limits import max_ticks
 from sim.rules.versions import RULES
 from sim.world.grid import Road
@@ -162,7 +163,7 @@ class Config(Derived):
     dynamics: str = DEFAULT_DYNAMICS
     """how autonomous vehicles move (`sim.rules.dynamics`)"""
     behaviour: str = DEFAULT_BEHAVIOUR
-    """how obstacle vehicles and pedestrians move, and whether they react (`sim.rules.behaviours`)"""
+    """how obstacle vehicles and pedestrians move, and whether they react (`sim.rules.behaviour_registry`)"""
     rules: int = RULES
     """version of the rules that defaults come from (`sim.rules.versions`)"""
     solvable: bool = False

@@ -20,6 +20,7 @@ from sim.plan.manual_override import override
 from sim.plan.safe_planning import hold_position, is_foreign, plan_safely
 from sim.planner_names import LOCAL
 from sim.repetition import NOTHING_KEPT, Watch, update_watch
+from sim.rules.dynamics import DEFAULT_DYNAMICS
 from sim.transition import transition
 from sim.types import Mode, Move, Outcome
 from sim.world import World
@@ -161,7 +162,9 @@ def apply_move(state: SimState, move: Move, *, by_person: bool, fault: str | Non
 
 def _recurs(config: Config) -> bool:
     """Whether a situation that repeats ends the episode."""
-    return config.repetition and config.planner in LOCAL and config.certain
+    # A situation holds two rows (`sim.repetition`): all that matters where a move gains a row at most.
+    local = config.planner in LOCAL and config.dynamics == DEFAULT_DYNAMICS
+    return config.repetition and local and config.certain
 
 
 def next_episode(state: SimState) -> tuple[SimState, Event]:

@@ -12,7 +12,8 @@ from enum import StrEnum
 from sim.fast_replace import fast_constructor
 from sim.forecast.rollout import RollOut
 from sim.perceive import Percept
-from sim.rules.dynamics import Dynamics, dynamics_on
+from sim.rules.dynamics import Dynamics
+from sim.rules.dynamics_registry import dynamics_on
 from sim.rules.ego_step import Steps
 from sim.types import Move
 from sim.world.grid import Board, Road

@@ -13,7 +13,7 @@ from typing import overload
 
 from sim.perceive import Percept
 from sim.rules.behaviour import NOBODY, Reactions
-from sim.rules.behaviours import BEHAVIOURS
+from sim.rules.behaviour_registry import BEHAVIOURS
 from sim.rules.traffic import Motion, shift_board
 from sim.rules.traffic_cache import cached_shift_table, cached_step
 from sim.world.grid import Board

@@ -2,31 +2,25 @@
 
 A motion is a class with a name (`Config.dynamics`) that says one thing, `step`: from a cell by a move to
 another cell, and what is swept. All else is derived from that, cell by cell: where sets of vehicles may be
-next, and where they may have come from. Search, forecast, commit and judge ask it. `GridDynamics` is today's
-motion; for it the derived sets are replaced by whole-board operations (`sim.rules.ego_step`), which the tests
+next, and where they may have come from. Search, forecast, commit and judge ask it. For today's motion
+(`sim.rules.grid_dynamics`) the derived sets are replaced by operations on whole boards, which the tests
 compare with the derived ones on every road.
 
-A further motion is a class here or in a module of its own, named in `DYNAMICS`. It never leads back.
+A further motion is a class in a module of its own, named in `sim.rules.dynamics_registry`. No move of it may
+lead back.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import lru_cache
 from typing import Any, ClassVar, Final, NamedTuple
 
-from sim.rules.ego_step import (
-    ClosedStarts,
-    Steps,
-    beside,
-    closed_starts,
-    cut_off,
-    free_steps,
-    spread,
-    spread_back,
-)
+from sim.rules.ego_step import Steps
 from sim.types import MOVES, Move
 from sim.world.grid import Board, Road, bits, board_of
+
+DEFAULT_DYNAMICS: Final = "grid"
 
 NOTHING: Final[tuple[int, ...]] = ()
 
@@ -191,158 +185,3 @@ class Dynamics:
                 if step.end == cell
             )
         return found
-
-
-class GridMasks(NamedTuple):
-    """What steps meet in one tick on the grid: the cells taken, and the cells a move cannot start from."""
-
-    blocked: Board
-    closed: ClosedStarts
-
-
-class GridDynamics(Dynamics):
-    """A cell a tick: forward, aside, diagonally forward, or none. Sets of cells by whole boards."""
-
-    name = "grid"
-    rows_a_tick = 1
-
-    def step(self, cell: int, move: Move) -> tuple[int, Swept] | None:
-        """See `Dynamics`. Aside, a mover that comes the other way is met; diagonally, one from that side.
-
-        A diagonal meets a mover that comes from its side into the cell left or the one straight ahead
-        (`sim.rules.bodies` derives that); where only cells collide, it does not.
-        """
-        end = self.road.moved(cell, move)
-        if end is None:
-            return None
-        across, along = move.offset
-        met = NOTHING
-        if across and not along:
-            met = (cell,)
-        elif across and self.bodies:
-            met = (cell - self.road.columns, cell)
-        return end, Swept((end,), met if across < 0 else NOTHING, met if across > 0 else NOTHING)
-
-    def target(self, cell: int, move: Move) -> int | None:
-        """See `Dynamics`."""
-        return self.road.moved(cell, move)
-
-    def steps(self, start: Board, blocked: Board, came_right: Board, came_left: Board) -> Steps:
-        """See `Dynamics`."""
-        road = self.road
-        columns = road.columns
-        cut_left = cut_right = 0
-        if self.bodies:
-            cut_left, cut_right = cut_off(came_right, came_left, came_right >> columns, came_left >> columns)
-        return free_steps(
-            start,
-            start >> columns,
-            blocked,
-            came_right,
-            came_left,
-            cut_left,
-            cut_right,
-            road.left_edge,
-            road.right_edge,
-        )
-
-    def spread(self, start: Board, blocked: Board, came_right: Board, came_left: Board) -> Board:
-        """See `Dynamics`."""
-        road = self.road
-        columns = road.columns
-        cut_left = cut_right = 0
-        if self.bodies:
-            cut_left, cut_right = cut_off(came_right, came_left, came_right >> columns, came_left >> columns)
-        return spread(
-            start,
-            start >> columns,
-            blocked,
-            came_right,
-            came_left,
-            cut_left,
-            cut_right,
-            road.left_edge,
-            road.right_edge,
-        )
-
-    def spread_back(self, end: Board, blocked: Board, came_right: Board, came_left: Board) -> Board:  # noqa: ARG002
-        """See `Dynamics`."""
-        road = self.road
-        columns = road.columns
-        cut_left = cut_right = 0
-        if self.bodies:
-            cut_left, cut_right = cut_off(came_right, came_left, came_right >> columns, came_left >> columns)
-        aside, on = spread_back(
-            end, came_right, came_left, cut_left, cut_right, road.left_edge, road.right_edge
-        )
-        return aside | on << columns & road.all
-
-    def obstacles(self, blocked: Board, came_right: Board, came_left: Board) -> GridMasks:
-        """See `Dynamics`."""
-        road = self.road
-        columns = road.columns
-        cut_left = cut_right = 0
-        if self.bodies:
-            cut_left, cut_right = cut_off(came_right << columns, came_left << columns, came_right, came_left)
-        edges = road.left_edge, road.right_edge
-        return GridMasks(blocked, closed_starts(came_right, came_left, cut_left, cut_right, *edges))
-
-    def free_ends(self, obstacles: GridMasks, cell: int, origin: int = 0) -> list[tuple[int, int]]:
-        """See `Dynamics`."""
-        taken, (no_left, no_right, no_forward_left, no_forward_right) = obstacles
-        blocked = taken >> origin
-        here = cell - origin
-        on = here - self._columns
-        ends = []
-        if not blocked >> on & 1:
-            ends.append((0, on))
-        if not (no_left >> cell | blocked >> here - 1) & 1:
-            ends.append((1, here - 1))
-        if not (no_right >> cell | blocked >> here + 1) & 1:
-            ends.append((2, here + 1))
-        if not (no_forward_left >> cell & 1) and not blocked >> on - 1 & 1:
-            ends.append((3, on - 1))
-        if not (no_forward_right >> cell | blocked >> on + 1) & 1:
-            ends.append((4, on + 1))
-        if not blocked >> here & 1:
-            ends.append((5, here))
-        return ends
-
-    def unhindered(self, start: Board) -> Board:
-        """See `Dynamics`: nobody is met on the way straight on."""
-        return start >> self.road.columns
-
-    def ends_anywhere(self, start: Board) -> Board:
-        """See `Dynamics`."""
-        road = self.road
-        return beside(start | start >> road.columns, road.left_edge, road.right_edge)
-
-    def may_come_from(self, end: Board, entered: Board) -> Board:
-        """See `Dynamics`."""
-        road = self.road
-        behind = beside(entered, road.left_edge, road.right_edge) << road.columns
-        return (beside(end, road.left_edge, road.right_edge) | behind) & road.all
-
-
-DYNAMICS: Final[Mapping[str, type[Dynamics]]] = {each.name: each for each in (GridDynamics,)}
-"""Every motion by its name in `Config.dynamics`."""
-DEFAULT_DYNAMICS: Final = GridDynamics.name
-
-_latest: tuple[Road, str, bool, Dynamics] | None = None
-
-
-def dynamics_on(road: Road, name: str = DEFAULT_DYNAMICS, bodies: bool = True) -> Dynamics:
-    """The motion of that name on a road; mostly one object for the same question."""
-    global _latest
-    # The latest answer: it is asked for three times a tick, and even a look into a table adds up.
-    latest = _latest
-    if latest is not None and latest[0] is road and latest[1] == name and latest[2] is bodies:
-        return latest[3]
-    motion = _made(road.columns, road.rows, name, bodies)
-    _latest = road, name, bodies, motion
-    return motion
-
-
-@lru_cache(maxsize=128)
-def _made(columns: int, rows: int, name: str, bodies: bool) -> Dynamics:
-    return DYNAMICS[name](Road.of(columns, rows), bodies=bodies)

@@ -12,7 +12,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from sim.forecast import Forecast
-from sim.rules.dynamics import GridDynamics, GridMasks
+from sim.rules.grid_dynamics import GridDynamics, GridMasks
 from sim.search.astar import cheapest, no_heuristic
 from sim.search.costs import Weights
 from sim.search.reachability import on_shortest, reachability

@@ -17,7 +17,8 @@ from typing import NamedTuple
 from sim.config import Config
 from sim.forecast import Forecast
 from sim.rules.behaviour import NOBODY, Reactions
-from sim.rules.dynamics import Dynamics, dynamics_on
+from sim.rules.dynamics import Dynamics
+from sim.rules.dynamics_registry import dynamics_on
 from sim.rules.traffic import Motion, shift_board
 from sim.search.dead_ends import cells_that_may_arrive
 from sim.types import MOVES, Move

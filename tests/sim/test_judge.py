@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from sim.judge import collisions, outcome
-from sim.rules.dynamics import dynamics_on
+from sim.rules.dynamics_registry import dynamics_on
 from sim.types import Kind, Outcome
 from sim.world import Cause, World
 from tests.sim.roads import road

@@ -9,7 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from sim.rules.bodies import Path, first_contact
-from sim.rules.dynamics import Dynamics, GridDynamics, Swept, dynamics_on
+from sim.rules.dynamics import Dynamics, Swept
+from sim.rules.dynamics_registry import dynamics_on
+from sim.rules.grid_dynamics import GridDynamics
 from sim.types import MOVERS, MOVES, Kind, Move
 from sim.world.grid import Board, Road, bits
 
