@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 
 from sim.config import Config
 from sim.env import saved_state as saving
-from sim.env.actions import MOVES, STAY, action_mask, checked_action
+from sim.env.actions import STAY, action_mask, checked_action
 from sim.env.observation import Observer, observed
 from sim.env.options import one_of, refuse_unknown, reset_options, road_config, switch
 from sim.env.reward import Rewards
 from sim.env.seeds import DRAWN_BELOW, checked_seed, folded
 from sim.state import SimState, apply_move, next_episode
-from sim.types import Outcome
+from sim.types import MOVES, Outcome
 from sim.world import notation
 
 RENDER_MODES: Final = ("ansi", "rgb_array")

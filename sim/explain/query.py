@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from sim.explain.facts import Explanation, QuestionError
+from sim.explain.moments import state_at
 from sim.explain.why_causes import explain_why
 from sim.explain.why_not import explain_why_not
 from sim.plan import Decision
@@ -49,10 +50,7 @@ def _decision_at(timeline: Timeline, tick: int | None) -> tuple[SimState, Decisi
         return state, found
     if tick == timeline.tick:
         raise QuestionError("not_yet", tick=tick)
-    try:
-        state = timeline.at(tick)
-    except IndexError:
-        raise QuestionError("no_such_tick", tick=tick, now=timeline.tick) from None
+    state = state_at(timeline, tick)
     decision = timeline.decided(state)
     if decision is None:
         raise QuestionError("result_stood", tick=tick, outcome=state.world.outcome)

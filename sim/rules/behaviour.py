@@ -8,7 +8,7 @@ forecasts, searches and explanations ask it and never a probability. `SidewaysTr
 
 Contract: rows do not interact, nobody leaves its row, and a mover reacts only to vehicles in its own row.
 `sim.search.reactive` and `sim.repetition` rest on it.
-A further behaviour is a class in a module of its own, named in `BEHAVIOURS` (`sim.rules.behaviour_registry`).
+A further behaviour is a class in a module of its own, named in `sim.rules.behaviour_registry`.
 """
 
 from __future__ import annotations

@@ -1,7 +1,8 @@
 """Which steps of an autonomous vehicle meet nothing, for whole sets of cells at once: the grid's fast path.
 
-What a single step sweeps is defined in `sim.rules.grid_dynamics`; the tests compare the two on every road. Written in `& | ^ >> <<` alone, so that the same lines serve Python's integers (one world, any
-size) and machine words cut at row boundaries (many worlds, compiled by `sim.batch.compiled`).
+What a single step sweeps is defined in `sim.rules.grid_dynamics`; the tests compare the two on every road.
+Written in `& | ^ >> <<` alone, so that the same lines serve Python's integers (one world, any size) and
+machine words cut at row boundaries (many worlds, compiled by `sim.batch.compiled`).
 
 Arguments are boards (`sim.world.grid`), all of one road or all of one word of it:
 
