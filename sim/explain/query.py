@@ -9,7 +9,7 @@ from sim.explain.why_not import explain_why_not
 from sim.plan import Decision
 from sim.session.timeline import SNAPSHOT_TICKS, Timeline
 from sim.state import SimState
-from sim.types import Move
+from sim.types import MOVES, Move
 
 LOOK_BACK_TICKS = 1_000
 """How far back a move that is asked about is looked for."""
@@ -44,7 +44,7 @@ def why_not(timeline: Timeline, move: Move, tick: int | None = None) -> Explanat
 
 def _decision_at(timeline: Timeline, tick: int | None) -> tuple[SimState, Decision]:
     if tick is None:
-        state, found = _latest(timeline, tuple(Move))
+        state, found = _latest(timeline, MOVES)
         if found is None:
             raise QuestionError("nothing_yet", tick=timeline.tick)
         return state, found
