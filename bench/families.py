@@ -24,14 +24,15 @@ from sim.config import Config
 from sim.oracle import least_cost, least_ticks
 from sim.search.costs import weights
 from sim.search.time_expanded import around
-from sim.state import SimState, step
+from sim.state import SimState
 from sim.statistics import mean, wilson
+from sim.transition import step
 from sim.types import Move, Outcome
 from sim.world import World
 
 FAMILIES: Final[tuple[Layout | None, ...]] = (None, *get_args(Layout))
 WEIGHED: Final = "astar"
-PLANNERS: Final = ("priority", "rules", "exact", WEIGHED)
+PLANNERS: Final = ("priority", "rules", "bfs", WEIGHED)
 PREFERENCES: Final[tuple[Preference, ...]] = get_args(Preference)
 BALANCED: Final = "balanced"
 FARTHEST: Final = 8

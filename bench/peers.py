@@ -12,8 +12,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from sim.config import Config
-from sim.forecast import predict
-from sim.perceive import perceive
+from sim.forecast import Forecast
 from sim.search.costs import weights
 from sim.search.time_expanded import TimeExpandedGraph
 from sim.state import SimState
@@ -70,7 +69,7 @@ def networkx_plan() -> float:
     import networkx
 
     run = SimState.start(Config(seed=1))
-    terrain = TimeExpandedGraph(predict(perceive(run.world, run.config), 301), weights(run.config), 40)
+    terrain = TimeExpandedGraph(Forecast.of_truth(run.world, run.config, 301), weights(run.config), 40)
     graph, seen, way = networkx.DiGraph(), {terrain.start}, [terrain.start]
     while way:
         state = way.pop()

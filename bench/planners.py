@@ -17,11 +17,11 @@ from multiprocessing import Pool
 from typing import Any
 
 from sim.config import Config
-from sim.forecast import predict
-from sim.perceive import perceive
+from sim.forecast import Forecast
 from sim.search.reachability import reachability, steps_left
-from sim.state import SimState, step
+from sim.state import SimState
 from sim.statistics import wilson
+from sim.transition import step
 from sim.types import Move, Outcome
 
 PLANNERS = ("rules", "priority")
@@ -84,7 +84,7 @@ def driven(seeds: Iterable[int], parts: dict[str, Any]) -> dict[str, Tally]:
         config = Config(seed=seed, **parts)
         start = SimState.start(config)
         limit = steps_left(config, start.world.episode_tick)
-        forecast = predict(perceive(start.world, config), limit)
+        forecast = Forecast.of_truth(start.world, config, limit)
         least = reachability(forecast, 1 << start.world.av, limit).ticks
         if least is None:
             continue

@@ -16,11 +16,11 @@ from pathlib import Path
 
 from sim.batch import Batch
 from sim.config import Config
-from sim.forecast import predict
+from sim.forecast import Forecast
 from sim.generation import generate
-from sim.perceive import perceive
 from sim.search.reachability import shortest_plan, steps_left
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 
 SIZES = ((8, 30), (16, 120), (64, 512))
 MOVERS = (1, 10, 50, 100, 500)
@@ -73,7 +73,7 @@ def _cost(columns: int, rows: int, movers: int) -> Cost:
 
     def plan() -> object:
         limit = steps_left(run.config, 0)
-        return shortest_plan(predict(perceive(run.world, run.config), limit), limit)
+        return shortest_plan(Forecast.of_truth(run.world, run.config, limit), limit)
 
     lanes = 512 if rows < 200 else 64
     configs = [config.with_parts(seed=seed) for seed in range(lanes)]
@@ -89,7 +89,7 @@ def _cost(columns: int, rows: int, movers: int) -> Cost:
         exact_plan_us=_median_us(plan),
         digest_us=_median_us(run.world.digest),
         batch_ns=_median_us(lambda: batch.run(ticks)) * 1e3 / (lanes * ticks),
-        batch_exact_us=_median_us(lambda: Batch.least(batch, "exact")) / lanes,
+        batch_exact_us=_median_us(lambda: Batch.least(batch, "bfs")) / lanes,
     )
 
 

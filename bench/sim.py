@@ -26,10 +26,10 @@ from bench import peers
 from bench.c_loop import CLoop
 from sim.batch import Batch, BatchPlanner
 from sim.config import Config
-from sim.forecast import predict
-from sim.perceive import perceive
+from sim.forecast import Forecast
 from sim.search.reachability import shortest_plan, steps_left
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Outcome
 from tests.sim import twin
 
@@ -123,7 +123,7 @@ def loops() -> list[Line]:
 def plans() -> list[Line]:
     """Microseconds for a plan, from the start of a default road and along a run."""
     lines = []
-    limits_us: tuple[tuple[BatchPlanner, float], ...] = (("exact", 2.0), ("weighted", 20.0))
+    limits_us: tuple[tuple[BatchPlanner, float], ...] = (("bfs", 2.0), ("weighted", 20.0))
     for planner, limit_us in limits_us:
         batch = Batch([Config(seed=seed) for seed in range(WORLDS)], after="stop")
         batch.moves(planner)
@@ -149,7 +149,7 @@ def plans() -> list[Line]:
         while run.world.outcome is Outcome.RUNNING:
             began = time.perf_counter()
             limit = steps_left(run.config, run.world.episode_tick)
-            shortest_plan(predict(perceive(run.world, run.config), limit), limit)
+            shortest_plan(Forecast.of_truth(run.world, run.config, limit), limit)
             (starts if run.world.episode_tick == 0 else along).append(time.perf_counter() - began)
             run = step(run).state
     start_us, along_us = statistics.median(starts) * 1e6, statistics.mean([*starts, *along]) * 1e6
@@ -167,7 +167,7 @@ def plans() -> list[Line]:
 def live() -> list[Line]:
     """A tick of one live world with its full trace."""
     lines = []
-    limits_us = {"priority": 150.0, "astar": 3000.0, "dijkstra": None, "exact": None}
+    limits_us = {"priority": 150.0, "astar": 3000.0, "dijkstra": None, "bfs": None}
     for planner, limit_us in limits_us.items():
         times = []
         for seed in range(60):
@@ -201,7 +201,7 @@ def loading() -> list[Line]:
         "import time; t = time.perf_counter()\n"
         "from sim.batch import Batch; from sim.config import Config\n"
         "b = Batch([Config(seed=s) for s in range(64)], after='restart'); b.run(1)\n"
-        "b.moves('exact'); b.moves('weighted')\n"
+        "b.moves('bfs'); b.moves('weighted')\n"
         "print(time.perf_counter() - t)"
     )
     with tempfile.TemporaryDirectory() as folder:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from bench.timing import timed
 from sim.config import Config
+from sim.decide import decide
 from sim.explain import QuestionError, why, why_not
 from sim.generation import generate
 from sim.session.timeline import Timeline
-from sim.state import decide
 from sim.types import Move
 
 

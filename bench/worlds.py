@@ -26,15 +26,15 @@ def main(each: int = 20_000, group: int = 4_000) -> None:
     print("| --- | --- | --- | --- | --- | --- | --- |")
     rows = []
     for potholes in DENSITIES:
-        counted = dict.fromkeys(("solvable", "missed", "exact", "weighted", "best", "lost"), 0)
+        counted = dict.fromkeys(("solvable", "missed", "bfs", "weighted", "best", "lost"), 0)
         rule = np.zeros(8, np.int64)
         for first in range(0, each, group):
             configs = [Config(seed=seed, potholes=potholes) for seed in range(first, first + group)]
-            least = Batch(configs).least("exact")
+            least = Batch(configs).least("bfs")
             driven = least > 0
             counted["solvable"] += int(driven.sum())
             counted["best"] += int(least[driven].sum())
-            for planner in ("exact", "weighted"):
+            for planner in ("bfs", "weighted"):
                 ticks, missed, crashed = _drive(configs, planner, driven)
                 counted[planner] += ticks
                 counted["missed"] += missed
@@ -55,14 +55,14 @@ def main(each: int = 20_000, group: int = 4_000) -> None:
             f"| {stuck:.1f} % | {moves} | {rule[7] / max(1, rule[4]):.1f} |"
         )
     print(
-        "\n| potholes | drivable roads | not arrived | crashes | least ticks | `exact` | `weighted` (astar) |"
+        "\n| potholes | drivable roads | not arrived | crashes | least ticks | `bfs` | `weighted` (astar) |"
     )
     print("| --- | --- | --- | --- | --- | --- | --- |")
     for potholes, counted in rows:
         best, roads = counted["best"], counted["solvable"]
         print(
             f"| {_named(potholes)} | {roads} | {counted['missed']} | "
-            f"{counted['lost']} | {best / roads:.3f} | {counted['exact'] / best:.4f} × | "
+            f"{counted['lost']} | {best / roads:.3f} | {counted['bfs'] / best:.4f} × | "
             f"{counted['weighted'] / best:.4f} × |"
         )
     worlds = each * len(DENSITIES)

@@ -22,7 +22,6 @@ from sim.actions import (
     Drive,
     Layout,
     PlaceableKind,
-    PlannerName,
     Prefer,
     Remove,
     Reset,
@@ -37,6 +36,7 @@ from sim.actions import (
     Weather,
     Where,
 )
+from sim.planner_names import PlannerName
 from sim.types import Move
 
 __all__ = ["ACTIONS", "Action", "Where", "dump", "load"]

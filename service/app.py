@@ -53,6 +53,7 @@ from service.api.views import PREFIX
 from service.llm import LanguageModel, configured
 from service.logs import RequestIds
 from service.narrate import Narrator
+from service.resources import DEFAULT_LANGUAGE
 from service.security.guard import Guard
 from service.sessions.clock import Clock, WheelClock
 from service.sessions.manager import SessionManager
@@ -61,7 +62,7 @@ from service.sessions.words import Words
 from service.settings import Settings
 from service.stopping import STOP_S, within
 from service.store import Store, open_store
-from service.talk.languages import DEFAULT, Language, Languages
+from service.talk.languages import Language, Languages
 from service.talk.listener import Listener
 from service.talk.phrasebook import Phrasebook
 from service.version import VERSION
@@ -101,7 +102,7 @@ def create_app(
     words = words or Narrator.load()
     model = model or configured(settings)
     manager = SessionManager(Surroundings(store, clock, words, settings))
-    languages = Languages.load() if language is None else Languages({DEFAULT: language})
+    languages = Languages.load() if language is None else Languages({DEFAULT_LANGUAGE: language})
     phrasebook = Phrasebook(store, languages)
     listener = Listener(
         languages,

@@ -12,6 +12,7 @@ from typing import Annotated, Literal
 
 from annotated_types import Ge, Gt, Le
 
+from sim.planner_names import PlannerName
 from sim.types import Mode, Move
 
 PlaceableKind = Literal["pothole", "vehicle", "barrier", "pedestrian", "av"]
@@ -21,7 +22,6 @@ RoadType = Literal["highway", "city", "rural"]
 Layout = Literal["walls", "narrows", "dead_ends", "crossing", "maze"]
 """A family of roads (`sim.world.layouts`)."""
 Traffic = Literal["none", "light", "normal", "heavy"]
-PlannerName = Literal["rules", "priority", "astar", "dijkstra", "exact", "dwa", "rl", "cooperative"]
 Preference = Literal["avoid_potholes", "smooth_ride", "fastest", "cautious"]
 """What a vehicle can be asked to mind; `balanced` is none of them."""
 Wish = Literal[Preference, "balanced"]

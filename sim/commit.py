@@ -4,45 +4,75 @@ from __future__ import annotations
 
 from sim.config import Config
 from sim.fast_replace import field_setter
-from sim.rules.traffic import shift_board
+from sim.rules.dynamics import Dynamics
+from sim.rules.kinds import shift_boards
 from sim.rules.traffic_cache import cached_reactions, cached_shift_table, cached_step
 from sim.types import Move
 from sim.world import World
+from sim.world.grid import Board
 
-_moved = field_setter(World, "tick", "avs", "right", "left", "pedestrians", "movers")
+_moved = field_setter(World, "tick", "avs", "right", "left", "boards", "movers")
 
 
-def commit(world: World, move: Move, config: Config) -> World:
+def commit(world: World, moves: tuple[Move, ...], config: Config) -> World:
     """Everything moved at once, nothing judged: the world one tick later.
 
-    Raises `ValueError` where the move leads off the road.
+    `moves` are in the order of `World.avs`. Where there are several egos, one in row 0 has arrived and stays.
+    Raises `ValueError` where a move leads off the road, and where there are not as many as egos.
     """
-    behaviour, road = config.mover_behaviour, world.road
+    behaviour, road, boards = config.mover_behaviour, world.road, world.boards
     reactions = cached_reactions(world, config)
     motion = cached_step(
         behaviour,
         world.right,
         world.left,
-        world.pedestrians,
+        boards.marked,
         world.disabled,
-        world.fixed,
+        boards.fixed,
         road.left_edge,
         road.right_edge,
         world.episode_tick,
         world.driven,
         reactions,
     )
-    if move is Move.STAY and motion.occupied >> world.av & 1:
-        motion = behaviour.brake(motion, 1 << world.av, reactions)
-    target = config.ego_dynamics(road).target(world.av, move)
-    if target is None:
-        raise ValueError(f"{move} leads off the road")
+    avs, dynamics = world.avs, config.ego_dynamics(road)
+    if len(avs) == 1:
+        (cell,), (move,) = avs, moves
+        target = dynamics.target(cell, move)
+        if target is None:
+            raise ValueError(f"{move} leads off the road")
+        targets: tuple[int, ...] = (target,)
+        standing = 1 << cell if move is Move.STAY else 0
+    else:
+        targets, standing = _several(world, moves, dynamics)
+    if standing and motion.occupied & standing:
+        motion = behaviour.brake(motion, standing, reactions)
     return _moved(
         world,
         world.tick + 1,
-        (target, *world.avs[1:]),
+        targets,
         motion.right,
         motion.left,
-        shift_board(world.pedestrians, motion) if world.pedestrians else 0,
+        shift_boards(boards, motion),
         cached_shift_table(world.movers, motion),
     )
+
+
+def moves_with(world: World, move: Move, number: int = 0) -> tuple[Move, ...]:
+    """The moves in the order of `World.avs` where one ego makes this move and all others stay."""
+    if len(world.avs) == 1:
+        return (move,)
+    return tuple(move if each == number else Move.STAY for each in range(len(world.avs)))
+
+
+def _several(world: World, moves: tuple[Move, ...], dynamics: Dynamics) -> tuple[tuple[int, ...], Board]:
+    """Where several egos go, and the cells of those that stay."""
+    targets, standing = [], 0
+    for cell, move in zip(world.avs, moves, strict=True):
+        target = cell if cell < world.road.columns else dynamics.target(cell, move)
+        if target is None:
+            raise ValueError(f"{move} leads off the road")
+        targets.append(target)
+        if target == cell:
+            standing |= 1 << cell
+    return tuple(targets), standing

@@ -5,12 +5,15 @@ A `Config` that exists is valid: the constructor raises `ConfigError` with *ever
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from difflib import get_close_matches
+from types import MappingProxyType
 from typing import Any, Final, Literal, get_args
 
-from sim import planner_names
-from sim.actions import Layout, Preference, RoadType, SensorName, Traffic
+from sim import planner_names, sensor_names
+from sim.actions import MAX_THINGS, Layout, Preference, RoadType, Traffic
+from sim.codes import PROBLEMS, check_facts, plain_text
 from sim.randomness import MAX_SEED
 from sim.rules.behaviour import DEFAULT_BEHAVIOUR, Behaviour
 from sim.rules.behaviour_registry import BEHAVIOURS
@@ -18,25 +21,39 @@ from sim.rules.dynamics import DEFAULT_DYNAMICS, Dynamics
 from sim.rules.dynamics_registry import DYNAMICS, dynamics_on
 from sim.rules.limits import max_ticks
 from sim.rules.versions import RULES
+from sim.types import HAZARDS, KINDS, MOVERS, PLACEABLE, Kind
 from sim.world.grid import Road
 from sim.world.layouts import has_barriers, least_room
 
 
-@dataclass(frozen=True, slots=True)
 class Problem:
-    """One thing wrong with one field, in words for a person."""
+    """One thing wrong with one field: a code of `sim.codes.PROBLEMS` and its facts."""
 
-    field: str
-    message: str
-    available: bool = True
-    """False where the value is one that this version knows by name only"""
+    __slots__ = ("code", "facts", "field")
+
+    def __init__(self, field: str, code: str, **facts: Any) -> None:
+        check_facts(code, facts, PROBLEMS.get(code))
+        self.field = field
+        self.code = code
+        self.facts: Mapping[str, Any] = MappingProxyType(facts)
+
+    @property
+    def available(self) -> bool:
+        """False where the value is one that this version knows by name only."""
+        return "not_available" not in self.code
+
+    def __str__(self) -> str:
+        return plain_text(self.code, self.facts)
+
+    def __repr__(self) -> str:
+        return f"Problem({self.field}: {self})"
 
 
 class ConfigError(ValueError):
     """A configuration that cannot be; `problems` names each bad field."""
 
     def __init__(self, problems: tuple[Problem, ...]) -> None:
-        super().__init__("; ".join(f"{problem.field}: {problem.message}" for problem in problems))
+        super().__init__("; ".join(f"{problem.field}: {problem}" for problem in problems))
         self.problems = problems
 
 
@@ -48,10 +65,7 @@ RANGES: Final[dict[str, tuple[float, float]]] = {
     "step_seconds": (0.02, 10.0),
     "spawn_probability": (0.0, 1.0),
     "pothole_probability": (0.0, 1.0),
-    "potholes": (0, 10_000),
-    "vehicles": (0, 10_000),
-    "barriers": (0, 10_000),
-    "pedestrians": (0, 10_000),
+    **{KINDS[kind].plural: (0, MAX_THINGS) for kind in PLACEABLE},
     "courtesy": (0.0, 1.0),
     "attentive": (0.0, 1.0),
     "reset_delay_s": (0.0, 60.0),
@@ -69,7 +83,6 @@ CHOICES: Final[dict[str, tuple[str, ...]]] = {
     "road": get_args(RoadType),
     "layout": get_args(Layout),
     "traffic": get_args(Traffic),
-    "sensor": ("perfect",),
     "dynamics": tuple(DYNAMICS),
     "behaviour": tuple(BEHAVIOURS),
 }
@@ -77,7 +90,7 @@ CHOICES: Final[dict[str, tuple[str, ...]]] = {
 
 PROMISED: Final[dict[str, tuple[str, ...]]] = {
     "planner": planner_names.PROMISED,
-    "sensor": tuple(name for name in get_args(SensorName) if name != "perfect"),
+    "sensor": sensor_names.PROMISED,
     "dynamics": ("continuous",),
 }
 """Values that people may ask for and this version has not."""
@@ -90,10 +103,7 @@ _WHOLE: Final = frozenset(
         "columns",
         "visible_rows",
         "rows",
-        "potholes",
-        "vehicles",
-        "barriers",
-        "pedestrians",
+        *(KINDS[kind].plural for kind in PLACEABLE),
         "safety_buffer",
         "rules",
         "seed",
@@ -155,15 +165,17 @@ class Config(Derived):
     """the family of roads (`sim.world.layouts`), drawn until one can be driven; None: things are scattered"""
     traffic: Traffic | None = None
     planner: str = "rules"
+    """an older name is taken for the present one (`sim.planner_names.ALIASES`)"""
     preferences: tuple[Preference, ...] = ()
     """how planners that weigh costs should weigh them; the balance is in `sim.search.costs`"""
     safety_buffer: int = 1
     """cells around a mover that cost something to be in, for planners that weigh costs"""
-    sensor: SensorName = "perfect"
+    sensor: str = "perfect"
+    """what the vehicle sees with (`sim.perceive`)"""
     dynamics: str = DEFAULT_DYNAMICS
     """how autonomous vehicles move (`sim.rules.dynamics`)"""
     behaviour: str = DEFAULT_BEHAVIOUR
-    """how obstacle vehicles and pedestrians move, and whether they react (`sim.rules.behaviour_registry`)"""
+    """how the other road users move, and whether they react (`sim.rules.behaviour_registry`)"""
     rules: int = RULES
     """version of the rules that defaults come from (`sim.rules.versions`)"""
     solvable: bool = False
@@ -171,6 +183,7 @@ class Config(Derived):
     seed: int = 0
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "planner", planner_names.canonical(self.planner))
         problems = tuple(self._problems())
         if problems:
             raise ConfigError(problems)
@@ -201,7 +214,7 @@ class Config(Derived):
                 parts[name] = tuple(parts[name])
         unknown = sorted(set(parts) - {field.name for field in fields(self)})
         if unknown:
-            raise ConfigError(tuple(Problem(name, _unknown(name)) for name in unknown))
+            raise ConfigError(tuple(_unknown(name) for name in unknown))
         return replace(self, **parts)
 
     def ego_dynamics(self, road: Road) -> Dynamics:
@@ -229,16 +242,18 @@ class Config(Derived):
 
     def _number_problems(self) -> list[Problem]:
         problems = []
-        for name, (low, high) in RANGES.items():
+        for name in _NUMBERS:
+            low, high = RANGES[name]
             value = getattr(self, name)
             if value is None and name in _OPTIONAL:
                 continue
             allowed = int if name in _WHOLE else (int, float)
             if isinstance(value, bool) or not isinstance(value, allowed):
-                problems.append(Problem(name, f"must be a {'whole ' if name in _WHOLE else ''}number"))
+                problems.append(
+                    Problem(name, "must_be_a_whole_number" if name in _WHOLE else "must_be_a_number")
+                )
             elif not low <= value <= high:
-                most = high if isinstance(high, int) else f"{high:g}"
-                problems.append(Problem(name, f"must be between {low:g} and {most}"))
+                problems.append(Problem(name, "must_be_between", low=low, high=high))
         return problems
 
     def _word_problems(self) -> list[Problem]:
@@ -247,6 +262,8 @@ class Config(Derived):
             for name, choices in CHOICES.items()
             if getattr(self, name) not in choices and not (name in _OPTIONAL and getattr(self, name) is None)
         ]
+        if self.sensor not in sensor_names.names():
+            problems.append(_not_one_of("sensor", self.sensor, sensor_names.names()))
         planner = self.planner
         if not isinstance(planner, str) or planner in PROMISED["planner"] or not planner_names.known(planner):
             problems.append(_not_one_of("planner", planner, planner_names.names()))
@@ -254,9 +271,9 @@ class Config(Derived):
             words = getattr(self, name)
             fit = isinstance(words, tuple) and all(word in choices for word in words)
             if not fit or len(set(words)) < len(words):
-                problems.append(Problem(name, f"must be a list of any of {', '.join(choices)}, each once"))
+                problems.append(Problem(name, "must_be_a_list_of", choices=choices))
         problems += [
-            Problem(name, "must be true or false")
+            Problem(name, "must_be_true_or_false")
             for name in _SWITCHES
             if not isinstance(getattr(self, name), bool)
         ]
@@ -264,35 +281,46 @@ class Config(Derived):
 
     def _room_problems(self) -> list[Problem]:
         if has_barriers(self.layout) and self.barriers:
-            return [Problem("barriers", barriers_refused(self.layout))]
+            return [Problem("barriers", "must_not_be_counted", layout=self.layout)]
         room = least_room(self.layout, self.columns, self.rows)
         counts = {
-            name: getattr(self, name) or 0 for name in ("vehicles", "pedestrians", "barriers", "potholes")
+            COUNTS[kind]: getattr(self, COUNTS[kind]) or 0
+            for kind in (*MOVERS, *reversed(HAZARDS))
+            if kind in COUNTS
         }
         # Drawn things take at most one cell of a row each; with a layout they take what is left.
-        drawn = (self.rows - 2) * ((self.vehicles is None) + (self.potholes is None))
+        drawn = (self.rows - 2) * sum(getattr(self, name) is None for name in COUNTS.values())
         if self.layout is not None:
             drawn = 0
         if sum(counts.values()) + drawn <= room:
             return []
         largest = max(counts, key=lambda name: counts[name])
         left = max(0, room - drawn - sum(counts.values()) + counts[largest])
-        return [Problem(largest, f"too many for this road: there is room for {left}")]
+        return [Problem(largest, "too_many", room=left)]
 
 
-def barriers_refused(layout: Layout | None) -> str:
-    """Why a number of barriers cannot be asked for on a road of this layout."""
-    return f"follow from the layout {layout} and cannot be counted; leave them out, or the layout"
+_NUMBERS: Final = tuple(field.name for field in fields(Config) if field.name in RANGES)
+
+COUNTS: Final[Mapping[Kind, str]] = {
+    kind: KINDS[kind].plural for kind in PLACEABLE if KINDS[kind].plural in _NUMBERS
+}
+"""The field of the exact number of each kind; a kind without one is only put on a road by hand."""
 
 
-def _unknown(name: str) -> str:
-    """That a setting is none, and which may have been meant."""
+def _unknown(name: str) -> Problem:
+    """That a setting does not exist, and which may have been meant."""
     near = get_close_matches(str(name).lower(), [field.name for field in fields(Config)], n=1)
-    return "is not a setting of a road" + (f"; did you mean {near[0]}" if near else "")
+    if near:
+        return Problem(name, "not_a_setting_but_near", near=near[0])
+    return Problem(name, "not_a_setting")
 
 
 def _not_one_of(name: str, value: object, choices: tuple[str, ...]) -> Problem:
-    there = f"must be one of {', '.join(choices)}" if len(choices) > 1 else f"must be {choices[0]}"
-    if value in PROMISED.get(name, ()):
-        return Problem(name, f"{there}; {value} is not available yet", available=False)
-    return Problem(name, there)
+    promised = value in PROMISED.get(name, ())
+    if len(choices) > 1:
+        if promised:
+            return Problem(name, "not_available_one_of", choices=choices, value=value)
+        return Problem(name, "must_be_one_of", choices=choices)
+    if promised:
+        return Problem(name, "not_available_must_be", choice=choices[0], value=value)
+    return Problem(name, "must_be", choice=choices[0])

@@ -19,12 +19,8 @@ _SIGNS: Final = {move: str(place) for place, move in enumerate(MOVES)}
 
 
 class DetourReason(StrEnum):
-    """For whose sake the vehicle did not go straight on."""
+    """Why the ego did not go straight on, where no thing stood there."""
 
-    POTHOLE = "pothole"
-    BARRIER = "barrier"
-    VEHICLE = "vehicle"
-    PEDESTRIAN = "pedestrian"
     YOU = "you"
     """a person asked for it, or drives and asked for nothing"""
     PLANNER = "planner"
@@ -33,13 +29,9 @@ class DetourReason(StrEnum):
     """straight on was free, and the planner held something else to be better"""
 
 
-_OF_KIND: Final = {
-    Kind.POTHOLE: DetourReason.POTHOLE,
-    Kind.BARRIER: DetourReason.BARRIER,
-    Kind.VEHICLE: DetourReason.VEHICLE,
-    Kind.PEDESTRIAN: DetourReason.PEDESTRIAN,
-    Kind.AV: DetourReason.BETTER,
-}
+Sake = Kind | DetourReason
+"""For whose sake a detour is made: that of a kind of thing, or another reason."""
+_REASONS: Final = frozenset(DetourReason)
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +48,7 @@ class EpisodeRecord:
     """whether nothing was left to who gives way"""
     moves: str = ""
     """every move, as its place in `Move`"""
-    sakes: tuple[tuple[DetourReason, int], ...] = ()
+    sakes: tuple[tuple[Sake, int], ...] = ()
     """how many detours were made for whose sake, in the order they first came"""
     last: World | None = None
     """the world before the move that ended the episode"""
@@ -71,17 +63,18 @@ class EpisodeRecord:
         before: World,
         after: World,
         move: Move,
-        *,
         edits: int,
         certain: bool,
         by_person: bool,
         faulty: bool,
         ended: bool,
+        number: int = 0,
     ) -> EpisodeRecord:
-        """With one more move made."""
+        """With one more move made by ego `number`. To stay after it has arrived is no detour."""
         sakes = self.sakes
-        if move is not Move.FORWARD:
-            sakes = _counted(sakes, sake(before, after, by_person=by_person, faulty=faulty)[0])
+        if move is not Move.FORWARD and (len(before.avs) == 1 or before.avs[number] >= before.road.columns):
+            reason, _ = sake(before, after, by_person=by_person, faulty=faulty, number=number)
+            sakes = _counted(sakes, reason)
         return _gone_on(
             before if self.start is None else self.start,
             edits,
@@ -100,20 +93,23 @@ class EpisodeRecord:
 _gone_on = fast_constructor(EpisodeRecord, "start", "edits", "changed", "certain", "moves", "sakes", "last")
 
 
+def sake_of(word: str) -> Sake:
+    """The sake that was written as this word. Raises `ValueError`."""
+    return DetourReason(word) if word in _REASONS else Kind(word)
+
+
 def sake(
-    before: World, after: World, *, by_person: bool, faulty: bool
-) -> tuple[DetourReason, tuple[str, ...]]:
-    """For whose sake a move that was made was not straight on, and who would have been met there."""
+    before: World, after: World, *, by_person: bool, faulty: bool, number: int = 0
+) -> tuple[Sake, tuple[str, ...]]:
+    """For whose sake a move of ego `number` was not straight on, and who would have been met there."""
     if by_person or faulty:
         return (DetourReason.YOU if by_person else DetourReason.PLANNER), ()
-    ahead = before.av - before.road.columns
+    ahead = before.avs[number] - before.road.columns
     met = tuple(table[ahead] for table in (before.hazards, after.movers) if ahead in table)
-    return (_OF_KIND[kind_of(met[0])], met) if met else (DetourReason.BETTER, ())
+    return (kind_of(met[0]), met) if met else (DetourReason.BETTER, ())
 
 
-def _counted(
-    sakes: tuple[tuple[DetourReason, int], ...], one: DetourReason
-) -> tuple[tuple[DetourReason, int], ...]:
+def _counted(sakes: tuple[tuple[Sake, int], ...], one: Sake) -> tuple[tuple[Sake, int], ...]:
     for place, (other, count) in enumerate(sakes):
         if other is one:
             return (*sakes[:place], (one, count + 1), *sakes[place + 1 :])

@@ -43,3 +43,5 @@ class Event:
     """for a crash `hit`, `swap` or `cross`, for a move held back what it would have met (`Verdict`),
     for a planner that failed what it did, for STUCK `limit` or `repetition`, for NO_WAY `late` where too few
     ticks are left"""
+    ego: str = "av-1"
+    """the ego that it happened to; the first where it concerns all of them"""

@@ -13,18 +13,21 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from sim.config import Config, ConfigError, Problem
-from sim.forecast import predict
-from sim.perceive import perceive
+from sim.config import COUNTS, Config, ConfigError, Problem
+from sim.forecast import Forecast
 from sim.randomness import Stream, fraction, scaled, word_at
 from sim.search.reachability import reachability, steps_left
-from sim.types import Kind
+from sim.types import HAZARDS, KINDS, MOVERS, Kind
 from sim.world import World
-from sim.world.grid import Board, Road, bits, board_of, cells_of
+from sim.world.boards import BOARDED, Boards
+from sim.world.grid import Board, Road, bits, board_of, cells_of, union
 from sim.world.layouts import crossing, lay_out
 
 MAX_ATTEMPTS = 200
 """Draws until it is given up that a road be drivable."""
+
+IN_ORDER = (*MOVERS, *reversed(HAZARDS))
+"""The order in which a road is furnished: each kind takes cells that those before it have left."""
 
 _PRESENCE, _COLUMN = 0, 1
 
@@ -33,8 +36,7 @@ class GenerationError(ConfigError):
     """No road that can be driven was found among `MAX_ATTEMPTS` draws."""
 
     def __init__(self) -> None:
-        message = f"no drivable road was found in {MAX_ATTEMPTS} draws; ask for fewer hazards"
-        super().__init__((Problem("solvable", message),))
+        super().__init__((Problem("solvable", "no_drivable_road", draws=MAX_ATTEMPTS),))
 
 
 def generate(
@@ -56,7 +58,7 @@ def generate(
 def drivable(world: World, config: Config) -> bool:
     """Whether row 0 can be reached in time, assuming that nobody gives way after the first tick."""
     limit = steps_left(config, world.episode_tick)
-    forecast = predict(perceive(world, config), limit)
+    forecast = Forecast.of_truth(world, config, limit)
     return reachability(forecast, 1 << world.av, limit).ticks is not None
 
 
@@ -69,8 +71,12 @@ def _drawn(
     )
     taken = layout.barriers
 
-    def furnish(kind: Kind, count: int | None, probability: float, first: Board) -> Board:
+    def furnish(kind: Kind) -> Board:
         nonlocal taken
+        count = getattr(config, COUNTS[kind]) if kind in COUNTS else 0
+        drawn_by = KINDS[kind].probability
+        probability = getattr(config, drawn_by) if drawn_by else 0.0
+        first = layout.movers if kind.moves else layout.potholes if kind is Kind.POTHOLE else road.between
         stream = Stream.of(config.seed, f"spawn {kind}", episode, *attempt)
         free = road.between & ~taken
         best = free & first
@@ -84,13 +90,12 @@ def _drawn(
         taken |= chosen
         return chosen
 
-    vehicles = furnish(Kind.VEHICLE, config.vehicles, config.spawn_probability, layout.movers)
-    pedestrians = furnish(Kind.PEDESTRIAN, config.pedestrians, 0.0, layout.movers)
-    barriers = layout.barriers | furnish(Kind.BARRIER, config.barriers, 0.0, road.between)
-    potholes = furnish(Kind.POTHOLE, config.potholes, config.pothole_probability, layout.potholes)
+    placed = {kind: furnish(kind) for kind in IN_ORDER}
+    placed[Kind.BARRIER] |= layout.barriers
+    moving = union(placed[kind] for kind in MOVERS)
 
     heading = Stream.of(config.seed, "heading", episode, *attempt)
-    right = board_of([cell for cell in bits(vehicles | pedestrians) if heading.below(2, cell)])
+    right = board_of([cell for cell in bits(moving) if heading.below(2, cell)])
     last = dict(numbered or {})
     return World(
         road=road,
@@ -98,17 +103,20 @@ def _drawn(
         episode=episode,
         episode_start=tick,
         avs=(road.start,),
-        potholes=potholes,
-        barriers=barriers,
         right=right,
-        left=(vehicles | pedestrians) & ~right,
-        pedestrians=pedestrians,
-        movers=assign_ids(Kind.VEHICLE, bits(vehicles), last)
-        | assign_ids(Kind.PEDESTRIAN, bits(pedestrians), last),
-        hazards=assign_ids(Kind.POTHOLE, bits(potholes), last)
-        | assign_ids(Kind.BARRIER, bits(barriers), last),
+        left=moving & ~right,
+        boards=Boards.of({kind: placed[kind] for kind in BOARDED}),
+        movers=_ids(MOVERS, placed, last),
+        hazards=_ids(HAZARDS, placed, last),
         numbered=last,
     )
+
+
+def _ids(kinds: Iterable[Kind], placed: Mapping[Kind, Board], last: dict[Kind, int]) -> dict[int, str]:
+    table: dict[int, str] = {}
+    for kind in kinds:
+        table |= assign_ids(kind, bits(placed[kind]), last)
+    return table
 
 
 def assign_ids(kind: Kind, cells: Iterable[int], last: dict[Kind, int]) -> dict[int, str]:

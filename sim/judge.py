@@ -6,18 +6,22 @@ rules as well as on the driving. All defects are listed, not the first.
 
 from __future__ import annotations
 
+from collections.abc import Collection, Iterator
+from dataclasses import replace
+
 from sim.rules.dynamics import Dynamics, Swept
-from sim.types import Kind, Outcome, kind_of
+from sim.types import Kind, Outcome, ego_id, kind_of
 from sim.world import Cause, World
 
 
 def collisions(before: World, after: World, motion: Dynamics) -> tuple[Cause, ...]:
-    """Every collision of an autonomous vehicle in the tick from `before` to `after`.
+    """Every collision of an ego in the tick from `before` to `after`.
 
     It is in a cell after the tick that something else is in, or has run into something on the way: what a
     step sweeps, the motion says (`sim.rules.dynamics`).
     """
-    found = []
+    found: list[Cause] = []
+    known = 0
     for number, (start, end) in enumerate(zip(before.avs, after.avs, strict=True)):
         if end in after.hazards:
             name = after.hazards[end]
@@ -34,12 +38,10 @@ def collisions(before: World, after: World, motion: Dynamics) -> tuple[Cause, ..
             ]
         if swept.from_left or swept.from_right:
             found += _passed(before, after, start, end, swept)
-        for other in range(number):
-            met = after.avs[other] == end
-            if met or (after.avs[other] == start != end == before.avs[other]):
-                how = "hit" if met else "swap"
-                pair = (f"av-{other + 1}", f"av-{number + 1}")
-                found.append(Cause(how, Kind.AV, pair, after.road.cell(end)))
+        if number:
+            found = [*found[:known], *(replace(each, ego=ego_id(number)) for each in found[known:])]
+            found += _between_egos(before, after, number, motion)
+        known = len(found)
     return tuple(found)
 
 
@@ -56,10 +58,26 @@ def _passed(before: World, after: World, start: int, end: int, swept: Swept) -> 
     return found
 
 
-def outcome(after: World, crashes: tuple[Cause, ...], max_ticks: int) -> Outcome:
-    """How the episode stands after a tick with these collisions."""
+def _between_egos(before: World, after: World, number: int, motion: Dynamics) -> Iterator[Cause]:
+    """Collisions of an ego with those before it, by id."""
+    road, own = after.road, (before.avs[number], after.avs[number])
+    for other in range(number):
+        theirs = (before.avs[other], after.avs[other])
+        if motion.egos_touch(own, theirs):
+            how = "hit" if own[1] == theirs[1] else "swap" if own == theirs[::-1] else "cross"
+            yield Cause(how, Kind.AV, (ego_id(other), ego_id(number)), road.cell(own[1]), ego_id(number))
+
+
+def outcome(
+    after: World, crashes: tuple[Cause, ...], max_ticks: int, parked: Collection[int] = ()
+) -> Outcome:
+    """How the episode stands after a tick with these collisions.
+
+    SUCCESS: at least one ego has arrived, and all have but those at the places of `parked` in `World.avs`.
+    """
     if crashes:
         return Outcome.CRASH
-    if max(after.avs) < after.road.columns:
+    columns, avs = after.road.columns, after.avs
+    if min(avs) < columns and all(cell < columns or number in parked for number, cell in enumerate(avs)):
         return Outcome.SUCCESS
     return Outcome.STUCK if after.episode_tick > max_ticks else Outcome.RUNNING

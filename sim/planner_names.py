@@ -9,21 +9,25 @@ from __future__ import annotations
 
 import re
 from functools import cache
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final, Literal, get_args
 
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
 
 GROUP: Final = "roadtalk.planners"
-BUILT_IN: Final = ("rules", "priority", "astar", "dijkstra", "exact")
+BuiltIn = Literal["rules", "priority", "astar", "dijkstra", "bfs"]
 """Names of the planners that come with the project (`sim.plan`)."""
-LOCAL: Final = ("rules", "priority")
-"""Those of them that decide from what never moves and from the movers of the vehicle's row and the next."""
-WEIGHING: Final = ("astar", "dijkstra")
-"""Those of them that charge for what is near, and so heed preferences (`sim.search.costs`)."""
-PROMISED: Final = ("dwa", "rl", "cooperative")
+Alias = Literal["exact"]
+"""Older names of theirs, which stay good wherever a planner is named (`canonical`)."""
+Promised = Literal["dwa", "rl", "cooperative"]
 """Names that people may say and this version has not."""
-RESERVED: Final = (*BUILT_IN, *PROMISED, "manual")
+PlannerName = Literal[BuiltIn, Alias, Promised]
+"""What may be said in an action; planners of other packages are set by their own names."""
+
+BUILT_IN: Final[tuple[str, ...]] = get_args(BuiltIn)
+ALIASES: Final[dict[str, BuiltIn]] = {"exact": "bfs"}
+PROMISED: Final[tuple[str, ...]] = get_args(Promised)
+RESERVED: Final = (*BUILT_IN, *ALIASES, *PROMISED, "manual")
 """Names that no other package may take; `manual` is a person."""
 
 _FIT: Final = re.compile(r"[a-z][a-z0-9_-]{0,39}")
@@ -34,7 +38,7 @@ _registered: list[str] = []
 
 def claim(name: str) -> None:
     """Take a name for a planner. Raises `ValueError` if it is taken."""
-    if name in _registered or name in PROMISED:
+    if name in _registered or name in PROMISED or name in ALIASES:
         raise ValueError(f"there is already a planner called {name!r}")
     _registered.append(name)
 
@@ -81,5 +85,14 @@ def names() -> tuple[str, ...]:
 
 
 def known(name: str) -> bool:
-    """Whether there is a planner of that name."""
-    return name in BUILT_IN or name in names()
+    """Whether there is a planner of that name, or that had it."""
+    return name in BUILT_IN or name in ALIASES or name in names()
+
+
+def canonical(name: Any) -> Any:
+    """The present name of a planner that had another one; anything else as it is.
+
+    `Config` asks this, and so everything that is driven, told or kept has the present name. What was said
+    stays in the log as it was said.
+    """
+    return ALIASES.get(name, name) if isinstance(name, str) else name

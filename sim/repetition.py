@@ -1,10 +1,10 @@
 """Notices that a vehicle is in a cycle: a situation repeats, and so everything after it repeats as well.
 
 This holds where the future is certain and the planner decides from what the vehicle's own row and the one
-ahead hold, besides what never moves (`planner_names.LOCAL`). Movers keep to their rows and the vehicle never
-goes back, so while it stays in its row nothing else has a part in what happens. A situation is compared with
-one kept from before, which is renewed after 1, 2, 4, ... ticks, so that a cycle is found within three times
-its length.
+ahead hold, besides what never moves (`local` in `sim.plan.protocol.Traits`). Movers keep to their rows and
+the vehicle never goes back, so while it stays in its row nothing else has a part in what happens. A situation
+is compared with one kept from before, which is renewed after 1, 2, 4, ... ticks, so that a cycle is found
+within three times its length.
 Source: Brent, "An improved Monte Carlo factorization algorithm" (BIT, 1980), section 2.
 """
 
@@ -12,7 +12,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from sim.rules.traffic import PEDESTRIAN_PERIOD
+from sim.rules.kinds import common_period
+from sim.types import MARKED
 from sim.world import World
 from sim.world.grid import Board
 
@@ -22,10 +23,11 @@ class Situation(NamedTuple):
 
     cell: int
     beat: int
-    """`episode_tick` modulo the pedestrians' period"""
+    """`episode_tick` modulo the period in which the steps of all movers repeat"""
     right: Board
     left: Board
-    pedestrians: Board
+    marked: tuple[Board, ...]
+    """the movers of each kind in `MARKED`"""
 
 
 class Watch(NamedTuple):
@@ -39,6 +41,7 @@ class Watch(NamedTuple):
 
 
 NOTHING_KEPT = Watch()
+_NONE_MARKED = (0,) * len(MARKED)
 
 
 def situation(world: World) -> Situation:
@@ -46,12 +49,13 @@ def situation(world: World) -> Situation:
     columns, cell = world.road.columns, world.avs[0]
     first = max(0, cell // columns - 1) * columns
     rows = (1 << 2 * columns) - 1
+    boards = world.boards
     return Situation(
         cell,
-        (world.tick - world.episode_start) % PEDESTRIAN_PERIOD,
+        (world.tick - world.episode_start) % common_period(boards),
         world.right >> first & rows,
         world.left >> first & rows,
-        world.pedestrians >> first & rows,
+        tuple([board >> first & rows for board in boards.marked]) if boards.others else _NONE_MARKED,
     )
 
 

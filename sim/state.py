@@ -1,48 +1,30 @@
-"""A session's state as one value, and one tick of it: perceive → forecast → plan → commit → judge.
-
-`advance` is a pure function: the same run in gives the same tick out, on every machine.
-"""
+"""A session's state as one value, and how episodes begin. `sim.transition` takes it one tick on."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
+from typing import Any, Final, NamedTuple
 
-from sim.commit import commit
 from sim.config import Config
+from sim.ego import Ego
 from sim.episode_record import EpisodeRecord
 from sim.events import Event, EventType
-from sim.fast_replace import fast_constructor, field_setter
+from sim.forecast import Forecast
 from sim.generation import GenerationError, generate
 from sim.metrics import Metrics
-from sim.perceive import perceive
+from sim.perceive import NO_BELIEF, Belief, Percept
 from sim.plan import Decision
-from sim.plan.manual_override import override
-from sim.plan.safe_planning import hold_position, is_foreign, plan_safely
-from sim.planner_names import LOCAL
-from sim.repetition import NOTHING_KEPT, Watch, update_watch
-from sim.rules.dynamics import DEFAULT_DYNAMICS
-from sim.transition import transition
-from sim.types import Mode, Move, Outcome
+from sim.repetition import NOTHING_KEPT, Watch
+from sim.types import Mode, Move, ego_id
 from sim.world import World
 
-_END_EVENTS = {
-    Outcome.SUCCESS: EventType.ARRIVED,
-    Outcome.CRASH: EventType.CRASHED,
-    Outcome.STUCK: EventType.STUCK,
-}
+FIRST: Final = ego_id(0)
 
 
-__all__ = [
-    "SimState",
-    "StepResult",
-    "apply_move",
-    "commit",
-    "decide",
-    "next_episode",
-    "reconfigure",
-    "restart_episode",
-    "step",
-]
+def _one_ego() -> dict[str, Ego]:
+    return {FIRST: Ego(FIRST)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,120 +33,146 @@ class SimState:
 
     config: Config
     world: World
-    mode: Mode = Mode.AUTO
-    queue: tuple[Move, ...] = ()
-    """moves a person asked for, taken one a tick"""
-    metrics: Metrics = field(default_factory=Metrics)
+    egos: Mapping[str, Ego] = field(default_factory=_one_ego)
+    """by id, in the order of `World.avs`; a vehicle of the world that is left out is parked"""
     edits: int = 0
     """changes made so far; numbers the stream random places are drawn from"""
-    fault: str | None = None
-    """what the planner did instead of answering at the latest decision"""
-    record: EpisodeRecord = field(default_factory=EpisodeRecord)
-    """what the episode has come to so far"""
-    watch: Watch = NOTHING_KEPT
-    """for a cycle that the vehicle is in (`sim.repetition`)"""
 
     @staticmethod
-    def start(config: Config) -> SimState:
-        """The first episode's beginning. Raises `GenerationError` (`sim.generation`)."""
-        return SimState(config, generate(config, 1))
+    def start(config: Config, world: World | None = None, planners: Sequence[str | None] = ()) -> SimState:
+        """The first episode's beginning, on a given road or a generated one.
+
+        `planners`: one for each ego of the road, in order; None and what is left out are the configuration's.
+        Raises `ConfigError` for a planner that is none, and `GenerationError` (`sim.generation`).
+        """
+        if world is None:
+            world = generate(config, 1)
+            if len(planners) > 1:
+                world = with_egos_at_start(world, len(planners))
+        egos = {}
+        for number in range(len(world.avs)):
+            planner = planners[number] if number < len(planners) else None
+            config_with(config, planner)
+            egos[ego_id(number)] = Ego(ego_id(number), planner)
+        return SimState(config, world, egos)
+
+    def ego(self, id: str | None = None) -> Ego:
+        """The ego with this id, the first by default. Raises `KeyError` if there is none."""
+        if id is None:
+            for ego in self.egos.values():
+                return ego
+        return self.egos[id or FIRST]
+
+    def with_ego(self, id: str | None = None, /, **parts: Any) -> SimState:
+        """The same with some fields of an ego changed, those of the first by default."""
+        ego = self.ego(id)
+        return replace(self, egos={**self.egos, ego.id: replace(ego, **parts)})
+
+    def with_each_ego(self, **parts: Any) -> SimState:
+        """The same with some fields of every ego changed."""
+        return replace(self, egos={id: replace(ego, **parts) for id, ego in self.egos.items()})
+
+    def config_of(self, id: str | None = None) -> Config:
+        """The configuration with the planner of an ego, of the first by default."""
+        return config_with(self.config, self.ego(id).planner)
+
+    @property
+    def parked(self) -> frozenset[int]:
+        """The egos that stay where they are, as places in `World.avs`."""
+        return frozenset(
+            number
+            for number in range(len(self.world.avs))
+            if (ego := self.egos.get(ego_id(number))) is None or ego.parked
+        )
+
+    @property
+    def mode(self) -> Mode:
+        """Who drives the first ego."""
+        return self.ego().mode
+
+    @property
+    def queue(self) -> tuple[Move, ...]:
+        """Moves a person asked the first ego for."""
+        return self.ego().queue
+
+    @property
+    def metrics(self) -> Metrics:
+        """Counts of the first ego."""
+        return self.ego().metrics
+
+    @property
+    def fault(self) -> str | None:
+        """What the first ego's planner did instead of answering at the latest decision."""
+        return self.ego().fault
+
+    @property
+    def record(self) -> EpisodeRecord:
+        """What the episode of the first ego has come to so far."""
+        return self.ego().record
+
+    @property
+    def watch(self) -> Watch:
+        """For a cycle that the first ego is in."""
+        return self.ego().watch
+
+    @property
+    def belief(self) -> Belief:
+        """What the first ego's sensor carries from the ticks before this one."""
+        return self.ego().belief
+
+
+class EgoStep(NamedTuple):
+    """One ego's way to its move in a tick: what it saw, expected and decided."""
+
+    percept: Percept
+    forecast: Forecast
+    """as far ahead as its planner read"""
+    decision: Decision
+    belief: Belief
+    """what its sensor carries into the next tick"""
 
 
 @dataclass(frozen=True, slots=True)
 class StepResult:
-    """What one tick led to. There is no decision while a result stands."""
+    """What one tick led to."""
 
     state: SimState
-    decision: Decision | None
+    steps: Mapping[str, EgoStep]
+    """by ego id; without those that had arrived, and empty while a result stands or where only moves were
+    known"""
     events: tuple[Event, ...]
 
+    def of(self, id: str | None = None) -> EgoStep | None:
+        """How an ego came to its move, the first by default; None where that is not known."""
+        return self.steps.get(id or FIRST)
 
-_advanced = field_setter(SimState, "world", "metrics", "queue", "fault", "record", "watch")
-_ticked = fast_constructor(StepResult, "state", "decision", "events")
-
-
-def decide(state: SimState) -> Decision | None:
-    """The decision the present state leads to; None once the episode has ended."""
-    world, config = state.world, state.config
-    if world.outcome is not Outcome.RUNNING:
-        return None
-    percept = perceive(world, config)
-    by_hand = bool(state.queue) or state.mode is Mode.MANUAL
-    # A person's move needs no planner, and a foreign one may be what is being taken over from.
-    decision = (
-        hold_position(percept, config)
-        if by_hand and is_foreign(config.planner)
-        else plan_safely(percept, config)
-    )
-    if state.queue:
-        return override(decision, state.queue[0])
-    return override(decision, Move.STAY) if state.mode is Mode.MANUAL else decision
+    @property
+    def decision(self) -> Decision | None:
+        """The first ego's decision; None while a result stands."""
+        found = self.steps.get(FIRST)
+        return None if found is None else found.decision
 
 
-def step(state: SimState, decided: Decision | None = None) -> StepResult:
-    """One tick; `decided`: what the present state leads to, where that is known already."""
-    decision = decide(state) if decided is None else decided
-    if decision is None:
-        return _hold(state)
-    moved = apply_move(state, decision.move, by_person=decision.asked is not None, fault=decision.fault)
-    after = moved.world
-    events = []
-    if decision.fault is not None and decision.fault != state.fault:
-        events.append(Event(after.tick, EventType.PLANNER_FAILED, after.episode, how=decision.fault))
-    if decision.held_back and decision.asked is not None:
-        blocked = decision.option(decision.asked)
-        events.append(
-            Event(
-                after.tick,
-                EventType.HELD_BACK,
-                after.episode,
-                blocked.causes,
-                blocked.cell,
-                decision.asked,
-                blocked.reason,
-            )
-        )
-    if after.outcome is not Outcome.RUNNING:
-        cause = after.cause
-        ids, cell, how = (cause.ids, cause.cell, cause.how) if cause else ((), None, None)
-        event = _END_EVENTS[after.outcome]
-        if after.outcome is Outcome.STUCK:
-            how = "limit" if after.episode_tick > state.config.max_ticks else "repetition"
-        events.append(Event(after.tick, event, after.episode, ids, cell, decision.move, how))
-    return _ticked(moved, decision, tuple(events))
+def config_with(config: Config, planner: str | None) -> Config:
+    """The configuration with another planner; as it is for None. Raises `ConfigError`."""
+    return config if planner is None else _config_with(config, planner)
 
 
-def apply_move(state: SimState, move: Move, *, by_person: bool, fault: str | None = None) -> SimState:
-    """The run one tick on, where it is known what was decided: to this move, asked for by a person or not."""
-    before, config = state.world, state.config
-    after = transition(before, move, config)
-    watch: Watch | None = NOTHING_KEPT
-    if after.outcome is Outcome.RUNNING and not by_person and fault is None and _recurs(config):
-        watch = update_watch(state.watch, after)
-        if watch is None:
-            after = replace(after, outcome=Outcome.STUCK, ended=after.tick)
-    metrics = state.metrics.after_move(move, config.cell_m)
-    ended = after.outcome is not Outcome.RUNNING
-    if ended:
-        metrics = metrics.after_end(after.outcome, after.episode_tick)
-    record = state.record.after(
-        before,
-        after,
-        move,
-        edits=state.edits,
-        certain=config.certain,
-        by_person=by_person,
-        faulty=fault is not None,
-        ended=ended,
-    )
-    return _advanced(state, after, metrics, state.queue[1:], fault, record, watch or NOTHING_KEPT)
+@lru_cache(maxsize=64)
+def _config_with(config: Config, planner: str) -> Config:
+    return replace(config, planner=planner)
 
 
-def _recurs(config: Config) -> bool:
-    """Whether a situation that repeats ends the episode."""
-    # A situation holds two rows (`sim.repetition`): all that matters where a move gains a row at most.
-    local = config.planner in LOCAL and config.dynamics == DEFAULT_DYNAMICS
-    return config.repetition and local and config.certain
+def with_egos_at_start(world: World, count: int) -> World:
+    """A road's beginning with so many egos in the last row, side by side. Raises `ValueError`."""
+    road = world.road
+    first = world.avs[0]
+    row = first - first % road.columns
+    cells = sorted(range(row, row + road.columns), key=lambda cell: (abs(cell - first), cell))
+    free = [cell for cell in cells if cell == first or not (world.fixed | world.moving) >> cell & 1]
+    if count > len(free):
+        raise ValueError(f"{count} egos do not fit side by side on {road.columns} lanes")
+    return replace(world, avs=tuple(free[:count]))
 
 
 def next_episode(state: SimState) -> tuple[SimState, Event]:
@@ -189,19 +197,20 @@ def reconfigure(state: SimState, config: Config) -> tuple[SimState, Event]:
     return _begin(state, config, state.world.episode + 1)
 
 
+def hold_result(state: SimState) -> StepResult:
+    """The result stands for a tick more; or the next episode begins."""
+    world = replace(state.world, tick=state.world.tick + 1)
+    held = replace(state.with_each_ego(queue=()), world=world)
+    if world.ended is not None and world.tick - world.ended < state.config.reset_delay_ticks:
+        return StepResult(held, {}, ())
+    begun, event = next_episode(held)
+    return StepResult(begun, {}, (event,))
+
+
 def _begin(state: SimState, config: Config, episode: int) -> tuple[SimState, Event]:
     world = generate(config, episode, tick=state.world.tick, numbered=state.world.numbered)
+    if len(state.egos) > 1:
+        world = with_egos_at_start(world, len(state.egos))
     event = Event(world.tick, EventType.EPISODE_STARTED, episode)
-    return replace(
-        state, config=config, world=world, queue=(), record=EpisodeRecord(), watch=NOTHING_KEPT
-    ), event
-
-
-def _hold(state: SimState) -> StepResult:
-    """The result stands for a while; then the next episode begins."""
-    world = replace(state.world, tick=state.world.tick + 1)
-    held = replace(state, world=world, queue=())
-    if world.ended is not None and world.tick - world.ended < state.config.reset_delay_ticks:
-        return StepResult(held, None, ())
-    begun, event = next_episode(held)
-    return StepResult(begun, None, (event,))
+    begun = state.with_each_ego(queue=(), record=EpisodeRecord(), watch=NOTHING_KEPT, belief=NO_BELIEF)
+    return replace(begun, config=config, world=world), event

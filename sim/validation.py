@@ -8,11 +8,12 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from itertools import combinations
 
-from sim.commit import commit
+from sim.commit import commit, moves_with
 from sim.config import Config
 from sim.judge import collisions, outcome
-from sim.types import Cell, Kind, Move, Outcome, kind_of
+from sim.types import HAZARDS, KINDS, MARKED, MOVERS, Cell, Move, Outcome, kind_of
 from sim.world import World
 from sim.world.grid import Board, bits, board_of
 
@@ -33,7 +34,7 @@ def validate_world(world: World) -> tuple[Defect, ...]:
 
 
 def validate_plan(world: World, plan: Iterable[Move], config: Config) -> tuple[Defect, ...]:
-    """Every way in which playing these moves is no way to row 0.
+    """Every way in which playing these moves is no way to row 0 for the first ego; others stay.
 
     A step off the road is left out and the plan goes on; after a collision it goes on as well, so that
     all that is wrong is listed. Codes: `off_road`; `hit_…`, `swap_…` and `cross_…` with what was met;
@@ -50,29 +51,30 @@ def _of_state(world: World) -> Iterator[Defect]:
             yield Defect(code, tick, _names(world, index), road.cell(index))
 
     boards = {
-        "potholes": world.potholes,
-        "barriers": world.barriers,
+        **{KINDS[kind].plural: world.board(kind) for kind in HAZARDS},
         "movers": world.moving,
-        "pedestrians": world.pedestrians,
+        **{KINDS[kind].plural: world.board(kind) for kind in MARKED},
     }
     for name, board in boards.items():
         if board & ~road.all:
             yield Defect(f"{name}_off_road", tick)
     yield from at("two_headings", world.right & world.left)
-    yield from at("pothole_and_barrier", world.potholes & world.barriers & road.all)
-    yield from at("mover_in_barrier", world.moving & world.barriers & road.all)
-    yield from at("pedestrian_without_heading", world.pedestrians & ~world.moving & road.all)
+    for one, other in combinations(HAZARDS, 2):
+        yield from at(f"{one}_and_{other}", world.board(one) & world.board(other) & road.all)
+    for kind in HAZARDS:
+        if not KINDS[kind].holds_movers:
+            yield from at(f"mover_in_{kind}", world.moving & world.board(kind) & road.all)
+    for kind in MARKED:
+        yield from at(f"{kind}_without_heading", world.board(kind) & ~world.moving & road.all)
+    for one, other in combinations(MARKED, 2):
+        yield from at(f"{one}_and_{other}", world.board(one) & world.board(other) & road.all)
     yield from at("no_mover_here", board_of(world.movers) & ~world.moving)
     yield from at("mover_without_id", world.moving & ~board_of(world.movers) & road.all)
     yield from at("no_hazard_here", board_of(world.hazards) & ~world.fixed)
     yield from at("hazard_without_id", world.fixed & ~board_of(world.hazards) & road.all)
-    for table, kinds in (
-        (world.movers, (Kind.PEDESTRIAN, Kind.VEHICLE)),
-        (world.hazards, (Kind.POTHOLE, Kind.BARRIER)),
-    ):
+    for table, kinds in ((world.movers, MOVERS), (world.hazards, HAZARDS)):
         for index, name in table.items():
-            first, second = kinds
-            wanted = first if world.board(first) >> index & 1 else second
+            wanted = next((kind for kind in kinds if world.board(kind) >> index & 1), kinds[-1])
             if not name.startswith(f"{wanted}-"):
                 yield Defect("wrong_kind", tick, (name,), road.cell(index))
             elif int(name.rpartition("-")[2]) > world.numbered.get(kind_of(name), 0):
@@ -95,7 +97,8 @@ def _of_state(world: World) -> Iterator[Defect]:
         yield Defect("end_without_outcome" if world.ended is not None else "outcome_without_end", tick)
     if (world.outcome is Outcome.CRASH) is not (world.cause is not None):
         yield Defect("crash_without_cause" if world.cause is None else "cause_without_crash", tick)
-    if world.outcome is Outcome.SUCCESS and any(index >= road.columns for index in world.avs):
+    # Egos that are parked do not hold a success up, and a world does not know them.
+    if world.outcome is Outcome.SUCCESS and all(index >= road.columns for index in world.avs):
         yield Defect("not_at_goal", tick)
     if not 0 <= world.episode_start <= tick:
         yield Defect("began_later", tick)
@@ -109,11 +112,11 @@ def _of_plan(world: World, plan: Iterable[Move], config: Config) -> Iterator[Def
         if config.ego_dynamics(world.road).target(world.av, move) is None:
             yield Defect("off_road", world.tick, cell=world.road.cell(world.av))
             continue
-        after = commit(world, move, config)
+        after = commit(world, moves_with(world, move), config)
         for crash in collisions(world, after, config.ego_dynamics(world.road)):
             yield Defect(f"{crash.how}_{crash.kind}", after.tick, crash.ids, crash.cell)
         # What was hit is noted, the plan goes on.
-        result = outcome(after, (), config.max_ticks)
+        result = outcome(after, (), config.max_ticks, range(1, len(world.avs)))
         if result is Outcome.STUCK and not arrived:
             yield Defect("too_long", after.tick)
         arrived = arrived or result is Outcome.SUCCESS

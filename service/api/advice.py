@@ -21,6 +21,7 @@ from service.problems import (
     NotUnderstood,
     TooLarge,
 )
+from service.refusals import refusals
 from service.sessions.facts import Advised
 from service.talk.listener import Source
 from service.wire.advice import advice_json
@@ -52,7 +53,8 @@ async def advice(
         found = advise(Kind(hazard), distance_m, speed_kmh, body.weather or "clear")
     except NoAdviceError as error:
         field = error.field if body.text is None else "text"
-        raise Invalid(error.message, errors=[FieldProblem(field, error.message)]) from error
+        sentence = refusals(body.language).advice(error)
+        raise Invalid(sentence, errors=[FieldProblem(field, sentence)]) from error
     told = here.words.answer(Advised(found))
     said = {"question": told["question"], "text": told["text"], "source": source}
     return json_response(said | advice_json(found))

@@ -35,9 +35,11 @@ from service.problems import (
     TooLarge,
     UnknownSession,
 )
+from service.refusals import refusals
 from service.sessions.utterance import Outcome, Utterance
 from sim.actions import Prefer, Set
 from sim.config import LISTS, Config, ConfigError
+from sim.planner_names import canonical
 from sim.session.saved_config import defaults_under
 from sim.session.settings import NEEDS_A_NEW_ROAD, STEPS
 
@@ -104,7 +106,7 @@ async def patch(
         sequences = terms(told).sequences
         if sequences is not None:
             terms(told).check(session.sequence)
-        return _told((), "Nothing was changed: it is so already.", session.sequence)
+        return _told((), refusals().session("as_it_is"), session.sequence)
     try:
         done = tuple(action for _, action in actions)
         return told(await here.listener.do(session, Utterance(actions=done), terms=terms(told)))
@@ -118,7 +120,9 @@ def actions_for(config: Config, patch: Mapping[str, Any], most_cells: int) -> li
     wanted = {name: _wanted(value, defaults.get(name)) for name, value in patch.items()}
     now = asdict(config)
     changed = {
-        name: value for name, value in wanted.items() if name not in now or not _same(now[name], value)
+        name: value
+        for name, value in wanted.items()
+        if name not in now or not _same(now[name], canonical(value) if name == "planner" else value)
     }
     problems = {name: message for name in changed if (message := _unchangeable(name, wanted[name], wanted))}
     fitting = {name: value for name, value in changed.items() if name not in problems}
@@ -128,7 +132,7 @@ def actions_for(config: Config, patch: Mapping[str, Any], most_cells: int) -> li
             for name in {"columns", "rows"} & set(fitting):
                 problems[name] = f"makes a road of more than {most_cells} cells, the most there can be here"
     except ConfigError as error:
-        problems |= {each.field: each.message for each in error.problems}
+        problems |= {each.field: refusals().problem(each) for each in error.problems}
     if problems:
         raise invalid(FieldProblem(name, problems[name]) for name in sorted(problems))
     # What begins a new road comes last, so that it is made with all that was asked for.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import fields
 from typing import Any
 
-from sim import planner_names
+from sim import planner_names, sensor_names
 from sim.config import _WHOLE, CHOICES, LISTS, RANGES, Config
 
 
@@ -14,6 +14,8 @@ def _property(name: str, default: Any) -> dict[str, Any]:
     if name in CHOICES:
         choices: list[str | None] = [*CHOICES[name], *([None] if nullable else [])]
         return {"enum": choices, "default": default}
+    if name == "sensor":
+        return {"enum": list(sensor_names.names()), "default": default}
     if name == "planner":
         examples = list(planner_names.names())
         return {"type": "string", "examples": examples, "default": default}

@@ -28,6 +28,7 @@ from service.problems import (
     TooLarge,
     UnknownSession,
 )
+from service.refusals import refusals
 from service.sessions.availability import refusal
 from service.sessions.elsewhere import QUESTION_S, asks_others, off_loop
 from service.sessions.pace import sets_pace
@@ -125,8 +126,9 @@ async def counterfactual(
         field = "move" if error.code in ("off_road", "same_move") else "at_tick"
         raise invalid([FieldProblem(field, _WORDS[error.code].format(**error.facts))]) from error
     except EditError as error:
-        kind = NotAvailable if error.code == "not-available" else DoesNotFit
-        raise kind(error.message, errors=[FieldProblem(f"actions.{error.field}", error.message)]) from error
+        kind = NotAvailable if error.category == "not-available" else DoesNotFit
+        sentence = refusals().edit(error)
+        raise kind(sentence, errors=[FieldProblem(f"actions.{error.field}", sentence)]) from error
     return json_response(value, headers=etag(standing.sequence))
 
 

@@ -20,9 +20,9 @@ from service.api.shapes import Answered, CellPair, Decision
 from service.api.views import told_decision
 from service.problems import FieldProblem, Invalid, NotRestorable, UnknownSession
 from service.sessions.elsewhere import QUESTION_S, asks_others, off_loop
+from sim.decide import sense
 from sim.forecast import predict
 from sim.oracle.regret import regret
-from sim.perceive import perceive
 from sim.plan import Decision as Taken
 from sim.session.timeline import Timeline
 from sim.state import SimState
@@ -96,7 +96,7 @@ async def forecast(
     if tick is not None and tick > way.tick:
         raise invalid([FieldProblem("tick", f"has not come yet: it is tick {way.tick}")])
     run, decision = await off_loop(asks_others(way), QUESTION_S, lambda: _decided(way, tick))
-    expected = predict(perceive(run.world, run.config), ticks)
+    expected = predict(sense(run)[0], ticks)
     if decision is not None:
         expected = expected.after(decision.move)
     road, now = run.world.road, run.world.tick

@@ -13,8 +13,8 @@ from service.api.context import Here
 from service.api.errors import documented
 from service.api.respond import StrictRoute, json_response
 from service.problems import Invalid, NotRestorable, UnknownSession
+from service.resources import DEFAULT_LANGUAGE
 from service.talk.guide import Intent
-from service.talk.languages import DEFAULT
 from service.talk.preview import Preview
 
 router = APIRouter(tags=["talking"], route_class=StrictRoute)
@@ -35,7 +35,7 @@ async def language(
     session: Annotated[
         str | None, Query(max_length=64, description="Complete with what would work in this session now.")
     ] = None,
-    language: Annotated[str, Query(max_length=16, description="The language's code.")] = DEFAULT,
+    language: Annotated[str, Query(max_length=16, description="The language's code.")] = DEFAULT_LANGUAGE,
 ) -> Response:
     """Every intent with examples; or with `prefix`, whole sentences that begin with it and would work.
 

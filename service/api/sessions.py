@@ -6,7 +6,6 @@ import secrets
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Query, Request, Response
-from sim.rules.versions import NewerRulesError
 
 from service import actions as contract
 from service.api import bodies, examples, schemas
@@ -32,6 +31,7 @@ from service.problems import (
     TooManySessions,
     UnknownSession,
 )
+from service.refusals import refusals
 from service.sessions.manager import Recorded
 from service.sessions.session import Session
 from service.sessions.terms import Terms
@@ -40,8 +40,9 @@ from service.store import EntryRecord
 from sim.actions import Scenario
 from sim.config import Config, ConfigError, Problem
 from sim.generation import GenerationError
+from sim.rules.versions import NewerRulesError
 from sim.session.saved_config import new_config, saved_config
-from sim.session.scenario import configured, unavailable
+from sim.session.scenario import config_of_scenario, find_unavailable
 
 router = APIRouter(tags=["sessions"], route_class=StrictRoute)
 
@@ -98,7 +99,7 @@ async def make(
             session = await here.manager.create(body.name, config, paused=bool(body.paused), answer=answer)
         except GenerationError as error:
             raise invalid(
-                FieldProblem(f"config.{each.field}", each.message) for each in error.problems
+                FieldProblem(f"config.{each.field}", refusals().problem(each)) for each in error.problems
             ) from error
     else:
         config, recorded = _recorded(here.settings, body, recording)
@@ -177,14 +178,15 @@ async def _config(here: Context, body: bodies.NewSession) -> Config:
         if body.scenario is not None:
             scenario = await _scenario(here, body.scenario)
             planner = scenario.planner or config.planner
-            config = configured(config, scenario).with_parts(planner=planner)
+            config = config_of_scenario(config, scenario).with_parts(planner=planner)
     except ConfigError as error:
+        words = refusals()
         beside = [name for name in ("seed", "planner") if getattr(body, name) is not None]
         problems = [
-            FieldProblem(each.field if each.field in beside else f"config.{each.field}", each.message)
+            FieldProblem(each.field if each.field in beside else f"config.{each.field}", words.problem(each))
             for each in error.problems
         ]
-        missing = [f"{each.field} {each.message}." for each in error.problems if not each.available]
+        missing = [f"{each.field} {words.problem(each)}." for each in error.problems if not each.available]
         if missing:
             raise NotAvailable(" ".join(missing), errors=problems) from error
         raise invalid(problems) from error
@@ -203,7 +205,7 @@ async def _scenario(here: Context, text: str) -> Scenario:
             understood=[text],
         )
     scenario = parse.actions[0]
-    _check_available(unavailable(scenario), "scenario")
+    _check_available(find_unavailable(scenario), "scenario")
     return scenario
 
 
@@ -215,7 +217,7 @@ def _check_offered(settings: Settings, config: Config) -> None:
 
 def _check_available(missing: Problem | None, field: str) -> None:
     if missing is not None:
-        sentence = f"{missing.message} is not available yet."
+        sentence = refusals().problem(missing)
         raise NotAvailable(sentence, errors=[FieldProblem(field, sentence)])
 
 
@@ -253,12 +255,14 @@ def _recorded(
     if late:
         raise invalid(FieldProblem(f"recording.entries.{each}.tick", f"is more than {most}") for each in late)
     try:
-        config = saved_config(_of_rules(recording), "This recording")
+        config = saved_config(_of_rules(recording))
     except NewerRulesError as error:
-        raise Invalid(str(error), errors=[FieldProblem("recording.rules", str(error))]) from error
+        sentence = refusals().newer_rules(error, "recording")
+        raise Invalid(sentence, errors=[FieldProblem("recording.rules", sentence)]) from error
     except ConfigError as error:
         raise invalid(
-            FieldProblem(f"recording.config.{each.field}", each.message) for each in error.problems
+            FieldProblem(f"recording.config.{each.field}", refusals().problem(each))
+            for each in error.problems
         ) from error
     _check_offered(settings, config)
     entries = [

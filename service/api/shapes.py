@@ -5,13 +5,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
 
 from pydantic import BaseModel, ConfigDict, Field
 
 from service.api.bodies import Tick
 from service.sessions.pace import FASTEST, SLOWEST
-from sim.types import Kind, Mode, Move, Outcome
+from sim.types import HAZARDS, MOVERS, Kind, Mode, Move, Outcome
 
 CellPair = Annotated[
     list[int], Field(min_length=2, max_length=2, description="[column, row], row 0 at the goal")
@@ -29,6 +29,13 @@ class Answered(BaseModel):
     model_config = ConfigDict(extra="forbid")
 
 
+if TYPE_CHECKING:
+    MoverKind: TypeAlias = Kind
+    HazardKind: TypeAlias = Kind
+else:
+    MoverKind, HazardKind = Literal[MOVERS], Literal[HAZARDS]
+
+
 class Vehicle(Answered):
     """An autonomous vehicle."""
 
@@ -41,7 +48,7 @@ class Mover(Answered):
     """An obstacle vehicle or a pedestrian."""
 
     id: str
-    kind: Literal[Kind.VEHICLE, Kind.PEDESTRIAN]
+    kind: MoverKind
     cell: CellPair
     heading: Literal["left", "right"]
     disabled: bool = Field(description="Held by a pothole.")
@@ -51,7 +58,7 @@ class Hazard(Answered):
     """A pothole or a barrier."""
 
     id: str
-    kind: Literal[Kind.POTHOLE, Kind.BARRIER]
+    kind: HazardKind
     cell: CellPair
 
 

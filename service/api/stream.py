@@ -40,12 +40,12 @@ from service.api.stream_straight import straight_of
 from service.api.tickets import admitted
 from service.api.views import session_json, told_decision
 from service.problems import CrossSite, Internal, Invalid, Malformed, ProblemError
+from service.resources import DEFAULT_LANGUAGE
 from service.security.guard import client_of, guard_of
 from service.sessions.messages import hello_message, state_message
 from service.sessions.session import Session
 from service.sessions.utterance import Utterance
 from service.sessions.watchers import Gone, Missed, Watcher, stamped
-from service.talk.languages import DEFAULT
 from service.wire.encode import encoded
 
 _LOG = structlog.get_logger(__name__)
@@ -68,7 +68,7 @@ class Command(Sent):
     id: Id
     text: Letters
     dry_run: bool = False
-    language: str = Field(DEFAULT, max_length=16)
+    language: str = Field(DEFAULT_LANGUAGE, max_length=16)
 
 
 class Actions(Sent):
@@ -254,7 +254,7 @@ async def _answer(
 
 
 async def _done(context: Context, session: Session, message: Command | Actions) -> dict[str, Any]:
-    heard, code = None, DEFAULT
+    heard, code = None, DEFAULT_LANGUAGE
     if isinstance(message, Command):
         code = message.language
         heard = await context.listener.hear(message.text, session, code)

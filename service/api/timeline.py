@@ -23,8 +23,8 @@ from service.api.respond import StrictRoute, json_response
 from service.api.shapes import Answered, CellPair, Decision, State
 from service.api.views import told_decision
 from service.problems import FieldProblem, Invalid, NotRestorable, NotSaved, UnknownSession
+from service.resources import DEFAULT_LANGUAGE
 from service.sessions.words import Words
-from service.talk.languages import DEFAULT
 from service.wire.state import Standing, state_json
 from sim.session.timeline import Timeline
 from sim.state import SimState
@@ -153,7 +153,7 @@ async def changes(
         sequence, text = group[0].sequence, said.get(group[0].sequence)
         if text is None:
             dumped = contract.dump(tuple(entry.action for entry in group))
-            told = here.listener.phrasebook.told(contract.load(dumped), DEFAULT)
+            told = here.listener.phrasebook.told(contract.load(dumped), DEFAULT_LANGUAGE)
         else:
             told = text
         items.append({"tick": group[0].tick, "sequence": sequence, "text": told, "said": text is not None})

@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import Any
 
-from sim.rules.versions import note_on
-
+from service.refusals import refusals
 from service.sessions.session import Session
 from service.sessions.words import Words
 from service.store import SessionRecord
 from service.wire.decision import decision_json
 from sim.plan import Decision
+from sim.rules.versions import RULES
 from sim.session.timeline import Timeline
 from sim.state import SimState
 
@@ -66,7 +66,7 @@ def session_json(session: Session, sentence: str | None) -> dict[str, Any]:
         "seed": run.config.seed,
         "config": asdict(run.config),
         "rules": run.config.rules,
-        "rules_note": note_on(run.config.rules),
+        "rules_note": None if run.config.rules >= RULES else refusals().older_rules(run.config.rules),
         "sentence": sentence,
         "parent": parent_json(record),
         "links": links_json(session.id),

@@ -13,7 +13,6 @@ from service.language.sentences import Sentences, Unsayable
 from sim.actions import (
     Layout,
     Parameter,
-    PlannerName,
     RoadType,
     SensorName,
     TimeOfDay,
@@ -21,13 +20,14 @@ from sim.actions import (
     Weather,
     Wish,
 )
+from sim.planner_names import BUILT_IN, PROMISED
 from sim.types import PLACEABLE, Move
 
 CHOICES: dict[str, tuple[str, ...]] = {
     "weather": get_args(Weather),
     "time_of_day": get_args(TimeOfDay),
     "traffic": get_args(Traffic),
-    "planner": get_args(PlannerName),
+    "planner": (*BUILT_IN, *PROMISED),
     "sensor": get_args(SensorName),
     "dynamics": ("grid", "continuous"),
 }

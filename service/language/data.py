@@ -14,6 +14,7 @@ from service.language.numbers import NumberWords
 from service.language.patterns import PatternError, read_macros
 from service.language.tokens import Contractions
 from service.language.typos import TypoRules
+from sim.planner_names import BUILT_IN
 
 MESSAGES = frozenset(
     (
@@ -99,6 +100,9 @@ def _read(folder: Path) -> LanguageData:
     for path in sorted((folder / "lexicon").glob("*.yaml")):
         if not path.name.endswith(TEST_SUFFIX):
             lexicon.add_section(read_yaml(path))
+    if "planner" in lexicon.concepts:  # one that the language has no words for goes by its name
+        unnamed = [name for name in BUILT_IN if ("planner", repr(name)) not in lexicon.typical]
+        lexicon.add_section({"planner": {name: f"{name}, {name} planner" for name in unnamed}})
     frames: dict[str, Any] = {"sets": {}, "agree": {}, "frames": {}}
     for path in sorted((folder / "frames").glob("*.yaml")):
         if not path.name.endswith(TEST_SUFFIX):

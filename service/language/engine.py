@@ -249,7 +249,11 @@ class Language:
     def _suggests(self, say: str) -> bool:
         if self._offered is None:
             return True
-        parse = self.parse(say)
+        try:
+            # Not `parse`: a refusal there names suggestions, which are what is being made here.
+            parse = self.read(say, ALONE, Work(), asking=False)
+        except SpentError:
+            return False
         return isinstance(parse, Understood) and all(map(self._offered, parse.actions))
 
     def concepts(self, text: str) -> frozenset[str]:

@@ -41,6 +41,7 @@ from sim.actions import (
     SetMode,
     Where,
 )
+from sim.planner_names import BUILT_IN, canonical
 
 _EXCLUSIVE = (
     ("cell", "lane"),
@@ -265,6 +266,10 @@ class Sentences:
         words = self._words["values"].get(key)
         if words is None:
             return value
+        if key == "planner":
+            value = canonical(value)
+            if value in BUILT_IN:  # by its name where there are no other words for it
+                return str(words.get(value, value))
         if value not in words:
             raise Unsayable(f"{value!r} is no value of {key}")
         return str(words[value])

@@ -12,7 +12,8 @@ from functools import cache
 from typing import Any, Final, get_args
 
 from service.actions import ACTIONS
-from sim.actions import PlannerName, SensorName, TimeOfDay, Traffic, Weather
+from sim.actions import SensorName, TimeOfDay, Traffic, Weather
+from sim.planner_names import ALIASES, BUILT_IN, PROMISED
 
 MAY: Final = frozenset(
     (
@@ -42,7 +43,7 @@ WORDS: Final[dict[str, tuple[str, ...]]] = {
     "weather": get_args(Weather),
     "time_of_day": get_args(TimeOfDay),
     "traffic": get_args(Traffic),
-    "planner": get_args(PlannerName),
+    "planner": (*BUILT_IN, *PROMISED),
     "sensor": get_args(SensorName),
     "dynamics": ("grid", "continuous"),
 }
@@ -82,7 +83,7 @@ def _type(part: Json) -> str:
     if "const" in part:
         return json.dumps(part["const"])
     if "enum" in part:
-        return " | ".join(json.dumps(value) for value in part["enum"])
+        return " | ".join(json.dumps(value) for value in part["enum"] if value not in ALIASES)
     if "properties" in part:
         return _object(part)
     if part["type"] == "array":

@@ -7,13 +7,13 @@ from service.narrate.sayings import Sayings
 from service.sessions.facts import Advised
 from service.wire.advice import advice_json
 from sim.hazard_advice import Advice, Choice, Ending
-from sim.types import Kind
+from sim.types import MOVERS, Kind
 
 CLOSE = (0.4, 0.6)
 """Between these chances it can go either way, and nothing is said of how it probably ends."""
 SURE = 0.8
 """From here on one is sure of it; below, cases are counted."""
-MOVING = (Kind.VEHICLE, Kind.PEDESTRIAN, Kind.AV)
+MOVING = (*MOVERS, Kind.AV)
 """What may not stay where it is."""
 
 

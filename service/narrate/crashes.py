@@ -40,9 +40,10 @@ class Crashes:
     def text(self, crash: Crash) -> str:
         """A crash in a few sentences."""
         decision = crash.explanation.decision
-        naming = Naming(self._sayings, crash.explanation.moment)
+        naming = Naming(self._sayings, crash.explanation.moment, as_seen=False)
         parts = [
             self._happened(crash, decision, naming),
+            *self._not_as_seen(crash, naming),
             self._by_whom(decision),
             self._otherwise(crash, decision, naming),
             self._flips(crash, naming),
@@ -65,6 +66,19 @@ class Crashes:
         did = self._sayings.move(decision.move, "did")
         return self._say(key, tick=crash.end, did=did, who=naming.things(ids))
 
+    def _not_as_seen(self, crash: Crash, naming: Naming) -> list[str]:
+        """What was there and not detected, and what was detected and not there."""
+        hit = [name for name in crash.missed if name in crash.cause.ids]
+        others = [name for name in crash.missed if name not in hit]
+        told = [self._say("missed", "one" if len(hit) == 1 else "many")] if hit else []
+        if others:
+            key = "missed_others" if hit else "missed_besides"
+            told.append(self._say(key, who=naming.things(others)))
+        seen = Naming(self._sayings, crash.explanation.moment)
+        imagined = seen.imagined([cause.id for cause in crash.explanation.causes])
+        phrases = dict.fromkeys(self._sayings.imagined(name, where) for name, where in imagined.items())
+        return told + [self._say("imagined", told=phrase) for phrase in phrases]
+
     def _by_whom(self, decision: Decision) -> str:
         if decision.fault is not None:
             return self._say("fault", planner=decision.planner, fault=decision.fault)
@@ -75,9 +89,7 @@ class Crashes:
     def _otherwise(self, crash: Crash, decision: Decision, naming: Naming) -> str:
         """What the other moves of the last tick would have met, or that some would have met nothing."""
         others = [
-            option
-            for option in decision.options
-            if option.move is not decision.move and option.cell is not None
+            option for option in crash.met if option.move is not decision.move and option.cell is not None
         ]
         free = [self._sayings.move(move, "place") for move in crash.free if move is not decision.move]
         if free:

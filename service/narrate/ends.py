@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from service.narrate.sayings import Sayings
-from sim.episode_record import DetourReason
+from sim.episode_record import Sake
 from sim.explain.summary import Summary, summary
 from sim.state import SimState
 from sim.types import Outcome
@@ -86,7 +86,7 @@ class Ends:
             return self._say("open_to_the_last")
         return self._say("open_until", ticks=self._many("ticks", found.open_until))
 
-    def _sake(self, sake: DetourReason, count: int) -> str:
+    def _sake(self, sake: Sake, count: int) -> str:
         one, many = self._sayings.words("ends", "sakes", sake)
         return str(one if count == 1 else many)
 

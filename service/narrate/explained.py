@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from service.narrate.naming import Naming
 from service.narrate.outlook import outlook
 from service.narrate.sayings import Sayings
 from sim.actions import Prefer
 from sim.explain import Cause, Counterfactual, Explanation, Future
+from sim.explain.misperception import misperception
 from sim.plan import Measure, Option
 from sim.types import Move, Outcome
 
@@ -24,7 +27,8 @@ class Explained:
     def text(self, explanation: Explanation) -> str:
         """Why, or why not, in a few sentences."""
         telling = _Telling(self._sayings, explanation)
-        return telling.why() if explanation.about == "why" else telling.why_not()
+        told = telling.why() if explanation.about == "why" else telling.why_not()
+        return telling.with_imagined(told)
 
 
 class _Telling:
@@ -36,6 +40,13 @@ class _Telling:
         self._decision = explanation.decision
         self._naming = Naming(sayings, explanation.moment)
         self._outlook = outlook(sayings, explanation.decision, explanation.moment)
+
+    def with_imagined(self, told: str) -> str:
+        """What was told, and of the causes that were not there that they were not, where it was not told."""
+        imagined = self._naming.imagined([cause.id for cause in self._explanation.causes])
+        phrases = [self._sayings.imagined(name, where) for name, where in imagined.items()]
+        more = [self._say("imagined", told=phrase) for phrase in phrases if phrase not in told]
+        return self._joined([told, *dict.fromkeys(more)])
 
     def why(self) -> str:
         """Why the move was made."""
@@ -76,7 +87,7 @@ class _Telling:
             return self._say("not_off_road", tick=decision.tick, do=do, reason=self._reason(option))
         told = self._not_made(option, do)
         flips = [self._flip(flip, foil) for flip in self._explanation.counterfactuals]
-        return self._joined([told, self._would(option), *flips])
+        return self._joined([told, self._would(), *flips])
 
     def _fact(self, hindered: list[Option]) -> str:
         decision = self._decision
@@ -154,16 +165,16 @@ class _Telling:
     def _without(self, causes: list[Cause], do: str, sole: bool) -> str:
         names = [cause.id for cause in causes]
         if sole and causes[0].moves:
-            return self._say("without_it", it=self._say("it"), do=do)
+            return self._say("without_it", it=self._seeing(names, self._say("it")), do=do)
         if len(names) == 1:
-            return self._say("without_one", who=self._names(names), do=do)
+            return self._say("without_one", who=self._seeing(names, self._names(names)), do=do)
         if len(names) > MOST_TOLD:
             return self._say("without_some", who=self._names(names[:1]), count=len(names), do=do)
         key = "without_either" if len(names) == 2 else "without_any"
         return self._say(key, who=self._names(names), do=do)
 
     def _stand_in(self, cause: Cause, move: Move) -> str:
-        who, do = self._names(cause.group), self._sayings.move(move, "do")
+        who, do = self._seeing(cause.group, self._names(cause.group)), self._sayings.move(move, "do")
         if cause.each_enough:
             return self._say("either" if len(cause.group) == 2 else "any_of", who=who, do=do)
         return self._say(
@@ -174,16 +185,17 @@ class _Telling:
             do=do,
         )
 
-    def _would(self, option: Option) -> str:
+    def _would(self) -> str:
         """What the foil would have led to."""
         stakes = self._explanation.stakes
         if stakes is None or stakes.would is None:
             return ""
         would, real = stakes.would, stakes.real
         if would.outcome is Outcome.CRASH:
-            first = option.reason.blocks
+            first = would.ticks == self._explanation.moment.world.episode_tick + 1
             key = "would_crash" if first else "would_crash_later"
-            return self._say(key, who=self._crashed_with(would, first), ticks=would.ticks)
+            told = self._say(key, who=self._crashed_with(would, first), ticks=would.ticks)
+            return self._joined([told, self._missed(would.ids) if first else ""])
         if stakes.dead_end:
             return self._say("would_dead_end")
         if would.outcome is Outcome.STUCK:
@@ -204,8 +216,18 @@ class _Telling:
         kinds = [name.rpartition("-")[0] for name in would.ids]
         return self._sayings.joined([self._sayings.say("words", "a", kind) for kind in kinds])
 
+    def _missed(self, names: tuple[str, ...]) -> str:
+        """That what would have been hit was there and was not detected."""
+        missed = {thing.id for thing in misperception(self._explanation.moment).missed} & {*names}
+        return self._say("missed", "one" if len(missed) == 1 else "many") if missed else ""
+
+    def _seeing(self, names: Sequence[str], who: str) -> str:
+        """How to call what the move was run again without: things, or the sight of them."""
+        undetected = {name for flip in self._explanation.counterfactuals for name in flip.undetected}
+        return self._say("seeing", who=who) if undetected and undetected >= {*names} else who
+
     def _flip(self, flip: Counterfactual, foil: Move) -> str:
-        who = self._names(flip.removed)
+        who = self._seeing(flip.removed, self._names(flip.removed)) if flip.removed else ""
         do = self._sayings.move(flip.move, "do")
         wish = next(
             (action.preference for action in reversed(flip.change) if isinstance(action, Prefer)), None
@@ -246,8 +268,8 @@ class _Telling:
     def _joined(self, parts: list[str]) -> str:
         return " ".join(part for part in parts if part)
 
-    def _say(self, key: str, **parts: object) -> str:
-        return self._sayings.say("why", key, **parts)
+    def _say(self, *keys: str, **parts: object) -> str:
+        return self._sayings.say("why", *keys, **parts)
 
 
 def called(name: str, sayings: Sayings, naming: Naming) -> str:

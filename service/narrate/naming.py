@@ -2,6 +2,8 @@
 
 Lanes and metres from the vehicle's seat name one cell each, so no two things of a kind have one name. Ids
 belong in the structured part of an answer. Words are data (`naming.yaml`).
+
+Where sensors err, a thing is pointed at where it is seen, or where it is: `as_seen` says which comes first.
 """
 
 from __future__ import annotations
@@ -10,6 +12,8 @@ from collections.abc import Hashable, Sequence
 from functools import lru_cache
 
 from service.narrate.sayings import Sayings
+from sim.decide import sense
+from sim.perceive import sensor_named
 from sim.state import SimState
 from sim.types import Cell, Kind
 
@@ -17,15 +21,17 @@ from sim.types import Cell, Kind
 class Naming:
     """Names in one language, as seen in one moment."""
 
-    def __init__(self, sayings: Sayings, run: SimState) -> None:
+    def __init__(self, sayings: Sayings, run: SimState, *, as_seen: bool = True) -> None:
         """`run`: the moment; the vehicle stands where it stood then."""
         self._sayings = sayings
+        self._percept = None if sensor_named(run.config.sensor).faithful else sense(run)[0]
+        self._as_seen = as_seen
         self._world = run.world
         self._cell_m = run.config.cell_m
 
     def thing(self, name: str) -> str:
         """The thing with this id, with its article: "the pothole ahead". An id no longer there is itself."""
-        found = self._world.index_of(name)
+        found = self._find(name)
         return name if found is None else _thing(self._sayings, found[1], *self._seen(found[0]))
 
     def things(self, names: Sequence[str]) -> str:
@@ -38,8 +44,27 @@ class Naming:
 
     def kinds_and_places(self, names: Sequence[str]) -> Hashable | None:
         """All that the names of these things are made of; None if one is not there any more."""
-        found = [self._world.index_of(name) for name in names]
+        found = [self._find(name) for name in names]
         return tuple([each and (each[1], self._seen(each[0])) for each in found]) if all(found) else None
+
+    def imagined(self, names: Sequence[str]) -> dict[str, str]:
+        """Those of these things that were seen where they were not, and where that was."""
+        if self._percept is None or not self._as_seen:
+            return {}
+        found: dict[str, str] = {}
+        for name in names:
+            seen, there = self._percept.find(name), self._world.find(name)
+            if seen is not None and (there is None or (there.kind, there.cell) != (seen.kind, seen.cell)):
+                found[name] = self.place(seen.cell)
+        return found
+
+    def _find(self, name: str) -> tuple[int, Kind] | None:
+        """The cell index of a thing and its kind."""
+        there = self._world.index_of(name)
+        if self._percept is None or (there is not None and not self._as_seen):
+            return there
+        seen = self._percept.find(name)
+        return there if seen is None else (self._world.road.index(seen.cell), seen.kind)
 
     def _seen(self, index: int) -> tuple[int, int, float]:
         """How far across and along a cell lies from the vehicle, in cells, and how long a cell is."""

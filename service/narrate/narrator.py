@@ -14,7 +14,9 @@ from service.narrate.outlook import outlook
 from service.narrate.replies import Replies
 from service.narrate.sayings import Sayings
 from service.sessions.facts import Answerable, Fact, Lesson
+from sim.decide import sense
 from sim.events import Event, EventType
+from sim.perceive import sensor_named
 from sim.plan import Decision, Measure, Option
 from sim.state import SimState
 from sim.types import Move
@@ -85,7 +87,8 @@ class Narrator:
         if chosen.cell is not None and chosen.cell[1] == 0:
             return self._say("into_the_goal")
         world = run.world
-        movers = world.movers
+        faithful = sensor_named(run.config.sensor).faithful
+        movers = world.movers if faithful else sense(run)[0].movers
         passed = [movers[cell] for cell in _beside(world.road.columns, world.avs[0]) if cell in movers]
         if passed:
             return self._passing(passed, Naming(self._sayings, run))
@@ -143,6 +146,10 @@ class Narrator:
             return self._sayings.say("log", "no_way", event.how or "plain")
         form = "one" if len(event.ids) == 1 else "many"
         return self._sayings.say("log", "no_way", "without", form, who=self._sayings.joined(event.ids))
+
+    def planner(self, name: str) -> str:
+        """A planner as people know it."""
+        return self._sayings.planner(name)
 
     def silent(self, planner: str, fault: str) -> str:
         """What is said when a planner did not answer in time and a person is to drive."""

@@ -46,7 +46,7 @@ class Next:
             for place, decision in enumerate(way.decisions)
         ]
         alike = groupby(steps, key=lambda step: (step[0], step[1] and (step[1].sake, step[1].ids), step[2]))
-        naming = Naming(self._sayings, way.state)
+        naming = Naming(self._sayings, way.state, as_seen=False)
         told = []
         named: tuple[str, ...] = ()
         for (move, _, silent), group in alike:

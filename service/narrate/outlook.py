@@ -1,13 +1,15 @@
-"""What the planner `rules` went by, in words: where moves lead, what closes a way, which side is nearer."""
+"""What planners that rank as `rules` does went by, in words: where moves lead, what closes a way, which side
+is nearer.
+"""
 
 from __future__ import annotations
 
 from service.narrate.naming import Naming
 from service.narrate.sayings import Sayings
+from sim.decide import sense
 from sim.forecast import predict
-from sim.perceive import perceive
-from sim.plan import Decision, Option
-from sim.plan.rule_based import Leads, Prospect, RulesPlanner, standing
+from sim.plan import Decision, Option, traits_of
+from sim.plan.rule_based import Leads, Prospect, standing
 from sim.state import SimState
 from sim.types import Move, kind_of
 
@@ -15,20 +17,21 @@ _OTHER_SIDE = {Move.LEFT: Move.RIGHT, Move.RIGHT: Move.LEFT}
 
 
 def outlook(sayings: Sayings, decision: Decision, run: SimState) -> Outlook | None:
-    """What a decision of `rules`, taken in `run`, went by; None for another planner's or a person's."""
-    if decision.planner != RulesPlanner.name or decision.asked is not None or decision.fault is not None:
+    """What a decision taken in `run` went by; None unless by a planner that ranks as `rules` does."""
+    by_planner = decision.asked is None and decision.fault is None
+    if not by_planner or not traits_of(decision.planner).by_passages:
         return None
     return Outlook(sayings, decision, run)
 
 
 class Outlook:
-    """One decision of `rules` on its way into words."""
+    """One such decision on its way into words."""
 
     def __init__(self, sayings: Sayings, decision: Decision, run: SimState) -> None:
         """`run`: the moment in which the decision was taken."""
         self._sayings = sayings
         self._decision = decision
-        self._forecast = predict(perceive(run.world, run.config), 1)
+        self._forecast = predict(sense(run)[0], 1)
         self._standing = standing(self._forecast)
         self._naming = Naming(sayings, run)
         self._straight = decision.option(Move.FORWARD)

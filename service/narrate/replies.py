@@ -9,7 +9,7 @@ from service.sessions.pace import said as said_pace
 from service.sessions.saved import Kept, Went
 from sim.actions import Add, Adjust, Drive, Prefer, Remove, Reset, Scenario, Set, SetCount, SetMode
 from sim.events import EventType
-from sim.planner_names import WEIGHING
+from sim.plan import traits_of
 from sim.session.edits import Applied, Change
 from sim.session.settings import AS_IT_IS, FROM_THE_NEXT_ROAD, NEEDS_A_NEW_ROAD
 from sim.state import SimState
@@ -133,7 +133,7 @@ class Replies:
         config = applied.state.config
         wishes = [self._sayings.say("replies", "preferences", wish) for wish in config.preferences]
         said = self._say("prefer", wishes=self._sayings.joined(wishes)) if wishes else self._say("balanced")
-        if not wishes or config.planner in WEIGHING:
+        if not wishes or traits_of(config.planner).weighs_costs:
             return said
         return f"{said} {self._say('weighs_nothing', planner=config.planner)}"
 

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from copy import deepcopy
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, Final, Protocol
 
 import yaml
 
 from service.resources import prompts_folder
 from sim.plan import Option
-from sim.types import Cell, Move, kind_of
+from sim.planner_names import canonical
+from sim.types import KINDS, PLACEABLE, Cell, Kind, Move, kind_of
 
 
 class Names(Protocol):
@@ -19,14 +21,55 @@ class Names(Protocol):
     def things(self, names: Sequence[str]) -> str:
         """Several things, each named."""
 
+    def imagined(self, names: Sequence[str]) -> dict[str, str]:
+        """Those of these things that were seen where they were not, and where that was."""
+
+
+_BY_KIND: Final = (
+    ("words", "a"),
+    ("naming", "the"),
+    ("scene", "a"),
+    ("scene", "nouns"),
+    ("advice", "hazards"),
+    ("ends", "sakes"),
+    ("next", "sakes"),
+)
+"""Tables with words for every kind. A kind that is not there is put as under `other`."""
+
+
+def _with_every_kind(files: dict[str, dict[str, Any]]) -> dict[str, dict[str, Any]]:
+    files = deepcopy(files)
+    things = files.get("words", {}).setdefault("things", {})
+    for kind in PLACEABLE:
+        one, many = things.setdefault(kind.value, [kind.value, KINDS[kind].plural])
+        parts = {"{one}": one, "{many}": many}
+        for file, key in _BY_KIND:
+            table = files.get(file, {}).get(key, {})
+            if "other" in table:
+                table.setdefault(kind.value, _filled(table["other"], parts))
+            if (file, key) == ("words", "a"):
+                parts["{a}"] = table.get(kind.value, one)
+    return files
+
+
+def _filled(other: Any, parts: Mapping[str, str]) -> Any:
+    """What stands under `other` with the words of a kind; what else is to be filled in stays."""
+    if isinstance(other, dict):
+        return {key: _filled(each, parts) for key, each in other.items()}
+    if isinstance(other, list):
+        return [_filled(each, parts) for each in other]
+    for name, word in parts.items():
+        other = other.replace(name, word)
+    return other
+
 
 class Sayings:
     """What `prompts/sayings/<code>/*.yaml` holds."""
 
     def __init__(self, files: dict[str, dict[str, Any]]) -> None:
         """`files`: what each file holds, by its name without ending."""
-        self._files = files
-        self._words = files["words"]
+        self._files = _with_every_kind(files)
+        self._words = self._files["words"]
 
     @classmethod
     def load(cls, code: str = "en", folder: Path | None = None) -> Sayings:
@@ -77,7 +120,7 @@ class Sayings:
 
     def planner(self, name: str, form: str = "name") -> str:
         """A planner as people know it, as `name` or after `with`; one of another package by its own name."""
-        known = self._words["planners"].get(name)
+        known = self._words["planners"].get(canonical(name))
         return name if known is None else str(known[form])
 
     def where(self, cell: Cell) -> str:
@@ -94,11 +137,10 @@ class Sayings:
         alike: dict[tuple[str, str], list[Option]] = {}
         for option in options:
             kind = self._kind(option)
-            key = (
-                (option.reason.value, kind)
-                if option.reason in self.words("words", "several")
-                else ("", option.move)
+            alone = option.reason not in self.words("words", "several") or (
+                tense == "then" and naming.imagined(option.causes)
             )
+            key = ("", option.move) if alone else (option.reason.value, kind)
             alike.setdefault(key, []).append(option)
         for (reason, kind), group in alike.items():
             if len(group) == 1:
@@ -115,8 +157,21 @@ class Sayings:
         kinds = sorted((kind_of(name) for name in option.causes), key=lambda kind: not kind.moves)
         return kinds[0].value if kinds else ""
 
+    def imagined(self, name: str, where: str) -> str:
+        """That a thing was seen at a place, and was not there."""
+        return self.say("words", "imagined", a=self.say("words", "a", kind_of(name)), where=where)
+
     def in_the_way(self, reason: str, move: Move, ids: Sequence[str], tense: str, naming: Names) -> str:
-        """What is in the way of a move."""
+        """What is in the way of a move; in hindsight also that it was not there."""
+        if not reason.startswith("ego_"):  # where movers or hazards are in the way, they are told alone
+            ids = [name for name in ids if kind_of(name) is not Kind.AV]
+        imagined = naming.imagined(ids) if tense == "then" else {}
+        if imagined:
+            phrases = self.joined([self.imagined(name, where) for name, where in imagined.items()])
+            real = [name for name in ids if name not in imagined]
+            return (
+                phrases if not real else self.say("words", "besides", told=phrases, who=naming.things(real))
+            )
         place, who = self.move(move, "place"), naming.things(ids)
         movers = [kind_of(name) for name in ids if kind_of(name).moves]
         if reason == "mover_enters" and len(ids) > 1:

@@ -9,9 +9,10 @@ from service.narrate.answering import Json, plain
 from service.narrate.naming import Naming
 from service.narrate.sayings import Sayings
 from service.sessions.facts import Asked
-from service.wire.scene import scene_json
+from service.wire.scene import misperception_json, scene_json
+from sim.decide import sense
+from sim.explain.misperception import Misperception, misperception
 from sim.explain.scene import Detection, Scene, describe_percept
-from sim.perceive import perceive
 from sim.state import SimState
 from sim.types import PLACEABLE, Kind, Outcome
 
@@ -32,10 +33,24 @@ class Scenes:
         """See `Answerer.answer`."""
         run = asked.timeline.state
         kind = None if asked.ask.kind is None else Kind(asked.ask.kind)
-        scene = describe_percept(perceive(run.world, run.config), run.config)
-        text = self.text(scene, run, kind)
+        scene = describe_percept(sense(run)[0], run.config)
+        wrong = misperception(run).of(kind)
+        text = " ".join([self.text(scene, run, kind), *self._not_as_seen(wrong, run)])
         found = scene_json(scene, kind, run.config.cell_m, run.config.step_seconds)
-        return plain(self._sayings, asked.ask, run, text) | found
+        return plain(self._sayings, asked.ask, run, text) | found | misperception_json(wrong)
+
+    def _not_as_seen(self, wrong: Misperception, run: SimState) -> list[str]:
+        """What is seen and not there, and what is there and not seen: a few are told."""
+        told = []
+        for key, things, as_seen in (("phantoms", wrong.phantoms, True), ("missed", wrong.missed, False)):
+            if things:
+                naming = Naming(self._sayings, run, as_seen=as_seen)
+                shown = [naming.thing(thing.id) for thing in things[:MAX_TOLD]]
+                if len(things) > MAX_TOLD:
+                    shown.append(self._sayings.say("scene", "more", count=len(things) - MAX_TOLD))
+                form = ("one" if len(things) == 1 else "many",) if key == "phantoms" else ()
+                told.append(self._sayings.say("scene", key, *form, things=self._sayings.joined(shown)))
+        return told
 
     def text(self, scene: Scene, run: SimState, kind: Kind | None) -> str:
         """What is seen, or what of one kind. `run`: the moment the scene is of."""

@@ -6,6 +6,7 @@ from service.actions import Ask
 from service.narrate.answering import Json, not_so, plain
 from service.narrate.naming import Naming
 from service.narrate.sayings import Sayings
+from service.refusals import refusals
 from service.sessions.facts import Asked
 from service.sessions.pace import sets_pace
 from service.wire.future import what_if_json
@@ -25,7 +26,7 @@ from sim.actions import (
 from sim.explain import QuestionError
 from sim.explain.rollout import EpisodeRollout
 from sim.explain.what_if import Difference, WhatIf, what_if
-from sim.planner_names import WEIGHING
+from sim.plan import traits_of
 from sim.session.edits import Applied
 from sim.session.errors import EditError
 from sim.session.settings import AS_IT_IS
@@ -58,8 +59,9 @@ class WhatIfs:
         except QuestionError as error:
             return plain(self._sayings, ask, timeline.state, not_so(self._sayings, error.code, error.facts))
         except EditError as error:
-            told = plain(self._sayings, ask, timeline.state, self._say("cannot", message=error.message))
-            return told | {"evidence": {"code": error.code, "field": error.field, "message": error.message}}
+            message = refusals().edit(error)
+            told = plain(self._sayings, ask, timeline.state, self._say("cannot", message=message))
+            return told | {"evidence": {"code": error.category, "field": error.field, "message": message}}
         text = self._text(ask, found)
         if len(actions) < len(change):
             text = f"{text} {self._say('rest_aside')}"
@@ -136,7 +138,7 @@ class WhatIfs:
         """Wishes are nothing to a planner that does not weigh."""
         planner = found.done[-1].state.config.planner
         wished = any(isinstance(each.action, Prefer) for each in found.done)
-        if not wished or planner in WEIGHING or found.real.by_hand:
+        if not wished or traits_of(planner).weighs_costs or found.real.by_hand:
             return []
         return [self._sayings.say("replies", "weighs_nothing", planner=planner)]
 
@@ -235,7 +237,7 @@ class Conditions:
             return self._say("nothing_left")
         if len(things) <= NAMED:
             if all(before.world.find(thing.id) for thing in things):
-                named = Naming(self._sayings, before).things([thing.id for thing in things])
+                named = Naming(self._sayings, before, as_seen=False).things([thing.id for thing in things])
                 return self._say("not_there", who=named)
             a = [self._sayings.say("words", "a", thing.kind) for thing in things]
             return self._say("gone", a=self._sayings.joined(a))
@@ -248,7 +250,7 @@ class Conditions:
             return self._say(
                 "more", count=action.count, things=self._sayings.things(action.kind, action.count)
             )
-        place = Naming(self._sayings, applied.state).place(applied.added[0].cell)
+        place = Naming(self._sayings, applied.state, as_seen=False).place(applied.added[0].cell)
         if action.where is None:
             return self._say("one_more", thing=self._sayings.things(action.kind, 1), place=place)
         return self._say("one_at", a=self._sayings.say("words", "a", action.kind), place=place)

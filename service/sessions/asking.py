@@ -11,7 +11,8 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from contextlib import suppress
 
-from sim.perceive import Percept, perceive
+from sim.decide import sense
+from sim.perceive import Percept
 from sim.plan import Decision
 from sim.plan.safe_planning import is_foreign, plan_answered
 from sim.plan.sandbox.answer import Answer
@@ -37,7 +38,7 @@ class Asking:
         """Ask what a state leads to, if another package's planner is to say; needs a running loop."""
         if not decides(run):
             return False
-        percept, loop = perceive(run.world, run.config), asyncio.get_running_loop()
+        percept, loop = sense(run)[0], asyncio.get_running_loop()
         asked = ask(percept, run.config)
         self._asked = asked
 
@@ -61,4 +62,5 @@ class Asking:
 def decides(run: SimState) -> bool:
     """Whether a planner of another package decides the next move."""
     by_hand = bool(run.queue) or run.mode is Mode.MANUAL
-    return not by_hand and run.world.outcome is Outcome.RUNNING and is_foreign(run.config.planner)
+    alone = len(run.world.avs) == 1  # of several egos one decides after the other
+    return alone and not by_hand and run.world.outcome is Outcome.RUNNING and is_foreign(run.config.planner)

@@ -28,7 +28,9 @@ from service.actions import (
     Undo,
 )
 from service.actions import Step as StepTicks
-from service.problems import DoesNotFit, FieldProblem, Invalid, NotAvailable, NothingToUndo, ProblemError
+from service.problems import DoesNotFit, FieldProblem, Invalid, NotAvailable, NothingToUndo
+from service.refusals import refusals
+from service.resources import DEFAULT_LANGUAGE
 from service.sessions import availability
 from service.sessions.facts import Advised, Asked, Fact, PauseSet, Stepped, Undone, Viewed
 from service.sessions.history import History, Step
@@ -71,7 +73,17 @@ _DECIDES_ANEW = (StepTicks, Undo, Redo)
 class Draft:
     """A session's changeable part, on a copy."""
 
-    def __init__(self, timeline: Timeline, paused: bool, history: History, pace: Pace = NORMAL) -> None:
+    def __init__(
+        self,
+        timeline: Timeline,
+        paused: bool,
+        history: History,
+        pace: Pace = NORMAL,
+        language: str = DEFAULT_LANGUAGE,
+    ) -> None:
+        """`language`: the one in which actions are refused."""
+        self._language = language
+        self._refusals = refusals(language)
         self.timeline = timeline.copy()
         self.paused = paused
         self.pace = pace
@@ -125,7 +137,7 @@ class Draft:
         return not isinstance(action, Redo) or bool(self.history.undone)
 
     def _do(self, sequence: int, position: int, action: Action) -> Fact:
-        sentence = availability.refusal(action)
+        sentence = availability.refusal(action, self._language)
         if sentence is not None:
             raise NotAvailable(sentence, errors=[FieldProblem(f"actions.{position}", sentence)])
         match action:
@@ -165,7 +177,7 @@ class Draft:
             ):
                 return self._apply(sequence, position, action)
             case Teach() | Forget():
-                sentence = "A phrase is taught or forgotten by itself, outside of any session."
+                sentence = self._refusals.session("alone")
                 raise Invalid(sentence, errors=[FieldProblem(f"actions.{position}", sentence)])
             case _:
                 raise AssertionError(f"{action.do} is offered but nobody does it")
@@ -174,7 +186,10 @@ class Draft:
         try:
             (applied,) = self.timeline.apply(sequence, [action])
         except EditError as error:
-            raise _edit_problem(error, position) from error
+            sentence = self._refusals.edit(error)
+            kind = NotAvailable if error.category == "not-available" else DoesNotFit
+            where = f"actions.{position}.{error.field}"
+            raise kind(sentence, errors=[FieldProblem(where, sentence)]) from error
         return applied
 
     def _advise(self, position: int, action: Advise) -> Advised:
@@ -182,8 +197,8 @@ class Draft:
         try:
             advice = advise(Kind(action.hazard), action.distance_m, action.speed_kmh, weather)
         except NoAdviceError as error:
-            where = f"actions.{position}.{error.field}"
-            raise Invalid(error.message, errors=[FieldProblem(where, error.message)]) from error
+            sentence, where = self._refusals.advice(error), f"actions.{position}.{error.field}"
+            raise Invalid(sentence, errors=[FieldProblem(where, sentence)]) from error
         return Advised(advice, self.timeline.tick)
 
     def _set_paused(self, paused: bool) -> PauseSet:
@@ -195,8 +210,9 @@ class Draft:
         try:
             self.pace = pace_after(before, action)
         except PaceError as error:
+            sentence = self._refusals.pace(error.code, error.facts)
             where = f"actions.{position}.{error.field}"
-            raise Invalid(error.message, errors=[FieldProblem(where, error.message)]) from error
+            raise Invalid(sentence, errors=[FieldProblem(where, sentence)]) from error
         return PaceSet(before, self.pace, self.timeline.tick)
 
     def _step(self, ticks: int) -> Stepped:
@@ -204,20 +220,20 @@ class Draft:
         try:
             return Stepped(self.timeline.tick, tuple(self.timeline.advance() for _ in range(ticks)))
         except PlannerSilentError as silence:
-            raise not_answered(silence) from silence
+            raise not_answered(silence, self._language) from silence
 
     def _undo(self, position: int) -> Undone:
         self._close_step()
         step = self.history.undo(self.timeline)
         if step is None:
-            raise _nothing("There is no change to take back.", position)
+            raise _nothing(self._refusals.session("nothing_to_undo"), position)
         return self._take(step.reversed, again=False)
 
     def _redo(self, position: int) -> Undone:
         self._close_step()
         step = self.history.redo(self.timeline)
         if step is None:
-            raise _nothing("No change has been taken back that could be made again.", position)
+            raise _nothing(self._refusals.session("nothing_to_redo"), position)
         return self._take(step, again=True)
 
     def _rewind(self, position: int, ticks: int) -> Went:
@@ -228,7 +244,7 @@ class Draft:
     def _save(self, sequence: int, position: int, name: str) -> Kept:
         saved = self.history.saved
         if name not in saved and len(saved) >= MOST_NAMES:
-            sentence = f"{MOST_NAMES} moments have names here, which is the limit; save under one of those."
+            sentence = self._refusals.session("names", most=MOST_NAMES)
             raise Invalid(sentence, errors=[FieldProblem(f"actions.{position}.name", sentence)])
         again = name in saved
         self.history.saved = {**saved, name: Moment(name, sequence, self.timeline.copy())}
@@ -270,7 +286,7 @@ class Draft:
             try:
                 self.timeline.rewrite(self.timeline.entries.first(kept).plus(step.after), step.since)
             except PlannerSilentError as silence:
-                raise not_answered(silence) from silence
+                raise not_answered(silence, self._language) from silence
         else:
             self.timeline = step.jump.after.copy()
             self._jumped = True
@@ -303,9 +319,9 @@ class _Mark:
         return _Mark(self.timeline, self.paused, self.kept)
 
 
-def not_answered(silence: PlannerSilentError) -> NotAvailable:
+def not_answered(silence: PlannerSilentError, language: str = DEFAULT_LANGUAGE) -> NotAvailable:
     """The problem of a planner that did not answer in time."""
-    sentence = f"{silence}. Drive yourself, or choose another planner."
+    sentence = refusals(language).session("silent", planner=silence.planner, fault=silence.fault)
     return NotAvailable(sentence, errors=[FieldProblem("planner", sentence)])
 
 
@@ -319,11 +335,6 @@ def check_ticks(actions: Sequence[Action], most: int) -> None:
     if ticks_to_run(actions) > most:
         sentence = f"At most {most} ticks can be run at once."
         raise Invalid(sentence, errors=[FieldProblem("ticks", sentence)])
-
-
-def _edit_problem(error: EditError, position: int) -> ProblemError:
-    kind = NotAvailable if error.code == "not-available" else DoesNotFit
-    return kind(error.message, errors=[FieldProblem(f"actions.{position}.{error.field}", error.message)])
 
 
 def _nothing(sentence: str, position: int) -> NothingToUndo:

@@ -15,7 +15,6 @@ from functools import partial
 
 import structlog
 from anyio import to_thread
-from sim.rules.versions import NewerRulesError
 
 from service import actions as contract
 from service.actions import Action
@@ -28,6 +27,7 @@ from service.problems import (
     TooManySessions,
     UnknownSession,
 )
+from service.refusals import refusals
 from service.sessions.draft import Draft, check_ticks
 from service.sessions.elsewhere import REPLAY_S, STEPS_S, patiently
 from service.sessions.forking import way_of
@@ -42,6 +42,7 @@ from service.sessions.waking import woken
 from service.store import EntryRecord, KeptAnswer, MomentRecord, SessionRecord, StoreError
 from sim.actions import Set
 from sim.config import Config, ConfigError
+from sim.rules.versions import NewerRulesError
 from sim.session.timeline import Timeline
 
 _LOG = structlog.get_logger(__name__)
@@ -342,7 +343,7 @@ class SessionManager:
             raise NotRestorable(sequence) from error
         except NewerRulesError as error:
             _LOG.error("a kept session is of newer rules", session=session_id, rules=error.rules)
-            raise NotRestorable(reason=str(error)) from error
+            raise NotRestorable(reason=refusals().newer_rules(error, "session")) from error
         except (ConfigError, TypeError, StoreError) as error:
             _LOG.error("a kept session cannot be replayed", session=session_id, error=str(error))
             raise NotRestorable from error

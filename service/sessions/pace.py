@@ -37,12 +37,13 @@ MAX_PERIOD_S: Final = 0.002
 
 
 class PaceError(Exception):
-    """A speed that cannot be; `field` is that of the action."""
+    """A speed that cannot be: a code with a sentence in `refusals.yaml`; `field` is that of the action."""
 
-    def __init__(self, message: str, field: str) -> None:
-        super().__init__(message)
-        self.message = message
+    def __init__(self, code: str, field: str, **facts: object) -> None:
+        super().__init__(code)
+        self.code = code
         self.field = field
+        self.facts = facts
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +66,7 @@ def pace_after(pace: Pace, action: Set | Adjust) -> Pace:
         if action.value == MAX:
             return MAX
         if isinstance(action.value, str):
-            raise PaceError(f"{_range()}, not {action.value!r}.", "value")
+            raise PaceError("not_a_speed", "value", low=SLOWEST, high=FASTEST, value=action.value)
         return _within(float(action.value), "value")
     if action.direction == "up":
         return _up(pace)
@@ -77,7 +78,7 @@ def pace_after(pace: Pace, action: Set | Adjust) -> Pace:
     else:
         wanted, field = now + (action.by or 0.0), "by"
     if pace == MAX and wanted > now:
-        raise PaceError("It plays as fast as possible already.", field)
+        raise PaceError("fastest", field)
     return _within(round(wanted, 9), field)
 
 
@@ -117,7 +118,7 @@ def _ticks_a_turn(pace: Pace, step_seconds: float) -> int:
 
 def _up(pace: Pace) -> Pace:
     if pace == MAX:
-        raise PaceError("It plays as fast as possible already.", "direction")
+        raise PaceError("fastest", "direction")
     if pace == FASTEST:
         return MAX
     return min(FASTEST, float(pace) * 2)
@@ -125,15 +126,11 @@ def _up(pace: Pace) -> Pace:
 
 def _halved(pace: float) -> Pace:
     if pace == SLOWEST:
-        raise PaceError(f"The playback speed is at its limit already: {said(pace)}.", "direction")
+        raise PaceError("slowest", "direction", low=SLOWEST)
     return max(SLOWEST, pace / 2)
 
 
 def _within(value: float, field: str) -> float:
     if not SLOWEST <= value <= FASTEST:  # false for what is no number, too
-        raise PaceError(f"{_range()}; this would be {value:g}.", field)
+        raise PaceError("out_of_range", field, low=SLOWEST, high=FASTEST, value=value)
     return value
-
-
-def _range() -> str:
-    return f"The playback speed goes from {SLOWEST:g} to {FASTEST:g}, or is {MAX!r} for as fast as possible"

@@ -19,6 +19,7 @@ from anyio import to_thread
 
 from service.actions import Action, Advise, Ask, Hide, Show
 from service.problems import NotSaved, UnknownName, UnknownSession
+from service.resources import DEFAULT_LANGUAGE
 from service.sessions.asking import Asking
 from service.sessions.clock import Clock
 from service.sessions.conversation import Conversation
@@ -237,8 +238,8 @@ class Session:
         """Whether these would be done, and change something; long work is taken to be possible."""
         return possible(self._draft(), self.sequence, actions)
 
-    def _draft(self) -> Draft:
-        return Draft(self.timeline, self.paused, self.history, self.pace)
+    def _draft(self, language: str = DEFAULT_LANGUAGE) -> Draft:
+        return Draft(self.timeline, self.paused, self.history, self.pace, language)
 
     @asynccontextmanager
     async def held(self, terms: Terms) -> AsyncIterator[None]:
@@ -279,7 +280,7 @@ class Session:
                 utterance = utterance(self.timeline)
             self._changing = True
             try:
-                draft = self._draft()
+                draft = self._draft(utterance.language)
                 with timed("apply"):
                     facts = await self._perform(draft, utterance)
                 seen = await self.outlooks.after(draft.timeline.state, facts)

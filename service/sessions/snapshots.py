@@ -29,6 +29,7 @@ from service.version import VERSION
 from sim.plan.safe_planning import is_foreign
 from sim.planner_names import installed
 from sim.session.saved_config import saved_config
+from sim.session.serialization import BeliefError
 
 FORMAT = 2
 """Of the JSON values."""
@@ -77,7 +78,10 @@ def sealed(frozen: Frozen, lines: int) -> SnapshotRecord:
     """A snapshot of a session whose log holds so many lines. Raises `TooLargeError`; in any thread."""
     thinned = 1
     while True:
-        values, planners = written(frozen, thinned)
+        try:
+            values, planners = written(frozen, thinned)
+        except BeliefError as error:
+            raise TooLargeError(str(error)) from error
         values |= {"session": frozen.session, "tick": frozen.timeline.tick, "held": lines}
         values["planners"] = _foreign(planners)
         try:

@@ -12,10 +12,8 @@ from service.sessions.facts import Answerable, Asked, Fact, asked_about, changes
 from service.sessions.utterance import Notice, Outcome, Utterance
 from service.sessions.words import Words
 from service.store import EntryRecord
+from sim.plan import traits_of
 from sim.state import SimState
-
-QUICK_PLANNERS = frozenset(("priority", "rules"))
-"""Planners that decide in so little time that an answer from hundreds of decisions is at once."""
 
 LONG_QUESTIONS = frozenset(("what_if", "why_not", "confidence"))
 """Questions for which whole episodes are run, with whatever planner."""
@@ -78,4 +76,5 @@ def long_to_answer(planner: str, facts: tuple[Fact, ...]) -> bool:
     if not asked:
         return False
     earlier = {timeline.config.planner for timeline in asked_about(facts)}
-    return not {planner, *earlier} <= QUICK_PLANNERS or bool(LONG_QUESTIONS & asked)
+    slow = any(not traits_of(each).quick for each in {planner, *earlier})
+    return slow or bool(LONG_QUESTIONS & asked)

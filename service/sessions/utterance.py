@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from service.actions import Action
+from service.resources import DEFAULT_LANGUAGE
 from service.sessions.facts import Fact, Stepped
 from sim.events import Event
 from sim.session.edits import Change
@@ -20,6 +21,8 @@ class Utterance:
     text: str | None = None
     supposes: str | None = None
     """what its questions were said to be about, beyond their keys (`Asked.supposes`)"""
+    language: str = DEFAULT_LANGUAGE
+    """the language in which it is refused, where it cannot be done"""
 
 
 @dataclass(frozen=True, slots=True)

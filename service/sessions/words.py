@@ -19,6 +19,9 @@ class Words(Protocol):
     def event(self, event: Event, run: SimState) -> str:
         """One line of the log."""
 
+    def planner(self, name: str) -> str:
+        """A planner as people know it."""
+
     def silent(self, planner: str, fault: str) -> str:
         """What is said when a planner did not answer in time and a person is to drive."""
 

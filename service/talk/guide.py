@@ -17,13 +17,14 @@ from service.language.complete import Completer
 from service.language.corpus import sentences
 from service.language.parse_types import Understood
 from service.language.topic import Topic
+from service.resources import DEFAULT_LANGUAGE
 from service.sessions.availability import refusal
 from service.sessions.pace import Pace, PaceError, pace_after, sets_pace
 from service.sessions.session import Session
 from sim.actions import Adjust, Set
 from sim.config import Config
 from sim.session.errors import EditError
-from sim.session.settings import setting
+from sim.session.settings import change_setting
 
 MOST_AT_ONCE = 40
 """Characters of the longest prefix that is completed where it came in: each completion is read as a whole."""
@@ -53,8 +54,10 @@ class Intent:
 class Guide:
     """The guide to one language."""
 
-    def __init__(self, grammar: Grammar) -> None:
+    def __init__(self, grammar: Grammar, language: str = DEFAULT_LANGUAGE) -> None:
+        """`language`: its code; what is not available is said in it."""
         self._grammar = grammar
+        self._language = language
 
     @cached_property
     def intents(self) -> tuple[Intent, ...]:
@@ -64,7 +67,7 @@ class Guide:
             parsed = self._grammar.parse(text)
             if isinstance(parsed, Understood) and len({_name(action) for action in parsed.actions}) == 1:
                 by_name.setdefault(_name(parsed.actions[0]), []).append(Example(text, parsed.actions))
-        found = [_intent(name, examples) for name, examples in by_name.items()]
+        found = [_intent(name, examples, self._language) for name, examples in by_name.items()]
         return tuple(sorted(found, key=lambda intent: not intent.available))
 
     def completions(self, prefix: str, session: Session | None, topic: Topic, taught: list[str]) -> list[str]:
@@ -127,14 +130,15 @@ def _settable(actions: tuple[Action, ...], config: Config, pace: Pace) -> bool:
                 if sets_pace(action):
                     pace = pace_after(pace, action)
                 else:
-                    config = setting(config, action)
+                    config = change_setting(config, action)
     except (EditError, PaceError):
         return False
     return True
 
 
-def _intent(name: str, examples: list[Example]) -> Intent:
+def _intent(name: str, examples: list[Example], language: str) -> Intent:
     working = [each for each in examples if all(refusal(action) is None for action in each.actions)]
     shown = (working or examples)[:EXAMPLES]
-    why_not = None if working else next(filter(None, map(refusal, examples[0].actions)), None)
+    reasons = [] if working else [refusal(action, language) for action in examples[0].actions]
+    why_not = next(filter(None, reasons), None)
     return Intent(name, bool(working), why_not, tuple(shown))

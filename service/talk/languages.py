@@ -10,11 +10,10 @@ from service.language import Language as Grammar
 from service.language.parse_types import Parse
 from service.language.topic import ALONE, Phrases, Topic
 from service.problems import FieldProblem, Invalid
-from service.resources import prompts_folder
+from service.refusals import refusals
+from service.resources import DEFAULT_LANGUAGE, prompts_folder
 from service.sessions.availability import refusal
 from service.talk.guide import Guide
-
-DEFAULT = "en"
 
 
 class Language(Protocol):
@@ -44,7 +43,7 @@ class Languages:
         """The guide to a language; None where it is not made of data. Raises `Invalid` for no language."""
         language = self[code]
         if code not in self._guides and isinstance(language, Grammar):
-            self._guides[code] = Guide(language)
+            self._guides[code] = Guide(language, code)
         return self._guides.get(code)
 
     @classmethod
@@ -52,14 +51,15 @@ class Languages:
         """All there are. Raises `LanguageDataError`, naming every defect, when one is unfit."""
         codes = sorted(path.name for path in (prompts_folder() / "language").iterdir() if path.is_dir())
         loaded = {code: Grammar.load(code, offered=lambda action: refusal(action) is None) for code in codes}
-        for grammar in loaded.values():
+        for code, grammar in loaded.items():
+            refusals(code)  # read at the start as well
             grammar.suggestions.nearest("", frozenset())  # ready before anyone is refused
         return cls(loaded)
 
     @property
     def codes(self) -> tuple[str, ...]:
         """The codes, the default first."""
-        return tuple(sorted(self._by_code, key=lambda code: (code != DEFAULT, code)))
+        return tuple(sorted(self._by_code, key=lambda code: (code != DEFAULT_LANGUAGE, code)))
 
     def __getitem__(self, code: str) -> Language:
         """Raises `Invalid` for a language that is not spoken here."""

@@ -21,12 +21,13 @@ from service.language.sentences import Unsayable
 from service.language.topic import ALONE, Topic
 from service.llm.protocol import LanguageModel
 from service.problems import Ambiguous, FieldProblem, Invalid, NotAQuestion, NotUnderstood
+from service.resources import DEFAULT_LANGUAGE
 from service.sessions.facts import Lesson
 from service.sessions.session import Session
 from service.sessions.terms import ANY_TERMS, Terms
 from service.sessions.utterance import Outcome, Utterance
 from service.sessions.words import Words
-from service.talk.languages import DEFAULT, Languages
+from service.talk.languages import Languages
 from service.talk.phrasebook import Phrasebook
 from service.talk.preview import Preview, preview
 from service.timing import part
@@ -61,13 +62,13 @@ class Heard:
     actions: tuple[Action, ...]
     corrections: tuple[Correction, ...] = ()
     source: Source = "grammar"
-    language: str = DEFAULT
+    language: str = DEFAULT_LANGUAGE
     supposes: str | None = None
 
     @property
     def utterance(self) -> Utterance:
         """Ready to be done."""
-        return Utterance(actions=self.actions, text=self.text, supposes=self.supposes)
+        return Utterance(actions=self.actions, text=self.text, supposes=self.supposes, language=self.language)
 
 
 class Listener:
@@ -93,7 +94,7 @@ class Listener:
         self._confirm = confirm
         self._rephrase = rephrase
 
-    def topic(self, session: Session | None, code: str = DEFAULT) -> Topic:
+    def topic(self, session: Session | None, code: str = DEFAULT_LANGUAGE) -> Topic:
         """What a sentence may refer to: what the session was told, and what was taught."""
         phrases = self.phrasebook.phrases(code)
         if session is None:
@@ -103,15 +104,15 @@ class Listener:
     def sentence(self, config: Config) -> str | None:
         """The sentence that makes such a road; None where nothing that can be said does."""
         try:
-            return self.languages[DEFAULT].sentence(config_to_actions(config) or (Scenario(),))
+            return self.languages[DEFAULT_LANGUAGE].sentence(config_to_actions(config) or (Scenario(),))
         except (UndescribableError, Unsayable):
             return None
 
-    async def foresee(self, text: str, session: Session, code: str = DEFAULT) -> Preview | None:
+    async def foresee(self, text: str, session: Session, code: str = DEFAULT_LANGUAGE) -> Preview | None:
         """What a sentence would do now; None for one that is empty, or too long to be heard."""
         if not text.strip() or len(text) > self._most_chars:
             return None
-        return preview(await self._read(text, session, code), session)
+        return preview(await self._read(text, session, code), session, code)
 
     async def _read(self, text: str, session: Session | None, code: str) -> Parse:
         parse, topic = self.languages[code].parse, self.topic(session, code)
@@ -120,7 +121,7 @@ class Listener:
         return await to_thread.run_sync(heard, parse, text, topic)
 
     async def hear(
-        self, text: str, session: Session | None = None, code: str = DEFAULT, field: str = "text"
+        self, text: str, session: Session | None = None, code: str = DEFAULT_LANGUAGE, field: str = "text"
     ) -> Heard:
         """What a sentence means. Raises `Invalid`, `NotUnderstood` or `Ambiguous`, naming `field`."""
         if len(text) > self._most_chars:
@@ -140,7 +141,7 @@ class Listener:
                     raise refusal
                 return await self._interpreted(self._model, text, refusal, code)
 
-    async def hear_question(self, text: str, session: Session | None, code: str = DEFAULT) -> Heard:
+    async def hear_question(self, text: str, session: Session | None, code: str = DEFAULT_LANGUAGE) -> Heard:
         """What a question means. Raises also `NotAQuestion` where something else was said."""
         found = await self.hear(text, session, code, "question")
         if not all(isinstance(action, Ask | Advise) for action in found.actions):
@@ -155,7 +156,7 @@ class Listener:
         utterance: Utterance,
         *,
         dry_run: bool = False,
-        code: str = DEFAULT,
+        code: str = DEFAULT_LANGUAGE,
         terms: Terms = ANY_TERMS,
     ) -> Outcome:
         """Do an utterance, all or nothing; a taught phrase is kept with its owner. Raises a problem."""
@@ -230,7 +231,7 @@ class Listener:
         if all(isinstance(action, at_once) for action in reading.actions):
             return Heard(text, reading.actions, source="llm", language=code)
         try:
-            said = self.languages[DEFAULT].sentence(reading.actions)
+            said = self.languages[DEFAULT_LANGUAGE].sentence(reading.actions)
         except Unsayable:
             refusal.detail += " A language model read it as something that has no sentence to confirm it by."
             raise refusal from None

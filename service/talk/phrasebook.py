@@ -16,10 +16,11 @@ from service.language.parse_types import Refused
 from service.language.sentences import Unsayable
 from service.language.topic import Phrases, Topic
 from service.problems import FieldProblem, NotAvailable, NotSaved, NotTeachable
+from service.resources import DEFAULT_LANGUAGE
 from service.sessions.availability import refusal
 from service.sessions.facts import Lesson
 from service.store import KeptAnswer, PhraseRecord, Store, StoreError
-from service.talk.languages import DEFAULT, Languages
+from service.talk.languages import Languages
 from sim.actions import Where
 from sim.types import PLACEABLE, Kind
 
@@ -51,14 +52,14 @@ class Phrasebook:
         self._kept = {(each.language, each.key): each for each in await self._store.phrases(OWNER)}
         self._ready.clear()
 
-    def phrases(self, code: str = DEFAULT) -> Phrases:
+    def phrases(self, code: str = DEFAULT_LANGUAGE) -> Phrases:
         """The phrases of a language, ready to be found in sentences."""
         if code not in self._ready:
             taught = {each.phrase: contract.load(each.meaning) for each in self.listed(code)}
             self._ready[code] = self._languages[code].phrases(taught)
         return self._ready[code]
 
-    def listed(self, code: str = DEFAULT) -> list[PhraseRecord]:
+    def listed(self, code: str = DEFAULT_LANGUAGE) -> list[PhraseRecord]:
         """What was taught in a language, in the order of the alphabet."""
         return sorted((each for each in self._kept.values() if each.language == code), key=lambda e: e.key)
 
@@ -114,7 +115,7 @@ class Phrasebook:
         if not isinstance(alone, Refused) or alone.reason != "not_understood":
             raise _not_teachable(f"“{action.phrase}” means something already, and that stays.")
         for meant in action.meaning:
-            if (sentence := refusal(meant)) is not None:
+            if (sentence := refusal(meant, code)) is not None:
                 raise NotAvailable(sentence, errors=[FieldProblem("meaning", sentence)])
 
     async def _teach(self, record: PhraseRecord, answer: KeptAnswer | None) -> None:

@@ -13,6 +13,7 @@ from typing import Literal
 from service.actions import Action, Advise, Ask, Forget, Teach
 from service.language.parse_types import Ambiguous, Parse, Refused, Understood
 from service.problems import ProblemError
+from service.resources import DEFAULT_LANGUAGE
 from service.sessions.draft import Draft
 from service.sessions.facts import changes_of
 from service.sessions.session import Session
@@ -38,8 +39,8 @@ class Preview:
     unparsed: tuple[str, ...] = ()
 
 
-def preview(parse: Parse, session: Session) -> Preview:
-    """What a parsed sentence would do to a session, which stays as it is."""
+def preview(parse: Parse, session: Session, language: str = DEFAULT_LANGUAGE) -> Preview:
+    """What a parsed sentence would do to a session, which stays as it is; refused in a language."""
     match parse:
         case Refused():
             standing: Standing = "not_understood" if parse.reason == "not_understood" else "refused"
@@ -47,14 +48,14 @@ def preview(parse: Parse, session: Session) -> Preview:
         case Ambiguous():
             return Preview("ambiguous", detail=parse.question)
         case Understood():
-            return _tried(parse.actions, session)
+            return _try(parse.actions, session, language)
 
 
-def _tried(actions: tuple[Action, ...], session: Session) -> Preview:
+def _try(actions: tuple[Action, ...], session: Session, language: str) -> Preview:
     doing = tuple(action for action in actions if not isinstance(action, Ask | Advise))
     if not doing:
         return Preview("asks", actions)
-    draft = Draft(session.timeline, session.paused, session.history, session.pace)
+    draft = Draft(session.timeline, session.paused, session.history, session.pace, language)
     long = draft.asks_others(doing) or draft.work_ticks(doing) > MOST_TICKS
     if isinstance(doing[0], Teach | Forget) or long:
         return Preview("does", actions)

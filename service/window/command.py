@@ -34,7 +34,7 @@ def play(
     scenario: Annotated[
         str | None, typer.Option(help='The road in a sentence: "a highway with 10 potholes".')
     ] = None,
-    planner: Annotated[str | None, typer.Option(help="Who decides.", show_default="priority")] = None,
+    planner: Annotated[str | None, typer.Option(help="Who decides.", show_default=Config().planner)] = None,
     size: Annotated[str, typer.Option(help="Width and height of the window in pixels.")] = SIZE,
 ) -> None:
     """Open the road in a window: drive, watch it drive, talk to it. No service is needed.
@@ -53,7 +53,7 @@ def play(
     try:
         base = Config().with_parts(**given)
     except ConfigError as error:
-        _refuse(f"There can be no such road: {error}.")
+        _refuse_road(error)
 
     environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     from service.window import loop
@@ -84,15 +84,15 @@ def _described(loading: Loading, sentence: str, base: Config, given: dict[str, o
     """The road that a sentence describes; what was given as an option stands."""
     from service.window.loading import LoadError
     from service.window.scenario import NoScenarioError, scenario_in
-    from sim.session.scenario import configured
+    from sim.session.scenario import config_of_scenario
 
     try:
         scenario: Scenario = scenario_in(sentence, loading.wait().languages)
-        return configured(base, scenario).with_parts(**given)
+        return config_of_scenario(base, scenario).with_parts(**given)
     except (LoadError, NoScenarioError) as error:
         _refuse(str(error))
     except ConfigError as error:
-        _refuse(f"There can be no such road: {error}.")
+        _refuse_road(error)
 
 
 def _size(text: str) -> tuple[int, int]:
@@ -102,6 +102,13 @@ def _size(text: str) -> tuple[int, int]:
             f"{text!r} is no size of a window; say for instance {SIZE}, and at least {LEAST_PX} each way."
         )
     return int(found[1]), int(found[2])
+
+
+def _refuse_road(error: ConfigError) -> NoReturn:
+    from service.refusals import refusals
+
+    told = "; ".join(f"{each.field}: {refusals().problem(each)}" for each in error.problems)
+    _refuse(f"There can be no such road: {told}.")
 
 
 def _refuse(message: str) -> NoReturn:

@@ -28,22 +28,23 @@ def load() -> Loaded:
     from service.actions import Hide, Show
     from service.language import Language
     from service.narrate import Narrator
+    from service.resources import DEFAULT_LANGUAGE
     from service.sessions.availability import refusal
-    from service.talk.languages import DEFAULT, Languages
+    from service.talk.languages import Languages
     from service.window import game  # noqa: F401 - all that a game imports, too
 
     def offered(action: object) -> bool:
         return isinstance(action, Show | Hide) or refusal(action) is None  # type: ignore[arg-type]
 
-    grammar = Language.load(DEFAULT, offered=offered)
+    grammar = Language.load(DEFAULT_LANGUAGE, offered=offered)
     grammar.suggestions.nearest("", frozenset())  # ready before anyone is refused
-    languages = Languages({DEFAULT: grammar})
-    guide = languages.guide(DEFAULT)
+    languages = Languages({DEFAULT_LANGUAGE: grammar})
+    guide = languages.guide(DEFAULT_LANGUAGE)
     if guide is not None:
         from service.language.topic import ALONE
 
         guide.completions("a", None, ALONE, [])
-    return Loaded(languages, Narrator.load(DEFAULT))
+    return Loaded(languages, Narrator.load(DEFAULT_LANGUAGE))
 
 
 @dataclass

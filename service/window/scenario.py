@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from service.language.parse_types import Ambiguous, Refused, Understood
+from service.resources import DEFAULT_LANGUAGE
 from service.sessions.availability import refusal
-from service.talk.languages import DEFAULT, Languages
+from service.talk.languages import Languages
 from sim.actions import Scenario
 
 
@@ -14,7 +15,7 @@ class NoScenarioError(ValueError):
 
 def scenario_in(sentence: str, languages: Languages) -> Scenario:
     """The scenario that a sentence describes. Raises `NoScenarioError`."""
-    parse = languages[DEFAULT].parse(sentence)
+    parse = languages[DEFAULT_LANGUAGE].parse(sentence)
     match parse:
         case Understood(actions=(Scenario() as scenario,)):
             missing = refusal(scenario)

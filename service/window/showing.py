@@ -7,9 +7,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
+from sim.decide import decide
 from sim.plan import Decision
 from sim.plan.safe_planning import is_foreign
-from sim.state import SimState, decide
+from sim.state import SimState
 from sim.types import Outcome
 
 if TYPE_CHECKING:

@@ -7,12 +7,14 @@ from typing import Final
 
 import pygame
 
+from service.refusals import refusals
 from service.window import look
 from sim.config import Config, ConfigError
 from sim.render import render, theme
 from sim.render.text import cut, wrapped, written
 from sim.render.theme import MAX_SIDE_PX
-from sim.state import SimState, StepResult, step
+from sim.state import SimState, StepResult
+from sim.transition import step
 
 DEFAULT_POTHOLES: Final = 10
 MOST_DIGITS: Final = 4
@@ -69,10 +71,11 @@ class Start:
         try:
             run = SimState.start(self._config_of(int(self.text or 0)))
         except ConfigError as error:
-            self.message = "; ".join(problem.message for problem in error.problems).capitalize() + "."
+            told = "; ".join(refusals().problem(problem) for problem in error.problems)
+            self.message = f"{told.capitalize()}."
             return
         self.message = "" if self.text else "A number, please: 0 is one too."
-        self._before, self._tick = None, StepResult(run, None, ())
+        self._before, self._tick = None, StepResult(run, {}, ())
 
     def draw(self, screen: pygame.Surface, now_s: float) -> None:
         """All of the window."""

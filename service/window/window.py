@@ -9,6 +9,7 @@ from typing import Final
 
 import pygame
 
+from service.refusals import refusals
 from service.sessions.pace import said
 from service.window import look
 from service.window.canvas import Canvas
@@ -185,7 +186,8 @@ class Window:
         try:
             self.game = Game(self._config_of(asked), loaded, self.panels)
         except GenerationError as error:
-            self.start.message, self.start.waiting = error.problems[0].message.capitalize() + ".", False
+            told = refusals().problem(error.problems[0])
+            self.start.message, self.start.waiting = f"{told.capitalize()}.", False
             return
         self._showing = Showing(self.game.session, now_s)
         self._controls = Controls(self.game, self.console, self.panels)
@@ -279,7 +281,8 @@ class Window:
         session, run = self.game.session, self._showing.after
         match name:
             case "road":
-                driver = "by hand" if run.mode is Mode.MANUAL else run.config.planner
+                planner = self.game.loaded.words.planner(run.config.planner)
+                driver = "by hand" if run.mode is Mode.MANUAL else planner
                 standing = "paused" if session.paused else said(session.pace)
                 return f"{standing}  ·  {driver}  ·  seed {run.config.seed}"
             case "plan":

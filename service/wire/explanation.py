@@ -48,6 +48,7 @@ def crash_json(crash: Crash) -> Json:
         "looked_back": crash.looked_back,
         "whole": crash.whole,
         "saving": None if crash.saving is None else _saving_json(crash.saving),
+        **({"missed": crash.missed} if crash.missed else {}),
     }
     return told
 
@@ -72,6 +73,7 @@ def _cause_json(cause: Cause, moment: SimState) -> Json:
         "necessary": cause.necessary,
         "group": cause.group,
         "each_enough": cause.each_enough,
+        **({} if cause.real else {"real": False}),
     }
 
 
@@ -82,8 +84,12 @@ def _distance(cell: tuple[int, int], moment: SimState) -> float:
 
 
 def _flip_json(flip: Counterfactual, tick: int) -> Json:
-    """A change that flips the decision; `at_tick` is where a fork must begin to see it."""
-    return {"at_tick": tick, "change": contract.dump(flip.change), "decision": flip.move}
+    """A change that flips the decision; `at_tick` is where a fork must begin to see it.
+
+    `undetected`: ids that must not be seen either, which no fork can bring about.
+    """
+    told = {"at_tick": tick, "change": contract.dump(flip.change), "decision": flip.move}
+    return told | ({"undetected": flip.undetected} if flip.undetected else {})
 
 
 def _stakes_json(stakes: Alternatives) -> Json:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from sim.explain.misperception import Misperception
 from sim.explain.scene import Detection, Scene
 from sim.types import Kind
 
@@ -18,6 +19,12 @@ def scene_json(scene: Scene, kind: Kind | None, cell_m: float, step_seconds: flo
         "seen": [_seen_json(thing, cell_m, step_seconds) for thing in scene.of(kind)],
         "threats": [thing.id for thing in scene.threats if kind is None or thing.kind is kind],
     }
+
+
+def misperception_json(wrong: Misperception) -> Json:
+    """Ids of what is seen and not there, and of what is there and not seen; nothing where all is right."""
+    told = {"phantoms": wrong.phantoms, "missed": wrong.missed}
+    return {key: [thing.id for thing in things] for key, things in told.items() if things}
 
 
 def _seen_json(thing: Detection, cell_m: float, step_seconds: float) -> Json:

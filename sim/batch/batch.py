@@ -7,7 +7,7 @@ those it is compiled for; another in a configuration is refused.
 
 Structure: a block of worlds is kept in the processor's nearest cache for many ticks
 (`sim.batch.layout`), one compiled call does all ticks of all worlds (`sim.batch.tick`). Guarantee: the
-same states as `sim.state.step`, bit for bit, every tick. Idea: worlds as arrays of machine words, as
+same states as `sim.transition.step`, bit for bit, every tick. Idea: worlds as arrays of machine words, as
 in Waymax (Gulino et al., 2023) and Craftax (Matthews et al., 2024), with the set operations of chess
 engines in place of floating point.
 """
@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.batch.backward_dp import weighted_moves
-from sim.batch.lanes import STATE, After, Lanes
+from sim.batch.lanes import STATE, UNKNOWN, After, Lanes, listed, not_known
 from sim.batch.layout import (
     ASKED,
     ENDS,
@@ -43,17 +43,19 @@ from sim.batch.layout import (
 from sim.batch.reachability import exact_moves
 from sim.batch.roads import begin_all, renew
 from sim.batch.tick import END_FIELD, MAX_TICKS_A_CALL, MOVE_FIELD, ticks_kernel
-from sim.config import Config
+from sim.config import COUNTS, Config
 from sim.generation import GenerationError
+from sim.planner_names import Alias, canonical
 from sim.rules.behaviour import DEFAULT_BEHAVIOUR
 from sim.rules.dynamics import DEFAULT_DYNAMICS
 from sim.state import SimState
 
-BatchPlanner = Literal["priority", "exact", "weighted", "astar", "dijkstra"]
-"""The rule; the least ticks; the least cost by three names, since `astar` and `dijkstra` decide the same."""
+BatchPlanner = Literal["priority", "bfs", "weighted", "astar", "dijkstra", Alias]
+"""The rule; the least ticks, by an older name as well; the least cost by three names, since `astar` and
+`dijkstra` decide the same."""
 
 _KERNELS: Final[dict[str, Any]] = {
-    "exact": exact_moves,
+    "bfs": exact_moves,
     "weighted": weighted_moves,
     "astar": weighted_moves,
     "dijkstra": weighted_moves,
@@ -76,11 +78,14 @@ class Batch(Lanes):
         its planner is left aside: `run` names one.
         """
         if after not in get_args(After):
-            raise ValueError(f"after an end follows {_listed(get_args(After))}, not {after!r}")
+            raise ValueError(f"after an end follows {listed(get_args(After))}, not {after!r}")
         sizes = {(config.columns, config.rows) for config in configs}
         if len(sizes) != 1:
             raise ValueError(f"a batch has roads of one size, not of {len(sizes)}")
         _check_rules(configs)
+        for kind in UNKNOWN:
+            if kind in COUNTS and any(getattr(config, COUNTS[kind]) for config in configs):
+                raise ValueError(not_known(kind))
         if any(config.layout for config in configs):
             raise ValueError('roads of a layout: make them with Batch.of, and after="stop" or "restart"')
         super().__init__(configs, after)
@@ -123,7 +128,7 @@ class Batch(Lanes):
 
         Raises `ValueError` for a planner that there is not, less than 0 ticks, and less than 1 thread.
         """
-        _known(planner)
+        planner = _known(planner)
         if ticks < 0:
             raise ValueError(f"a batch runs 0 ticks or more, not {ticks}")
         _some(threads)
@@ -138,7 +143,7 @@ class Batch(Lanes):
 
         Raises `ValueError` unless made with `after="stop"`, and as `run` does.
         """
-        _known(planner)
+        planner = _known(planner)
         _some(threads)
         if self.after != "stop":
             raise ValueError('only a batch made with after="stop" has an end')
@@ -172,7 +177,7 @@ class Batch(Lanes):
         return self._plan(planner, threads)[0]
 
     def least(self, planner: BatchPlanner, *, threads: int = 1) -> NDArray[np.int64]:
-        """Least ticks (`exact`) or least cost (`weighted`) to the goal (shape: lanes).
+        """Least ticks (`bfs`) or least cost (`weighted`) to the goal (shape: lanes).
 
         −1 where no way leads there, 0 where a result stands. Raises `ValueError` as `moves` does.
         """
@@ -240,7 +245,7 @@ class Batch(Lanes):
             ticks -= now
 
     def _plan(self, planner: BatchPlanner, threads: int) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:
-        _known(planner)
+        planner = _known(planner)
         _some(threads)
         if planner not in _KERNELS:
             raise ValueError(f"{planner!r} decides within the tick; use run")
@@ -311,10 +316,6 @@ class Batch(Lanes):
         self._first_lanes = self._lanes.copy() if restart else self._lanes
 
 
-def _listed(names: Sequence[str]) -> str:
-    return f"{', '.join(names[:-1])} or {names[-1]}"
-
-
 def _check_rules(configs: Sequence[Config]) -> None:
     """Raises `ValueError` for a motion or a behaviour that is not compiled."""
     for name, compiled in (("dynamics", DEFAULT_DYNAMICS), ("behaviour", DEFAULT_BEHAVIOUR)):
@@ -324,10 +325,13 @@ def _check_rules(configs: Sequence[Config]) -> None:
             )
 
 
-def _known(planner: str) -> None:
-    """Raises `ValueError` for a planner that decides for no batch."""
-    if planner not in get_args(BatchPlanner):
-        raise ValueError(f"a batch is driven by {_listed(get_args(BatchPlanner))}, not by {planner!r}")
+def _known(planner: str) -> BatchPlanner:
+    """The present name of a planner. Raises `ValueError` for one that decides for no batch."""
+    found: BatchPlanner = canonical(planner)
+    if found != "priority" and found not in _KERNELS:
+        there = listed(["priority", *_KERNELS])
+        raise ValueError(f"a batch is driven by {there}, not by {planner!r}")
+    return found
 
 
 def _some(threads: int) -> None:

@@ -24,6 +24,8 @@ from numba.cpython.unsafe import numbers
 
 from sim import randomness
 from sim.rules import ego_step, limits, traffic
+from sim.rules.kinds import PERIODS
+from sim.types import Kind
 
 config: Any = numba.config
 
@@ -32,6 +34,7 @@ _COMPILED_IN: Final = tuple(
     _SIM / name
     for name in (
         "rules/ego_step.py",
+        "rules/kinds.py",
         "rules/limits.py",
         "rules/traffic.py",
         "randomness.py",
@@ -102,7 +105,7 @@ word_at = _with_names(randomness.word_at, "uint64(uint64, int64)", mix=mix)
 fraction = _with_names(randomness.fraction, "float64(uint64)")
 scaled = _with_names(randomness.scaled, "uint64(uint64, uint64)")
 
-pedestrians_walk = _with_names(traffic.pedestrians_walk)
+steps_in_tick = _with_names(traffic.steps_in_tick)
 move_movers = _with_names(traffic.move_movers)
 brake = _with_names(traffic.brake)
 followed_board = _with_names(traffic.shift_board)
@@ -116,6 +119,15 @@ steps_left = _with_names(limits.steps_left, max_ticks=max_ticks)
 
 
 _trailing_zeros: Any = numbers.trailing_zeros
+
+
+_PEDESTRIAN_PERIOD: Final = PERIODS[Kind.PEDESTRIAN]
+
+
+@compiled
+def pedestrians_walk(episode_tick):
+    """Whether pedestrians step in the tick that begins at `episode_tick`."""
+    return steps_in_tick(_PEDESTRIAN_PERIOD, episode_tick)
 
 
 @compiled

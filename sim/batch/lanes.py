@@ -14,13 +14,15 @@ last block up are copies of the last configuration's):
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import astuple, dataclass
+from dataclasses import astuple, dataclass, replace
 from typing import Any, Final, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from sim.batch.causes import cause_of_crash
 from sim.batch.layout import (
+    ASKED,
     ATTENTIVE_KEY,
     BRAKING,
     CELL,
@@ -61,14 +63,19 @@ from sim.randomness import Stream
 from sim.repetition import Watch
 from sim.search.costs import weights
 from sim.state import SimState
-from sim.types import Kind, Outcome
+from sim.types import KINDS, MARKED, MOVES, PLACEABLE, Kind, Outcome
 from sim.world import World
+from sim.world.boards import Boards
 from sim.world.grid import Board, bits
 
 After = Literal["next", "restart", "stop"]
 """What follows an end: the next road as live, once the result has stood; the lane's first road, at once;
 or nothing."""
 
+_KINDS: Final = (Kind.POTHOLE, Kind.BARRIER, Kind.VEHICLE, Kind.PEDESTRIAN)
+"""The kinds that the kernels know."""
+UNKNOWN: Final = tuple(kind for kind in PLACEABLE if kind not in _KINDS)
+"""The kinds that a batch refuses."""
 _OUTCOMES: Final = tuple(Outcome)
 STATE: Final = ("_state", "_lanes", "_wholes", "_ticks", "_counts")
 """What changes as lanes advance, unless their first roads begin again."""
@@ -192,7 +199,7 @@ class Lanes:
         return self._lane_values(EPISODE_TICK).astype(np.int64)
 
     def observe(self) -> NDArray[np.uint8]:
-        """Every lane's cells (shape: lanes, 7, rows, columns; planes as in `sim.env.observation`)."""
+        """Every lane's cells (shape: lanes, 7, rows, columns; planes as in `sim.perceive.observe`)."""
         columns, rows = self.layout.columns, self.layout.rows
         out = np.empty((len(self), 7, rows, columns), np.uint8)
         observe(self._state, self._lanes, len(self), columns, rows, out)
@@ -215,7 +222,7 @@ class Lanes:
 
         barriers = fixed & ~potholes
         vehicles = (right | left) & ~walkers
-        return World(
+        world = World(
             road=self.layout.road,
             tick=tick,
             episode=int(self.episodes[lane]),
@@ -223,15 +230,18 @@ class Lanes:
             outcome=outcome,
             ended=None if outcome is Outcome.RUNNING else tick - since,
             avs=(int(self.vehicles[lane]),),
-            potholes=potholes,
-            barriers=barriers,
             right=right,
             left=left,
-            pedestrians=walkers,
+            boards=Boards.of({Kind.POTHOLE: potholes, Kind.BARRIER: barriers, Kind.PEDESTRIAN: walkers}),
             movers=ids(Kind.VEHICLE, vehicles) | ids(Kind.PEDESTRIAN, walkers),
             hazards=ids(Kind.POTHOLE, potholes) | ids(Kind.BARRIER, barriers),
             numbered=numbered,
         )
+        if outcome is not Outcome.CRASH:
+            return world
+        # The move is that of the tick that ended, unless others went on since.
+        move = None if since else MOVES[int(self._lane_values(ASKED)[lane])]
+        return replace(world, cause=cause_of_crash(world, move) or cause_of_crash(world, None))
 
     def digest(self, lane: int) -> str:
         """`World.digest` of one lane."""
@@ -245,6 +255,9 @@ class Lanes:
     def _place(self, lane: int, run: SimState) -> None:
         """Put a moment of a run into a lane."""
         world = run.world
+        for kind in UNKNOWN:
+            if world.count(kind):
+                raise ValueError(not_known(kind))
         block, inner = divmod(lane, LANES)
         boards = self._state[block].reshape(self.layout.words, PLANES, LANES)
         planes = (world.right, world.left, world.fixed, world.potholes, world.pedestrians)
@@ -280,7 +293,7 @@ class Lanes:
         for own, ahead, board in (
             (KEPT_RIGHT, KEPT_RIGHT_AHEAD, kept.right),
             (KEPT_LEFT, KEPT_LEFT_AHEAD, kept.left),
-            (KEPT_WALKERS, KEPT_WALKERS_AHEAD, kept.pedestrians),
+            (KEPT_WALKERS, KEPT_WALKERS_AHEAD, kept.marked[MARKED.index(Kind.PEDESTRIAN)]),
         ):
             values[own] = board >> columns << row % per_word * columns
             values[ahead] = (board & whole) << (row - 1) % per_word * columns
@@ -298,3 +311,14 @@ class Lanes:
     def _board(self, lane: int, plane: int) -> int:
         block, inner = divmod(lane, LANES)
         return self.layout.joined(self._plane_of_boards(plane)[block, :, inner])
+
+
+def listed(names: Sequence[str]) -> str:
+    """Names as a list to read."""
+    return f"{', '.join(names[:-1])} or {names[-1]}"
+
+
+def not_known(kind: Kind) -> str:
+    """What is said of things of a kind that the kernels do not know."""
+    known = listed([KINDS[each].plural for each in _KINDS])
+    return f"a batch has {known} on its roads, and no {KINDS[kind].plural}; run such roads one by one"

@@ -1,4 +1,4 @@
-"""Lanes as arrays of cells, for those who learn from them (planes as in `sim.env.observation`)."""
+"""Lanes as arrays of cells, for those who learn from them (planes as in `sim.perceive.observe`)."""
 
 from __future__ import annotations
 

@@ -79,7 +79,9 @@ from sim.batch.layout import (
     YIELDING,
 )
 from sim.batch.roads import begin_next
-from sim.rules.traffic import PEDESTRIAN_PERIOD, Motion
+from sim.rules.kinds import PERIODS
+from sim.rules.traffic import Motion
+from sim.types import Kind
 
 _ZERO: Final = np.uint64(0)
 _ONE: Final = np.uint64(1)
@@ -95,9 +97,9 @@ END_FIELD: Final = 16
 MAX_TICKS_A_CALL: Final = 2**MOVE_FIELD - 1
 """So that no counter overflows before it is emptied."""
 
-_PERIOD: Final = np.uint64(PEDESTRIAN_PERIOD)
+_PERIOD: Final = np.uint64(PERIODS[Kind.PEDESTRIAN])
 # What was kept in one tick cannot be what is so in the next, so it is first compared after two.
-assert PEDESTRIAN_PERIOD > 1
+assert PERIODS[Kind.PEDESTRIAN] > 1
 
 
 @compiled

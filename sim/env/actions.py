@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 
 from sim.batch import Batch
 from sim.config import Config
-from sim.forecast import predict
-from sim.perceive import perceive
+from sim.forecast import Forecast
 from sim.types import MOVES, Move, Outcome
 from sim.world import World
 from sim.world.grid import Road
@@ -54,7 +53,7 @@ def action_mask(world: World, config: Config) -> Masks:
     """The moves of one world (shape: 6)."""
     mask = np.zeros(len(MOVES), np.bool_)
     if world.outcome is Outcome.RUNNING:
-        forecast = predict(perceive(world, config), 1)
+        forecast = Forecast.of_truth(world, config, 1)
         for number, move in enumerate(MOVES):
             mask[number] = forecast.will_be_free(world.av, forecast.dynamics.target(world.av, move))
     return _never_empty(mask)

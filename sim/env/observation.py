@@ -1,8 +1,6 @@
 """What a learner is shown, the same for one world and for many.
 
-*Planes* (uint8, 0 or 1): potholes, barriers, movers heading right, movers heading left, pedestrians, the
-vehicle, and in every cell whether pedestrians step in this tick. With courtesy 0 the next observation follows
-from the whole road's planes and the action alone.
+The *planes* of a road are those that planners can have as well (`sim.perceive.observe`).
 
 A *window* is the part around the vehicle, with an eighth plane: cells that are not on the road.
 
@@ -23,14 +21,29 @@ from numpy.typing import NDArray
 
 from sim.config import Config
 from sim.env.options import one_of, whole
-from sim.rules.traffic import pedestrians_walk
-from sim.types import Kind
-from sim.world import World
-from sim.world.grid import bits
+from sim.perceive.observe import (
+    BARRIERS,
+    LEFT,
+    ORDER,
+    PEDESTRIANS,
+    PLANES,
+    POTHOLES,
+    RIGHT,
+    STEPPING,
+    VEHICLE,
+    Planes,
+)
+from sim.types import HAZARDS, MARKED, Kind
 
-PLANES: Final = 7
-POTHOLES, BARRIERS, RIGHT, LEFT, PEDESTRIANS, VEHICLE, STEPPING, OFF_ROAD = range(8)
-"""Planes by number; the last only in windows."""
+OFF_ROAD: Final = PLANES
+"""One plane more, in windows only."""
+_OF_BATCH: Final = (POTHOLES, BARRIERS, RIGHT, LEFT, PEDESTRIANS, VEHICLE, STEPPING)
+_LATER: Final = tuple(
+    (180 if kind.fixed else 20, ORDER.index(kind))
+    for kind in (*HAZARDS, *MARKED)
+    if kind not in (Kind.POTHOLE, Kind.BARRIER, Kind.PEDESTRIAN)
+)
+"""Red of later kinds in an image, and their planes. Those of two such kinds look alike."""
 
 KINDS: Final = ("planes", "image", "image_first")
 """Planes; an image of rows × columns × channels; one of channels × rows × columns."""
@@ -38,26 +51,14 @@ KINDS: Final = ("planes", "image", "image_first")
 MIN_IMAGE_PX: Final = 36
 MAX_WINDOW: Final = 512
 
-Planes = NDArray[np.uint8]
 
-
-def observed(world: World) -> Planes:
-    """One world's planes (shape: 7, rows, columns)."""
-    road = world.road
-    planes = np.zeros((PLANES, road.rows, road.columns), np.uint8)
-    boards = (
-        world.potholes,
-        world.barriers,
-        world.right,
-        world.left,
-        world.pedestrians,
-        world.board(Kind.AV),
-    )
-    for plane, board in zip(planes, boards, strict=False):
-        for cell in bits(board):
-            plane.flat[cell] = 1
-    planes[STEPPING] = pedestrians_walk(world.episode_tick)
-    return planes
+def of_batch(planes: Planes) -> Planes:
+    """The planes of `Batch.observe` with those of the kinds that a batch does not know, which are empty."""
+    if planes.shape[1] == PLANES:
+        return planes
+    whole = np.zeros((planes.shape[0], PLANES, *planes.shape[2:]), np.uint8)
+    whole[:, _OF_BATCH] = planes
+    return whole
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,6 +148,8 @@ class Observer:
         """Three channels, a value for each cell; every combination of planes has a value of its own."""
         stepping = cells[:, STEPPING]
         red = 120 * cells[:, POTHOLES] + 255 * cells[:, BARRIERS]
+        for shade, plane in _LATER:
+            red = red + shade * cells[:, plane]
         if self.window is not None:
             red = red + 60 * cells[:, OFF_ROAD]
         on_foot = cells[:, PEDESTRIANS]

@@ -30,7 +30,7 @@ def road_config(parts: Mapping[str, Any] | None) -> Config:
     if parts is not None and not isinstance(parts, Mapping):
         raise TypeError(f"config is a mapping of settings to values, not {parts!r}")
     if parts is not None and "seed" in parts:
-        raise ConfigError((Problem("seed", "is given to reset(seed=…), not to the configuration"),))
+        raise ConfigError((Problem("seed", "is_given_to_reset"),))
     return Config().with_parts(**(parts or {}))
 
 

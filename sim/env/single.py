@@ -11,13 +11,16 @@ from gymnasium import spaces
 from numpy.typing import NDArray
 
 from sim.config import Config
+from sim.decide import sense
 from sim.env import saved_state as saving
 from sim.env.actions import STAY, action_mask, checked_action
-from sim.env.observation import Observer, observed
+from sim.env.observation import Observer
 from sim.env.options import one_of, refuse_unknown, reset_options, road_config, switch
 from sim.env.reward import Rewards
 from sim.env.seeds import DRAWN_BELOW, checked_seed, folded
-from sim.state import SimState, apply_move, next_episode
+from sim.perceive.observe import observe
+from sim.state import FIRST, SimState, next_episode
+from sim.transition import transition
 from sim.types import MOVES, Outcome
 from sim.world import notation
 
@@ -116,7 +119,7 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
         if state.config.ego_dynamics(before.road).target(before.av, MOVES[number]) is None:
             number = STAY
         # As a person's move: what repeats then proves nothing about a planner.
-        self._run = apply_move(state, MOVES[number], by_person=True)
+        self._run = transition(state, {FIRST: MOVES[number]}, by_person=(FIRST,)).state
         after = self._run.world
         arrived, crashed = after.outcome is Outcome.SUCCESS, after.outcome is Outcome.CRASH
         columns = before.road.columns
@@ -161,8 +164,9 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
         return self._run
 
     def _observation(self) -> NDArray[np.uint8]:
-        world = self._begun().world
-        shown: NDArray[np.uint8] = self._observer.of_planes(observed(world)[None], np.array([world.av]))[0]
+        state = self._begun()
+        planes = observe(sense(state)[0])
+        shown: NDArray[np.uint8] = self._observer.of_planes(planes[None], np.array([state.world.av]))[0]
         return shown
 
     def _info(self) -> dict[str, Any]:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from sim.batch import Batch
 from sim.env import saved_state as saving
 from sim.env.actions import action_masks, checked_actions
-from sim.env.observation import Observer
+from sim.env.observation import Observer, of_batch
 from sim.env.options import one_of, refuse_unknown, reset_options, road_config, switch, whole
 from sim.env.reward import Rewards
 from sim.env.seeds import DRAWN_BELOW, checked_seed, folded
@@ -209,7 +209,7 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
         return mask.copy()
 
     def _observations(self, batch: Batch) -> Observations:
-        return self._observer.of_planes(batch.observe(), batch.vehicles)
+        return self._observer.of_planes(of_batch(batch.observe()), batch.vehicles)
 
     def _info(self, batch: Batch, lanes: Chosen) -> dict[str, Any]:
         """As `RoadEnv` tells it, of these lanes; nothing (0 or None) for the others, as `_…` says."""
@@ -252,7 +252,7 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
             crashes=int(totals.crashes[lane]),
             stuck=int(totals.stuck[lane]),
         )
-        return SimState(batch.configs[lane], batch.world(lane), metrics=counted)
+        return SimState(batch.configs[lane], batch.world(lane)).with_ego(metrics=counted)
 
 
 def _of_each(seed: object) -> bool:

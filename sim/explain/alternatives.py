@@ -1,21 +1,23 @@
 """What was at stake: where the other move would have led, run to the end, beside where this one leads.
 
 After its first move each future goes on as it would: the planner decides, nobody speaks. Ticks lost
-are those of the best way on after each move (`sim.oracle`), whatever the planner makes of it.
+are those of the best way on after each move (`sim.oracle`), whatever the planner makes of it. On the way it
+is decided by what is seen, and judged by what is there.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from sim.commit import moves_with
+from sim.decide import next_belief
 from sim.explain.rollout import rollout
 from sim.oracle.lower_bounds import PATIENCE, least_ticks
 from sim.plan import Decision
-from sim.planner_names import LOCAL
 from sim.repetition import NOTHING_KEPT, Situation, situation
 from sim.search.reactive import ImpatientError
 from sim.state import SimState
-from sim.transition import transition
+from sim.transition import next_world, repeats_for_ever
 from sim.types import Mode, Move, Outcome
 
 
@@ -68,7 +70,9 @@ def _compared(other: SimState, real: SimState) -> tuple[int | None, bool]:
 
 def after_move(state: SimState, move: Move) -> SimState:
     """The state after a move, judged."""
-    return replace(state, world=transition(state.world, move, state.config), queue=(), watch=NOTHING_KEPT)
+    world = next_world(state.world, moves_with(state.world, move), state.config, state.parked)
+    belief = next_belief(state)
+    return replace(state.with_ego(queue=(), watch=NOTHING_KEPT, belief=belief), world=world)
 
 
 def _end(state: SimState) -> Future | None:
@@ -76,7 +80,7 @@ def _end(state: SimState) -> Future | None:
     if state.mode is Mode.MANUAL and state.world.outcome is Outcome.RUNNING:
         return None
     # With `repetition` the run itself ends there.
-    recurs = state.config.planner in LOCAL and state.config.certain and not state.config.repetition
+    recurs = repeats_for_ever(state.config) and not state.config.repetition
     seen: set[Situation] = set()
     last = state
     if state.world.outcome is Outcome.RUNNING:

@@ -10,9 +10,10 @@ not, futures are drawn from it, with seeds of their own, and the share has Wilso
 A future in which the vehicle is proved to be shut off from the goal, by hazards or by movers in the rows
 before it, is followed no further: it does not arrive, however it ends.
 
-Every step is the session's own (`sim.state.advance`) with the draws of its tick set. Work is limited by
-decisions taken and never by the clock, so the same moment has the same answer everywhere. Not foreseen:
-what a person will do. In manual mode it is told how it goes if the vehicle drives from here on by itself.
+Every step is the session's own (`sim.transition.step`) with the draws of its tick set. Work is limited by
+decisions taken and never by the clock, so the same moment has the same answer everywhere. What the sensor
+will show is not left to chance: it draws as it does in this session. Not foreseen: what a person will do.
+In manual mode it is told how it goes if the vehicle drives from here on by itself.
 """
 
 from __future__ import annotations
@@ -24,30 +25,27 @@ from itertools import count
 from typing import Final, TypeAlias
 
 from sim.config import Config
+from sim.decide import decide_on, sense
 from sim.explain.facts import QuestionError
-from sim.forecast import predict
-from sim.perceive import perceive
-from sim.plan import Decision
-from sim.planner_names import BUILT_IN, WEIGHING
+from sim.forecast import Forecast
+from sim.perceive import Belief, sensor_named
+from sim.plan import Decision, Traits, traits_of
 from sim.randomness import Stream
 from sim.search.costs import weights
 from sim.search.dead_ends import cells_that_may_arrive
 from sim.search.reachability import steps_left
 from sim.session.timeline import Timeline
-from sim.state import SimState, step
+from sim.state import FIRST, SimState, StepResult
 from sim.statistics import wilson
+from sim.transition import step
 from sim.types import Mode, Move, Outcome
 from sim.world.grid import Board
 
-WORK: Final = {"priority": 450, "rules": 450, "exact": 450, "astar": 240, "dijkstra": 240}
-"""Decisions taken for one answer, by planner; a few more where the last future is run to its end."""
-OTHER_WORK: Final = 120
-"""The same for planners that are not the project's own."""
 WALK_SHARE: Final = 2 / 3
 """How much of the work goes into walking the whole tree before futures are drawn instead."""
-PATIENCE: Final = {"priority": 40, "rules": 40}
-"""Decisions after which futures are looked at for whether they are shut off; at once where not named, as a
-decision then costs as much as the look."""
+PROOF_AFTER: Final = 40
+"""Decisions of a quick planner after which futures are looked at for whether they are shut off; at once with
+any other, whose decision costs as much as the look."""
 MAX_FUTURES: Final = 200
 
 
@@ -190,9 +188,12 @@ class _Futures:
     start: SimState
     work: int = 0
     branched: int = 0
-    _nodes: dict[tuple[int, ...], _Node] = field(default_factory=dict)
+    _nodes: dict[tuple[int, ...], list[_Node]] = field(default_factory=dict)
     _root: _Node = field(init=False)
+    _traits: Traits = field(init=False)
     _known: bool = field(init=False)
+    """whether what is decided hangs only on the rows from the vehicle on"""
+    _faithful: bool = field(init=False)
     _buffer: int = field(init=False)
     _leading_on: list[Board] | None = None
     _unlike: Config = field(init=False)
@@ -200,10 +201,12 @@ class _Futures:
 
     def __post_init__(self) -> None:
         config = self.start.config
-        self._root = _Node(replace(self.start, mode=Mode.AUTO))
-        # Planners of others may look at anything; the project's own at what their charges reach.
-        self._known = config.planner in BUILT_IN
-        self._buffer = weights(config).buffer if config.planner in WEIGHING else 0
+        self._root = _Node(self.start.with_ego(mode=Mode.AUTO))
+        # Sensors may show anything, but for those that show the truth.
+        self._traits = traits_of(config.planner)
+        self._faithful = sensor_named(config.sensor).faithful
+        self._known = self._traits.forward_only and self._faithful
+        self._buffer = weights(config).buffer if self._traits.weighs_costs else 0
         # A tick that is drawn to be certain proves nothing about those that come again.
         self._unlike = config.with_parts(repetition=config.repetition and config.certain)
 
@@ -248,14 +251,14 @@ class _Futures:
 
     @property
     def _limit(self) -> int:
-        return WORK.get(self.start.config.planner, OTHER_WORK)
+        return self._traits.decisions_per_answer
 
     def _end(self, node: _Node) -> End | None:
         world = node.state.world
         ticks = world.tick - self.start.world.tick
         if world.outcome is not Outcome.RUNNING:
             return world.outcome, ticks
-        if self.work < PATIENCE.get(self.start.config.planner, 0):
+        if self._traits.quick and self.work < PROOF_AFTER:
             return None  # most are done by now, and the proof would cost more than they did
         if self._leading_on is None:
             self._leading_on = _hopeful(self.start)
@@ -284,7 +287,7 @@ class _Futures:
         for drawn, chance in possible:
             drawing = behaviour.drawing(world, self._unlike, drawn)
             if self._known:
-                forecast = predict(perceive(world, drawing), 1)
+                forecast = Forecast.of_truth(world, drawing, 1)
                 standing = forecast.standing
                 key: object = forecast.slices[0], None if standing is None else standing.slices[0]
             else:
@@ -295,28 +298,55 @@ class _Futures:
 
     def _step(self, state: SimState, config: Config) -> _Node:
         self.work += 1
-        tick = step(replace(state, config=config))
+        tick, belief = self._taken(state, config)
         if tick.decision is not None and tick.decision.fault is not None:
             # It may answer the next time, or cost a new process each time: neither is to be built upon.
             raise QuestionError("confidence_fault", planner=tick.decision.planner, fault=tick.decision.fault)
         after = replace(tick.state, config=self.start.config)
-        return self._nodes.setdefault(self._key(after), _Node(after))
+        if belief != after.belief:
+            after = after.with_ego(belief=belief)
+        alike = self._nodes.setdefault(self._key(after), [])
+        for node in alike:
+            if node.state.belief == belief:
+                return node
+        alike.append(_Node(after))
+        return alike[-1]
+
+    def _taken(self, state: SimState, config: Config) -> tuple[StepResult, Belief]:
+        """A tick in which movers react as this configuration draws it, and the belief after it.
+
+        The draws of a sensor are the session's own, not those of the seed that has these movers react.
+        """
+        drawn = replace(state, config=config)
+        if self._faithful or config is self.start.config:
+            tick = step(drawn)
+            return tick, tick.state.belief
+        percept, belief = sense(state)
+        moving = percept.right | percept.left
+        drawing = config.mover_behaviour.reactions(state.world, config)
+        seen = replace(percept, yielding=drawing.yielding & moving, attentive=drawing.attentive & moving)
+        return step(drawn, {FIRST: decide_on(drawn, seen)}), belief
 
     def _key(self, state: SimState) -> tuple[int, ...]:
-        """Equal for moments from which everything goes on alike."""
+        """Equal for moments from which everything goes on alike, where their beliefs are equal too."""
         world = state.world
         ahead = world.road.all
         if self._known:
             rows = world.road.cell(world.av)[1] + 1 + self._buffer
             ahead = (1 << min(rows, world.road.rows) * world.road.columns) - 1
-        boards = (world.right & ahead, world.left & ahead, world.pedestrians & ahead)
-        return world.tick, tuple(Outcome).index(world.outcome), *world.avs, *boards
+        boards = (world.right, world.left, *world.boards.marked)
+        return (
+            world.tick,
+            tuple(Outcome).index(world.outcome),
+            *world.avs,
+            *(board & ahead for board in boards),
+        )
 
 
 def _hopeful(state: SimState) -> list[Board]:
     """The cells from which the goal may still be reached in time, by ticks from now."""
     limit = steps_left(state.config, state.world.episode_tick)
-    return cells_that_may_arrive(predict(perceive(state.world, state.config), max(1, limit)), limit)
+    return cells_that_may_arrive(Forecast.of_truth(state.world, state.config, max(1, limit)), limit)
 
 
 def _pick(ways: list[tuple[float, _Node]], draw: float) -> _Node:

@@ -5,6 +5,9 @@ The causes are a smallest set of things that is *enough* for the crash, found as
 saved it is looked for backwards along the way that was driven: the last tick at which some way still led to
 the goal, the move that was made there, and one that leads there. Where somebody may give way by chance, or
 the road was changed meanwhile, nothing is claimed about earlier ticks.
+
+A crash may hang on what is there and was not detected, and on what was detected and is not there. So a thing
+is taken away from the road and from what is seen at once.
 """
 
 from __future__ import annotations
@@ -14,16 +17,19 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 from sim.explain.alternatives import after_move
-from sim.explain.factors import is_factor, removal
-from sim.explain.facts import Counterfactual, Explanation, QuestionError, Verified
+from sim.explain.factors import is_factor
+from sim.explain.facts import Explanation, QuestionError, Verified
 from sim.explain.intervention import Intervention
 from sim.explain.why_causes import by_salience, minimal_sufficient_set, rank_causes
+from sim.forecast import Forecast
 from sim.oracle.lower_bounds import PATIENCE, least_ticks
+from sim.perceive import perceive_truth
+from sim.plan import Option
 from sim.search.reactive import ImpatientError
 from sim.session.timeline import SNAPSHOT_TICKS, Timeline
 from sim.state import SimState
-from sim.types import Move, Outcome
-from sim.world import Cause, World
+from sim.types import Kind, Move, Outcome
+from sim.world import Cause, Thing, World
 
 LOOK_BACK_TICKS: Final = 1_000
 """How far back a crash that is asked about is looked for."""
@@ -63,6 +69,10 @@ class Crash:
     """whether that was the whole way from the episode's beginning, on a road nobody changed"""
     saving: LastAvoidance | None
     """None where no way led to the goal at any of those ticks"""
+    met: tuple[Option, ...]
+    """the moves of the last tick with what each of them would have met, whatever was seen of it"""
+    missed: tuple[str, ...] = ()
+    """of what was hit and what it hung on, the things that were not detected where they were"""
 
 
 class _LastTick:
@@ -80,7 +90,7 @@ class _LastTick:
         key = ("without", gone)
         if key not in self._known:
             world = self._run.world.without(frozenset(name for name in gone if not is_factor(name)))
-            self._known[key] = self._crashes(world, self._rerun.without(gone))
+            self._known[key] = self._crashes(world, self._rerun.never_there(gone))
         return self._known[key]
 
     def keeping(self, names: Iterable[str]) -> bool:
@@ -89,7 +99,7 @@ class _LastTick:
         key = ("keeping", kept)
         if key not in self._known:
             world = self._run.world.keeping(frozenset(name for name in kept if not is_factor(name)))
-            self._known[key] = self._crashes(world, self._rerun.keeping(kept))
+            self._known[key] = self._crashes(world, self._rerun.only_there(kept))
         return self._known[key]
 
     def _crashes(self, world: World, move: Move) -> bool:
@@ -109,10 +119,13 @@ def why_crashed(timeline: Timeline, tick: int | None = None) -> Crash:
     assert after.cause is not None
     certain = state.config.certain
     rerun = Intervention(state, decision)
-    explanation = _last_tick(rerun)
+    met = _met(rerun)
+    explanation = _last_tick(rerun, met)
     looked_back, whole, saving = _saving(timeline, state) if certain else (0, False, None)
-    free = tuple(option.move for option in decision.options if option.verdict == "free")
-    return Crash(explanation, after.cause, after.tick, free, certain, looked_back, whole, saving)
+    free = tuple(option.move for option in met if option.verdict == "free")
+    involved = dict.fromkeys((*after.cause.ids, *(cause.id for cause in explanation.causes)))
+    missed = tuple(name for name in involved if _missed(rerun, name))
+    return Crash(explanation, after.cause, after.tick, free, certain, looked_back, whole, saving, met, missed)
 
 
 def led_to_crash(timeline: Timeline, tick: int | None) -> bool:
@@ -161,14 +174,43 @@ def _fatal(timeline: Timeline) -> SimState:
     raise QuestionError("no_crash_lately", ticks=LOOK_BACK_TICKS)
 
 
-def _last_tick(rerun: Intervention) -> Explanation:
+def _met(rerun: Intervention) -> tuple[Option, ...]:
+    """The decision's options with what each move would really have met."""
+    state, options = rerun.state, rerun.decision.options
+    if rerun.faithful:
+        return options
+    world = state.world
+    forecast = Forecast.of_truth(world, state.config, 1)
+    met = []
+    for option in options:
+        reason, causes = forecast.check_step(world.av, world.road.moved(world.av, option.move))
+        met.append(replace(option, reason=reason, causes=causes))
+    return tuple(met)
+
+
+def _missed(rerun: Intervention, name: str) -> bool:
+    """Whether a thing was there and not detected where it was."""
+    if rerun.faithful:
+        return False
+    there, seen = rerun.state.world.find(name), rerun.percept.find(name)
+    if there is None or there.kind is Kind.AV:
+        return False
+    return seen is None or (seen.kind, seen.cell) != (there.kind, there.cell)
+
+
+def _last_tick(rerun: Intervention, met: tuple[Option, ...]) -> Explanation:
     """What the crash hung on, as the explanation of the last decision."""
     state, decision = rerun.state, rerun.decision
     tried = _LastTick(state, rerun)
-    names = [*rerun.factors, *by_salience(state.world, decision)]
+    names = [*rerun.factors, *_by_salience(rerun, met)]
     enough, groups, minimal = minimal_sufficient_set(tried, True, names)
-    made_first = sorted(decision.options, key=lambda option: option.move is not decision.move)
-    causes = rank_causes(tried, True, state.world, made_first, groups)
+    made_first = sorted(met, key=lambda option: option.move is not decision.move)
+
+    def find(name: str) -> tuple[Thing, bool] | None:
+        there = state.world.find(name)
+        return rerun.seen(name) if there is None else (there, True)
+
+    causes = rank_causes(tried, True, find, made_first, groups)
     told = dict.fromkeys(cause.group for cause in causes if cause.group)
     return Explanation(
         about="why",
@@ -181,12 +223,21 @@ def _last_tick(rerun: Intervention) -> Explanation:
             sufficient=tried.keeping(enough),
             minimal=minimal,
         ),
-        counterfactuals=tuple(
-            Counterfactual(removal(group, state.config), rerun.without(group), group) for group in told
-        ),
+        counterfactuals=tuple(rerun.counterfactual(group, rerun.never_there(group)) for group in told),
         stakes=None,
         reruns=rerun.count,
     )
+
+
+def _by_salience(rerun: Intervention, met: tuple[Option, ...]) -> list[str]:
+    """The id of all that is there, the most telling first, then of what was only seen."""
+    seen = by_salience(rerun.percept, rerun.decision)
+    if rerun.faithful:
+        return seen
+    there = by_salience(
+        perceive_truth(rerun.state.world, rerun.state.config), replace(rerun.decision, options=met)
+    )
+    return list(dict.fromkeys([*there, *seen]))
 
 
 def _saving(timeline: Timeline, fatal: SimState) -> tuple[int, bool, LastAvoidance | None]:

@@ -12,7 +12,7 @@ from typing import Final
 
 from sim.actions import Prefer, Remove, Set, Where, WorldAction
 from sim.config import Config
-from sim.plan import Decision, Measure
+from sim.plan import traits_of
 from sim.types import kind_of
 
 PREFERENCE: Final = "preference"
@@ -26,9 +26,9 @@ def is_factor(name: str) -> bool:
     return ":" in name
 
 
-def factors(decision: Decision, config: Config) -> list[str]:
+def factors(config: Config) -> list[str]:
     """What a decision may hang on beside things: only planners that weigh costs ask for any of it."""
-    if decision.measure is not Measure.COST:
+    if not traits_of(config.planner).weighs_costs:
         return []
     found = [f"{PREFERENCE}:{wish}" for wish in config.preferences]
     if config.safety_buffer != _USUAL_BUFFER:

@@ -57,16 +57,21 @@ class Cause:
     are so many that it was not looked for"""
     each_enough: bool = False
     """whether each of a group of several would have been enough by itself"""
+    real: bool = True
+    """whether it was there, in the cell in which it was seen; False for what a sensor made up or misplaced"""
 
 
 @dataclass(frozen=True, slots=True)
 class Counterfactual:
-    """What was decided when the tick was run again on a changed road."""
+    """What was decided when the tick was run again on a changed road, or with something not detected."""
 
     change: tuple[WorldAction, ...]
+    """made on the road; then the sensor looks again"""
     move: Move
     removed: tuple[str, ...] = ()
     """the names of what was taken away"""
+    undetected: tuple[str, ...] = ()
+    """of these, the ids that were taken out of what is seen: no change of the road does the same"""
 
     @property
     def added(self) -> tuple[tuple[str, Cell], ...]:
@@ -85,7 +90,7 @@ class Verified:
     necessary: bool | None
     """taking away any one of them changes the decision (for `why_not`: leaving any one keeps it)"""
     sufficient: bool | None
-    """with nothing but them on the road it is the same (for `why_not`: without them the move is made)"""
+    """with nothing but them seen on the road it is the same (for `why_not`: without them the move is made)"""
     minimal: bool | None
     """no part of them would do"""
 

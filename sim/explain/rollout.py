@@ -7,12 +7,13 @@ may say meanwhile is left out: a story is told as if nothing were said any more.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Final
 
-from sim.episode_record import DetourReason, sake
-from sim.plan import Decision
-from sim.state import SimState, StepResult, step
+from sim.episode_record import Sake, sake
+from sim.plan import Decision, traits_of
+from sim.state import FIRST, SimState, StepResult
+from sim.transition import step
 from sim.types import Mode, Move, Outcome
 from sim.world import Cause
 
@@ -29,9 +30,6 @@ ticks.
 MAX_FAULTS: Final = 20
 """After so many failures one after the other no answer is expected of a planner any more."""
 
-AT_SIGHT: Final = frozenset(("priority", "rules"))
-"""Planners that look one tick ahead, on a road of any size."""
-
 
 @dataclass(frozen=True, slots=True)
 class Detour:
@@ -39,7 +37,7 @@ class Detour:
 
     tick: int
     move: Move
-    sake: DetourReason
+    sake: Sake
     ids: tuple[str, ...]
     """who would have been met straight ahead"""
 
@@ -107,8 +105,10 @@ def story(state: SimState) -> EpisodeRollout:
     return summarize(state, list(rollout(state)))
 
 
-def rollout(state: SimState) -> Iterator[tuple[SimState, StepResult]]:
+def rollout(state: SimState, first: Decision | None = None) -> Iterator[tuple[SimState, StepResult]]:
     """Each tick to the end of the episode, with the run before it; a result that stands is waited out first.
+
+    `first`: what is decided in the first tick, where that is not what the state itself leads to.
 
     A tick whose planner did not answer in time is the last: a session would hand over to a person there.
     So is that of one that has failed `MAX_FAULTS` times running; and on long roads a planner that searches is
@@ -117,7 +117,8 @@ def rollout(state: SimState) -> Iterator[tuple[SimState, StepResult]]:
     work = faults = 0
     started = state.world.outcome is Outcome.RUNNING
     while state.world.outcome is Outcome.RUNNING or not started:
-        tick = step(state)
+        tick = step(state) if first is None else step(state, {FIRST: first})
+        first = None
         yield state, tick
         faults = faults + 1 if tick.decision is not None and tick.decision.fault is not None else 0
         if faults == MAX_FAULTS or (tick.decision is not None and tick.decision.timed_out):
@@ -132,7 +133,8 @@ def rollout(state: SimState) -> Iterator[tuple[SimState, StepResult]]:
 def _work(state: SimState) -> int:
     """How much is looked through in a tick of a run."""
     road = state.world.road
-    return 0 if state.config.planner in AT_SIGHT else road.columns * road.rows * road.rows
+    plans_to_goal = traits_of(state.config.planner).plans_to_goal
+    return road.columns * road.rows * road.rows if plans_to_goal else 0
 
 
 def summarize(state: SimState, ticks: list[tuple[SimState, StepResult]]) -> EpisodeRollout:
@@ -190,7 +192,7 @@ def route_ahead(state: SimState, ticks: int = NEXT_TICKS) -> RouteAhead:
     """
     offered = state.mode is Mode.MANUAL and not state.queue
     chance = not state.config.certain
-    seen = replace(state, mode=Mode.AUTO) if offered else state
+    seen = state.with_ego(mode=Mode.AUTO) if offered else state
     decisions: list[Decision] = []
     detours: list[Detour] = []
     after = seen

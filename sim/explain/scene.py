@@ -90,7 +90,7 @@ def describe_percept(percept: Percept, config: Config, likelihoods: Mapping[str,
                 lanes=cell[0] - column,
                 rows=row - cell[1],
                 heading=("right" if percept.right & bit else "left") if moves else None,
-                held=moves and bool(percept.potholes & bit),
+                held=moves and bool(percept.boards.holding & bit),
                 ticks=ticks.get(name),
             )
         )
@@ -100,9 +100,9 @@ def describe_percept(percept: Percept, config: Config, likelihoods: Mapping[str,
 def _things(percept: Percept) -> Iterator[tuple[int, str, Kind]]:
     """Cell, id and kind of all that is seen; what it is, the boards say."""
     for index, name in percept.hazards.items():
-        yield index, name, Kind.POTHOLE if percept.potholes >> index & 1 else Kind.BARRIER
+        yield index, name, percept.boards.fixed_kind(index)
     for index, name in percept.movers.items():
-        yield index, name, Kind.PEDESTRIAN if percept.pedestrians >> index & 1 else Kind.VEHICLE
+        yield index, name, percept.boards.mover_kind(index)
 
 
 def _meetings(percept: Percept, reach: int) -> dict[str, int]:

@@ -10,14 +10,16 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from sim.actions import WorldAction
+from sim.decide import sense
 from sim.explain.alternatives import after_move
 from sim.explain.facts import QuestionError
 from sim.explain.moments import state_at
 from sim.explain.rollout import EpisodeRollout, rollout, summarize
+from sim.forecast import predict
 from sim.plan import Decision
 from sim.session.edits import apply
 from sim.session.timeline import Timeline
-from sim.state import SimState, StepResult
+from sim.state import EgoStep, SimState, StepResult
 from sim.types import Mode, Move, Outcome
 
 Ticks = tuple[tuple[SimState, StepResult], ...]
@@ -80,13 +82,15 @@ def _all(state: SimState) -> Ticks:
 
 
 def _side(state: SimState, ticks: Ticks) -> Side:
-    return Side(state, ticks, summarize(replace(state, mode=Mode.AUTO), list(ticks)))
+    return Side(state, ticks, summarize(state.with_ego(mode=Mode.AUTO), list(ticks)))
 
 
 def _driven(state: SimState, decision: Decision, move: Move) -> Iterator[tuple[SimState, StepResult]]:
     """A move made, and what comes of it."""
-    after = replace(after_move(state, move), mode=Mode.AUTO)
-    yield state, StepResult(after, replace(decision, move=move), ())
+    after = after_move(state, move).with_ego(mode=Mode.AUTO)
+    percept, belief = sense(state)
+    made = EgoStep(percept, predict(percept, 1), replace(decision, move=move), belief)
+    yield state, StepResult(after, {decision.av: made}, ())
     if after.world.outcome is Outcome.RUNNING:
         yield from rollout(after)
 

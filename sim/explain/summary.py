@@ -13,15 +13,15 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Final
 
-from sim.episode_record import DetourReason, EpisodeRecord
-from sim.forecast import predict
+from sim.commit import moves_with
+from sim.episode_record import EpisodeRecord, Sake
+from sim.forecast import Forecast
 from sim.oracle.lower_bounds import can_arrive, least_ticks
-from sim.perceive import perceive
 from sim.rules.dynamics import Dynamics
 from sim.search.reachability import steps_left
 from sim.search.reactive import ImpatientError
 from sim.state import SimState
-from sim.transition import transition
+from sim.transition import next_world
 from sim.types import Move, Outcome
 from sim.world import Cause
 
@@ -41,7 +41,7 @@ class Summary:
 
     outcome: Outcome
     ticks: int
-    sakes: tuple[tuple[DetourReason, int], ...]
+    sakes: tuple[tuple[Sake, int], ...]
     """detours by whose sake, in the order they first came"""
     best: int | None
     """least ticks from the beginning; None where there is no way, or where it is not certain, or not found"""
@@ -87,8 +87,8 @@ def summary(state: SimState) -> Summary:
         with suppress(ImpatientError):
             best = least_ticks(_at_first(state, course), states)
     if world.outcome is Outcome.CRASH and course.last is not None:
-        before = replace(state, world=course.last, queue=())
-        free = any(predict(perceive(before.world, state.config), 1).own_steps())
+        before = replace(state.with_ego(queue=()), world=course.last)
+        free = any(Forecast.of_truth(before.world, state.config, 1).own_steps())
         with suppress(ImpatientError):
             open_before = can_arrive(before, states) if course.certain else None
     if world.outcome is Outcome.STUCK and certain:
@@ -124,7 +124,7 @@ def long_to_tell(state: SimState) -> bool:
 def _at_first(state: SimState, course: EpisodeRecord) -> SimState:
     """The run as the episode began, with the present configuration."""
     assert course.start is not None
-    return replace(state, world=course.start, queue=())
+    return replace(state.with_ego(queue=()), world=course.start)
 
 
 def _open_until(state: SimState, course: EpisodeRecord) -> int | None:
@@ -135,7 +135,7 @@ def _open_until(state: SimState, course: EpisodeRecord) -> int | None:
     """
     world = _at_first(state, course).world
     road, limit = world.road, steps_left(state.config, 0)
-    forecast = predict(perceive(world, state.config), limit)
+    forecast = Forecast.of_truth(world, state.config, limit)
     cells = _cells(world.av, course.made(), state.config.ego_dynamics(road))
     goal = road.row(0)
     reaching = goal
@@ -154,10 +154,10 @@ def _open_until_reacting(state: SimState, course: EpisodeRecord) -> int | None:
     """
     worlds = [_at_first(state, course).world]
     for move in course.made():
-        worlds.append(transition(worlds[-1], move, state.config))
+        worlds.append(next_world(worlds[-1], moves_with(worlds[-1], move), state.config, state.parked))
     worlds.pop()  # nothing was decided in it
     first_closed = bisect_left(
-        worlds, True, key=lambda world: not can_arrive(replace(state, world=world, queue=()), STATES)
+        worlds, True, key=lambda world: not can_arrive(replace(state.with_ego(queue=()), world=world), STATES)
     )
     return first_closed - 1 if first_closed else None
 

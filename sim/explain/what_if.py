@@ -6,11 +6,12 @@ since then is left out of both, so that they differ in the change and in nothing
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 
 from sim.actions import Add, Drive, Remove, SetCount, WorldAction
+from sim.decide import decide_on, sense
 from sim.explain.moments import state_at
 from sim.explain.rollout import EpisodeRollout, rollout, summarize
 from sim.oracle.lower_bounds import PATIENCE
@@ -20,7 +21,7 @@ from sim.search.reactive import ImpatientError
 from sim.session.edits import Applied, apply
 from sim.session.timeline import Timeline
 from sim.state import SimState, StepResult
-from sim.types import Move
+from sim.types import Move, Outcome
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,9 +63,15 @@ class WhatIf:
         return all(not (each.changes or each.added or each.removed or each.events) for each in self.done)
 
 
-def what_if(timeline: Timeline, change: Sequence[WorldAction], tick: int | None = None) -> WhatIf:
+def what_if(
+    timeline: Timeline,
+    change: Sequence[WorldAction],
+    tick: int | None = None,
+    undetected: Collection[str] = (),
+) -> WhatIf:
     """What would come of the session were this done now, or had it been done at a tick.
 
+    `undetected`: ids that are taken out of what is seen at that tick, and stay on the road.
     Raises `QuestionError` for a tick that never was, and `EditError` for what cannot be done.
     The timeline is left as it is.
     """
@@ -74,7 +81,10 @@ def what_if(timeline: Timeline, change: Sequence[WorldAction], tick: int | None 
         applied = apply(changed, action)
         changed = applied.state
         done.append(applied)
-    real_ticks, changed_ticks = list(rollout(state)), list(rollout(changed))
+    first = None
+    if undetected and changed.world.outcome is Outcome.RUNNING:
+        first = decide_on(changed, sense(changed)[0].without(undetected))
+    real_ticks, changed_ticks = list(rollout(state)), list(rollout(changed, first))
     real, other = summarize(state, real_ticks), summarize(changed, changed_ticks)
     same_road = not _new_road(done)
     difference = _first_difference(real_ticks, changed_ticks) if same_road else None

@@ -1,10 +1,11 @@
 """What a decision hangs on: a smallest set of things and wishes that brings it about, each tried by removal.
 
-A set is *enough* if, with nothing else on the road, the move is the same; the causes are such a set
-from which nothing can be spared. A cause is *necessary* if taking it away, and nothing else, changes
-the move. One that is not has a stand-in (the decision is overdetermined): then the causes are looked
-for among the necessary things first, and if those are not enough, the cause is told with its group,
-the things that must go together for the move to change.
+Causes are looked for among what was *seen*: a thing that was not detected has no part in the decision, and
+one that was imagined has. A set is *enough* if, with nothing else seen on the road, the move is the same;
+the causes are such a set from which nothing can be spared. A cause is *necessary* if taking it away, and
+nothing else, changes the move. One that is not has a stand-in (the decision is overdetermined): then the
+causes are looked for among the necessary things first, and if those are not enough, the cause is told with
+its group, the things that must go together for the move to change.
 
 This is the but-for test and its repair for overdetermination as in Halpern & Pearl, "Causes and
 explanations: a structural-model approach" (British Journal for the Philosophy of Science, 2005), with
@@ -19,15 +20,17 @@ from collections.abc import Callable, Iterable, Sequence
 from itertools import combinations
 from typing import Protocol
 
-from sim.explain.factors import is_factor, removal
+from sim.explain.factors import is_factor
 from sim.explain.facts import Cause, Counterfactual, Explanation, Role, Verified
 from sim.explain.intervention import Intervention, wall
 from sim.oracle.ddmin import ddmin
+from sim.perceive import Percept
 from sim.plan import Decision, Option
-from sim.session.locate import nearest_first
+from sim.session.errors import EditError
+from sim.session.locate import nearest_to
 from sim.state import SimState
 from sim.types import Move
-from sim.world import World
+from sim.world import Thing
 
 MAX_TRIED = 6
 """Sets up to this size have every part of them tried."""
@@ -41,15 +44,15 @@ def explain_why(state: SimState, decision: Decision) -> Explanation:
     rerun = Intervention(state, decision)
     fact = decision.move
     enough, groups, minimal = minimal_sufficient_set(
-        rerun, fact, [*rerun.factors, *by_salience(state.world, decision)]
+        rerun, fact, [*rerun.factors, *by_salience(rerun.percept, decision)]
     )
     if decision.held_back:
         hindered = [option for option in decision.options if option.move is decision.asked]
     else:
         hindered = list(decision.preferred)
-    causes = rank_causes(rerun, fact, state.world, hindered, groups)
+    causes = rank_causes(rerun, fact, rerun.seen, hindered, groups)
     told = dict.fromkeys(cause.group for cause in causes if cause.group)
-    flips = [Counterfactual(removal(group, state.config), rerun.without(group), group) for group in told]
+    flips = [rerun.counterfactual(group, rerun.without(group)) for group in told]
     foil = next((option.move for option in decision.preferred if option.cell is not None), None)
     return Explanation(
         about="why",
@@ -72,10 +75,10 @@ class Tried(Protocol):
     """What can be tried without some things, or with nothing but some, and then comes to something."""
 
     def without(self, names: Iterable[str]) -> object:
-        """What it comes to had these never been there."""
+        """What it comes to without these."""
 
     def keeping(self, names: Iterable[str]) -> object:
-        """What it comes to had nothing but these been there."""
+        """What it comes to with nothing but these."""
 
 
 def minimal_sufficient_set(
@@ -98,14 +101,17 @@ def _had_it_been_blocked(rerun: Intervention, decision: Decision) -> list[Counte
     if decision.asked is not None or decision.chosen.cell is None or decision.move is Move.STAY:
         return []
     change = (wall(rerun.state.world, decision.chosen.cell),)
-    return [Counterfactual(change, rerun.after(change))]
+    try:
+        return [Counterfactual(change, rerun.after(change))]
+    except EditError:  # something is there that was not seen
+        return []
 
 
-def by_salience(world: World, decision: Decision) -> list[str]:
-    """Every thing's id: first those that stand in the way, in the order of preference; then the nearest."""
+def by_salience(percept: Percept, decision: Decision) -> list[str]:
+    """The id of all that is seen: first what stands in the way, by order of preference; then the nearest."""
     direct = [name for option in decision.options for name in option.causes]
-    cells = nearest_first({*world.movers, *world.hazards}, world)
-    near = [table[cell] for cell in cells for table in (world.movers, world.hazards) if cell in table]
+    cells = nearest_to(percept.ego, {*percept.movers, *percept.hazards}, percept.road)
+    near = [table[cell] for cell in cells for table in (percept.movers, percept.hazards) if cell in table]
     return list(dict.fromkeys([*direct, *near]))
 
 
@@ -164,11 +170,15 @@ def _smallest(tried: Tried, fact: object, enough: list[str]) -> tuple[list[str],
 
 
 def rank_causes(
-    tried: Tried, fact: object, world: World, hindered: Sequence[Option], groups: dict[str, tuple[str, ...]]
+    tried: Tried,
+    fact: object,
+    find: Callable[[str], tuple[Thing, bool] | None],
+    hindered: Sequence[Option],
+    groups: dict[str, tuple[str, ...]],
 ) -> tuple[Cause, ...]:
     """The causes, by their groups: those that block the first of the hindered moves before the others.
 
-    Then what sent them there, then wishes.
+    Then what sent them there, then wishes. `find`: a thing by its id, and whether it was there.
     """
     causes = []
     for name, group in groups.items():
@@ -178,11 +188,12 @@ def rank_causes(
             kind = name.partition(":")[0]
             causes.append(Cause(name, kind, None, Role.WEIGHS, (), necessary, group, each))  # type: ignore[arg-type]
             continue
-        thing = world.find(name)
-        if thing is not None:
+        found = find(name)
+        if found is not None:
+            thing, real = found
             blocked = tuple(option.move for option in hindered if name in option.causes)
             role = Role.BLOCKS if blocked else Role.DRIVES
-            causes.append(Cause(name, thing.kind, thing.cell, role, blocked, necessary, group, each))
+            causes.append(Cause(name, thing.kind, thing.cell, role, blocked, necessary, group, each, real))
     order = [option.move for option in hindered]
 
     def rank(cause: Cause) -> tuple[int, bool]:

@@ -1,6 +1,6 @@
 """Why not another move: the smallest change of the road after which that move is made.
 
-First by taking away what stands in its way; if it is not made even then, because a move that comes
+First by taking away what was seen to stand in its way; if it is not made even then, because a move that comes
 before it is free, by blocking those moves' cells as well: with a barrier, or where a mover is just
 leaving the cell, with a pothole that holds it. A change is only stated if
 the decision, run again with it, is the move asked about.
@@ -13,12 +13,12 @@ from typing import get_args
 
 from sim.actions import Add, Prefer, Wish, WorldAction
 from sim.explain.alternatives import stakes
-from sim.explain.factors import removal
 from sim.explain.facts import Cause, Counterfactual, Explanation, Role, Verified
 from sim.explain.intervention import Intervention, wall
 from sim.explain.why_causes import by_salience, minimal_subset
 from sim.oracle.ddmin import ddmin
 from sim.plan import Decision, Measure
+from sim.session.errors import EditError
 from sim.state import SimState
 from sim.types import Move
 
@@ -38,12 +38,14 @@ def explain_why_not(state: SimState, decision: Decision, foil: Move) -> Explanat
     wished = [] if freed else _wished(rerun, cleared, foil)
     walls = [] if freed or wished else _walls(rerun, cleared, foil)
     counterfactuals = []
-    away = removal(cleared, state.config)
-    if freed or walls or wished:
-        counterfactuals.append(Counterfactual((*away, *wished, *walls), foil, tuple(cleared)))
+    if walls or wished:
+        change, phantoms = (*rerun.removal(cleared), *wished, *walls), rerun.phantoms(cleared)
+        counterfactuals.append(Counterfactual(change, foil, tuple(cleared), phantoms))
     elif cleared:
-        counterfactuals.append(Counterfactual(away, rerun.without(cleared), tuple(cleared)))
-    causes = _causes(state, decision, foil, cleared, freed)
+        counterfactuals.append(rerun.counterfactual(cleared, rerun.without(cleared)))
+    elif freed:
+        counterfactuals.append(Counterfactual((), foil))
+    causes = _causes(rerun, foil, cleared, freed)
     return Explanation(
         about="why_not",
         moment=state,
@@ -78,7 +80,7 @@ def _led_to(decision: Decision, foil: Move) -> bool:
 
 def _opened(rerun: Intervention, foil: Move) -> list[str]:
     """The things to take away, the nearest first, until a foil whose cell is free is the move made."""
-    names = by_salience(rerun.state.world, rerun.decision)
+    names = by_salience(rerun.percept, rerun.decision)
     return (
         minimal_subset(names, lambda gone: rerun.without(gone) is foil)
         if rerun.without(names) is foil
@@ -90,10 +92,10 @@ def _wished(rerun: Intervention, cleared: Sequence[str], foil: Move) -> list[Wor
     """The one other wish with which a planner that weighs costs makes the foil, if there is one."""
     if rerun.decision.measure is not Measure.COST:
         return []
-    away = removal(cleared, rerun.state.config)
+    away, phantoms = rerun.removal(cleared), rerun.phantoms(cleared)
     for wish in get_args(Wish):
         change = Prefer(preference=wish)
-        if rerun.after((*away, change)) is foil:
+        if rerun.after((*away, change), phantoms) is foil:
             return [change]
     return []
 
@@ -104,26 +106,30 @@ def _walls(rerun: Intervention, cleared: Sequence[str], foil: Move) -> list[Add]
     if seen.option(foil).cell is None or seen.asked is not None:
         return []
     world = rerun.state.world.without(frozenset(cleared))
+    away, phantoms = rerun.removal(cleared), rerun.phantoms(cleared)
     before = seen.options[: seen.options.index(seen.option(foil))]
     cells = [option.cell for option in before if option.verdict == "free" and option.cell is not None]
     if world.road.cell(world.av) in cells:
         return []  # nothing can be put where the vehicle stands, so staying cannot be taken away
     walls = [wall(world, cell) for cell in cells]
-    return walls if walls and rerun.after((*removal(cleared, rerun.state.config), *walls)) is foil else []
+    try:
+        return walls if walls and rerun.after((*away, *walls), phantoms) is foil else []
+    except EditError:  # something is there that was not seen
+        return []
 
 
-def _causes(
-    state: SimState, decision: Decision, foil: Move, cleared: Sequence[str], freed: bool
-) -> tuple[Cause, ...]:
-    direct = decision.option(foil).causes
+def _causes(rerun: Intervention, foil: Move, cleared: Sequence[str], freed: bool) -> tuple[Cause, ...]:
+    direct = rerun.decision.option(foil).causes
     causes = []
     for name in cleared:
-        thing = state.world.find(name)
-        if thing is not None:
+        found = rerun.seen(name)
+        if found is not None:
+            thing, real = found
             role = Role.BLOCKS if name in direct else Role.FOLLOWS if direct else Role.DRIVES
             moves = (foil,) if name in direct else ()
             alone = freed and len(cleared) == 1
-            causes.append(Cause(name, thing.kind, thing.cell, role, moves, alone, tuple(cleared)))
+            group = tuple(cleared)
+            causes.append(Cause(name, thing.kind, thing.cell, role, moves, alone, group, real=real))
     return tuple(causes)
 
 

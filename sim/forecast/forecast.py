@@ -5,18 +5,23 @@ Risk and preferences enter as further terms beside `fixed` and the slices.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from typing import Final
 
+from sim.config import Config
 from sim.fast_replace import fast_constructor
-from sim.forecast.rollout import RollOut
-from sim.perceive import Percept
+from sim.forecast.rollout import RollOut, other_end
+from sim.perceive import OtherEgo, Percept, perceive_truth
+from sim.rules.contacts import Denied
 from sim.rules.dynamics import Dynamics
 from sim.rules.dynamics_registry import dynamics_on
 from sim.rules.ego_step import Steps
-from sim.types import Move
-from sim.world.grid import Board, Road
+from sim.types import HAZARDS, MOVES, Kind, Move
+from sim.world import World
+from sim.world.boards import Boards
+from sim.world.grid import Board, Road, bits, board_of
 
 
 class StepVerdict(StrEnum):
@@ -32,11 +37,19 @@ class StepVerdict(StrEnum):
     MOVER_SWAPS = "mover_swaps"
     MOVER_CROSSES = "mover_crosses"
     """a mover cuts off a diagonal: from that side it enters the vehicle's cell or the one straight ahead"""
+    EGO_ENTERS = "ego_enters"
+    EGO_STAYS = "ego_stays"
+    EGO_SWAPS = "ego_swaps"
+    EGO_CROSSES = "ego_crosses"
+    """another ego touches this one on the way, although both end in other cells"""
 
     @property
     def blocks(self) -> bool:
         """Whether the step would end in a collision or off the road."""
         return self is not StepVerdict.FREE
+
+
+_VERDICTS: Final = {kind: StepVerdict(kind) for kind in HAZARDS}
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,22 +61,76 @@ class Forecast:
     episode_tick: int
     ego: int
     ego_id: str
-    potholes: Board
-    barriers: Board
+    boards: Boards
+    """which cells hold what kind of thing now"""
     disabled: Board
     dynamics: Dynamics
     """how the vehicle moves, and what its steps sweep"""
     hazards: Mapping[int, str]
     slices: RollOut
+    egos: tuple[OtherEgo, ...] = ()
+    """the other egos: they make the move they have announced, and then stand where it leads"""
+
+    @staticmethod
+    def of_truth(world: World, config: Config, horizon: int, ego: int = 0) -> Forecast:
+        """What follows from what *is*, whatever the sensors show: the ground of every proof.
+
+        `horizon` is in ticks, at least one; `ego` numbers the autonomous vehicles from 0.
+        """
+        return predict(perceive_truth(world, config, ego), horizon)
+
+    @property
+    def potholes(self) -> Board:
+        """The cells of potholes."""
+        return self.boards[Kind.POTHOLE]
+
+    @property
+    def barriers(self) -> Board:
+        """The cells of barriers."""
+        return self.boards[Kind.BARRIER]
+
+    @property
+    def percept(self) -> Percept:
+        """What the forecast was made from: headings, pedestrians, ids, and all else that is seen."""
+        return self.slices.percept
 
     @property
     def fixed(self) -> Board:
-        """Every pothole and barrier."""
-        return self.potholes | self.barriers
+        """Everything that does not move."""
+        return self.boards.fixed
 
     def blocked(self, ahead: int = 0) -> Board:
         """Every cell that anything stands in, `ahead` + 1 ticks from now."""
-        return self.fixed | self.slices[ahead].occupied
+        return self.fixed | self.slices[ahead].occupied | (self.slices.standing if self.egos else 0)
+
+    @property
+    def parked(self) -> Board:
+        """The cells of other egos that stay until a person asks for something."""
+        return board_of([other.cell for other in self.egos if other.parked])
+
+    def taken(self, ahead: int = 0) -> Board:
+        """The cells that other egos keep this one from entering, `ahead` ticks from now.
+
+        In the first tick those are the ends of its own steps that would touch one, later where they stand.
+        """
+        if not self.egos:
+            return 0
+        if ahead:
+            return self.slices.standing
+        ends = [self.dynamics.target(self.ego, move) for move in MOVES if self.meets_ego(move)]
+        return board_of([end for end in ends if end is not None])
+
+    def meets_ego(self, move: Move) -> bool:
+        """Whether a move in the coming tick would touch another ego."""
+        return bool(self.egos) and bool(self._denied()[MOVES.index(move)].starts >> self.ego & 1)
+
+    def _denied(self) -> Sequence[Denied]:
+        """For each move, in the order of `Move`, what the other egos deny in the coming tick."""
+        found = [self.dynamics.denied(other.cell, other.move) for other in self.egos]
+        return [
+            Denied(_union(each.starts for each in of_move), _union(each.ends for each in of_move))
+            for of_move in zip(*found, strict=True)
+        ]
 
     @property
     def standing(self) -> Forecast | None:
@@ -81,8 +148,11 @@ class Forecast:
         Nobody brakes: `standing` is the forecast for a vehicle that stays where it would be hit.
         """
         right, left, came_right, came_left = self.slices[ahead]
-        blocked = self.potholes | self.barriers | right | left
-        return self.dynamics.spread(start, blocked, came_right, came_left)
+        if self.egos:
+            if not ahead:
+                return _union(self.steps(start))
+            right |= self.slices.standing
+        return self.dynamics.spread(start, self.boards.fixed | right | left, came_right, came_left)
 
     def spread_back(self, end: Board, ahead: int = 0) -> Board:
         """Every cell from which one move, made `ahead` ticks from now, leads into a cell of `end`.
@@ -90,14 +160,26 @@ class Forecast:
         The cells of `end` are taken to be free.
         """
         right, left, came_right, came_left = self.slices[ahead]
-        blocked = self.potholes | self.barriers | right | left
-        return self.dynamics.spread_back(end, blocked, came_right, came_left)
+        found = self.dynamics.spread_back(end, self.boards.fixed | right | left, came_right, came_left)
+        if not self.egos:
+            return found
+        return board_of([start for start in bits(found) if self.spread(1 << start, ahead) & end])
 
     def steps(self, start: Board, ahead: int = 0) -> Steps:
         """Where vehicles in `start` may be one tick later, `ahead` ticks from now. Nobody brakes."""
         right, left, came_right, came_left = self.slices[ahead]
-        blocked = self.potholes | self.barriers | right | left
-        return self.dynamics.steps(start, blocked, came_right, came_left)
+        if self.egos and ahead:
+            right |= self.slices.standing
+        found = self.dynamics.steps(start, self.boards.fixed | right | left, came_right, came_left)
+        return self._without_egos(start, found) if self.egos and not ahead else found
+
+    def _without_egos(self, start: Board, steps: Steps) -> Steps:
+        """The steps of the coming tick that touch no other ego."""
+        free = []
+        for board, (starts, ends) in zip(steps, self._denied(), strict=True):
+            # One move leads from different cells to different ones, so bits do not mix.
+            free.append(board & ~ends if start & starts else board)
+        return Steps(*free)
 
     def own_steps(self) -> Steps:
         """Where the forecast's own vehicle may be after the coming tick; a mover may brake for it."""
@@ -139,11 +221,35 @@ class Forecast:
                     verdict = StepVerdict.MOVER_ENTERS
                 else:
                     verdict = StepVerdict.MOVER_STAYS
-            if bit & (self.potholes | self.barriers):
+            if bit & self.boards.fixed:
                 who = (self.hazards[cell], *who)
                 if not bit & self.disabled:
-                    verdict = StepVerdict.POTHOLE if bit & self.potholes else StepVerdict.BARRIER
+                    verdict = _VERDICTS[self.boards.fixed_kind(cell)]
+        if self.egos and (others := self._met_egos(start, end, ahead)):
+            who = (*who, *(other.id for other in others))
+            if verdict is StepVerdict.FREE:
+                verdict = self._ego_verdict(start, end, ahead, others[0])
         return verdict, who
+
+    def _met_egos(self, start: int, end: int, ahead: int) -> list[OtherEgo]:
+        """The other egos that a step touches, those first that end in the same cell."""
+        dynamics = self.dynamics
+        if ahead:
+            return [other for other in self.egos if other_end(dynamics, other) == end]
+        met = [
+            other
+            for other in self.egos
+            if dynamics.egos_touch((start, end), (other.cell, other_end(dynamics, other)))
+        ]
+        return sorted(met, key=lambda other: other_end(dynamics, other) != end)
+
+    def _ego_verdict(self, start: int, end: int, ahead: int, other: OtherEgo) -> StepVerdict:
+        theirs = other_end(self.dynamics, other)
+        if theirs == end:
+            stays = ahead or other.move is Move.STAY
+            return StepVerdict.EGO_STAYS if stays else StepVerdict.EGO_ENTERS
+        swaps = other.cell == end and theirs == start
+        return StepVerdict.EGO_SWAPS if swaps else StepVerdict.EGO_CROSSES
 
     def will_be_free(self, start: int, end: int | None, ahead: int = 0) -> bool:
         """Whether a step meets nothing."""
@@ -157,28 +263,35 @@ _expected = fast_constructor(
     "episode_tick",
     "ego",
     "ego_id",
-    "potholes",
-    "barriers",
+    "boards",
     "disabled",
     "dynamics",
     "hazards",
     "slices",
+    "egos",
 )
+
+
+def _union(boards: Iterable[Board]) -> Board:
+    board = 0
+    for each in boards:
+        board |= each
+    return board
 
 
 def predict(percept: Percept, horizon: int) -> Forecast:
     """What to expect of the next `horizon` ticks (at least one)."""
-    road = percept.road
+    road, boards = percept.road, percept.boards
     return _expected(
         road,
         percept.tick,
         percept.episode_tick,
         percept.ego,
         percept.ego_id,
-        percept.potholes,
-        percept.barriers,
-        (percept.right | percept.left) & percept.potholes,
+        boards,
+        (percept.right | percept.left) & boards.holding,
         dynamics_on(road, percept.dynamics, percept.swept),
         percept.hazards,
         RollOut(percept, horizon),
+        percept.egos,
     )

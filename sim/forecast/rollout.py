@@ -1,9 +1,13 @@
 """Movers rolled out by the rules, as far ahead as is read and no further than was asked for.
 
 The roll-out assumes that movers do not react to the vehicle after the first tick: nobody gives way and
-nobody brakes. With perfect sight it *is* what happens along every way that meets nothing, where movers leave
-alone who meets nothing (`Behaviour.free_ways_hold`). `if_standing` is the roll-out where a mover brakes in
-the first tick.
+nobody brakes, but for other egos. With perfect sight it *is* what happens along every way that meets nothing,
+where movers leave alone who meets nothing (`Behaviour.free_ways_hold`). `if_standing` is the roll-out where a
+mover brakes in the first tick.
+
+Other egos make the move they have announced and then stand where it leads, as far as is known. Movers brake
+for those that stand: in the first tick those that are attentive then, later all. A mover that would not brake
+ends the episode, so that what comes after it does not matter.
 """
 
 from __future__ import annotations
@@ -11,12 +15,17 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import overload
 
-from sim.perceive import Percept
+from sim.perceive import OtherEgo, Percept
 from sim.rules.behaviour import NOBODY, Reactions
 from sim.rules.behaviour_registry import BEHAVIOURS
-from sim.rules.traffic import Motion, shift_board
+from sim.rules.dynamics import Dynamics
+from sim.rules.dynamics_registry import dynamics_on
+from sim.rules.kinds import shift_boards
+from sim.rules.traffic import Motion
 from sim.rules.traffic_cache import cached_shift_table, cached_step
-from sim.world.grid import Board
+from sim.types import Move
+from sim.world.boards import Boards
+from sim.world.grid import Board, board_of
 
 
 class RollOut(Sequence[Motion]):
@@ -28,14 +37,14 @@ class RollOut(Sequence[Motion]):
         "_fixed",
         "_horizon",
         "_left",
-        "_pedestrians",
-        "_percept",
         "_reactions",
         "_right",
+        "_shifted",
         "_slices",
+        "_standing",
         "_stands",
         "_tables",
-        "_walked",
+        "percept",
     )
 
     def __init__(self, percept: Percept, horizon: int, *, stands: bool = False) -> None:
@@ -45,18 +54,21 @@ class RollOut(Sequence[Motion]):
         """
         if horizon < 1:
             raise ValueError("a horizon is at least one tick")
-        self._percept = percept
+        self.percept = percept
+        """what it was made from"""
         self._horizon = horizon
         self._stands = stands
+        boards = percept.boards
         self._behaviour = BEHAVIOURS[percept.behaviour]
         yielding, attentive = percept.yielding, percept.attentive
         self._reactions = Reactions(yielding, attentive) if yielding or attentive else NOBODY
-        self._fixed = percept.potholes | percept.barriers
-        self._disabled = (percept.right | percept.left) & percept.potholes
+        self._fixed = boards.fixed
+        self._disabled = (percept.right | percept.left) & boards.holding
         self._slices: list[Motion] = []
-        self._walked: list[Board] = []
+        self._shifted = [boards]
         self._tables: list[Mapping[int, str]] = []
-        self._right, self._left, self._pedestrians = percept.right, percept.left, percept.pedestrians
+        self._right, self._left = percept.right, percept.left
+        self._standing: Board | None = None
 
     def __len__(self) -> int:
         return self._horizon
@@ -81,32 +93,45 @@ class RollOut(Sequence[Motion]):
     def movers(self, ahead: int) -> Mapping[int, str]:
         """Who is expected in which cell, `ahead` + 1 ticks from now."""
         while len(self._tables) <= ahead:
-            before = self._tables[-1] if self._tables else self._percept.movers
+            before = self._tables[-1] if self._tables else self.percept.movers
             self._tables.append(cached_shift_table(before, self[len(self._tables)]))
         return self._tables[ahead]
 
-    def pedestrians(self, ahead: int) -> Board:
-        """Where pedestrians are expected, `ahead` + 1 ticks from now."""
-        self[ahead]  # rolls out that far
-        return self._walked[ahead]
+    def boards(self, ahead: int) -> Boards:
+        """Where things of which kind are expected, `ahead` + 1 ticks from now."""
+        if not self._shifted[0].others:
+            return self._shifted[0]  # none of them moves
+        while len(self._shifted) <= ahead + 1:
+            self._shifted.append(shift_boards(self._shifted[-1], self[len(self._shifted) - 1]))
+        return self._shifted[ahead + 1]
+
+    @property
+    def standing(self) -> Board:
+        """The cells that other egos stand in after the first tick."""
+        if self._standing is None:
+            percept = self.percept
+            dynamics = dynamics_on(percept.road, percept.dynamics, percept.swept)
+            self._standing = board_of([other_end(dynamics, other) for other in percept.egos])
+        return self._standing
 
     def if_standing(self) -> RollOut | None:
         """The roll-out where the vehicle does not move in the first tick; None where that changes nothing."""
-        ego, motion = self._percept.ego, self[0]
+        ego, motion = self.percept.ego, self[0]
         if self._stands or not motion.occupied >> ego & 1:
             return None
         if self._behaviour.brake(motion, 1 << ego, self._reactions) == motion:
             return None
-        return RollOut(self._percept, self._horizon, stands=True)
+        return RollOut(self.percept, self._horizon, stands=True)
 
     def _next(self) -> Motion:
-        percept, ahead = self._percept, len(self._slices)
+        percept, ahead = self.percept, len(self._slices)
         road = percept.road
+        boards = self.boards(ahead - 1) if ahead else percept.boards
         movers = (
             self._behaviour,
             self._right,
             self._left,
-            self._pedestrians,
+            boards.marked,
             self._disabled,
             self._fixed,
             road.left_edge,
@@ -120,8 +145,21 @@ class RollOut(Sequence[Motion]):
             motion = cached_step(*movers, percept.vehicles, self._reactions)
             if self._stands:
                 motion = self._behaviour.brake(motion, 1 << percept.ego, self._reactions)
+        if percept.egos:
+            motion = self._braked_for_egos(motion, ahead)
         self._right, self._left = motion.right, motion.left
-        if self._pedestrians:
-            self._pedestrians = shift_board(self._pedestrians, motion)
-        self._walked.append(self._pedestrians)
         return motion
+
+    def _braked_for_egos(self, motion: Motion, ahead: int) -> Motion:
+        """The motion of a tick with the movers that brake for other egos."""
+        percept = self.percept
+        if ahead:
+            return self._behaviour.brake(motion, self.standing, Reactions(attentive=percept.road.all))
+        staying = board_of([other.cell for other in percept.egos if other.move is Move.STAY])
+        return self._behaviour.brake(motion, staying, self._reactions)
+
+
+def other_end(dynamics: Dynamics, other: OtherEgo) -> int:
+    """The cell that another ego's announced move leads to; its own where that is off the road."""
+    end = dynamics.target(other.cell, other.move)
+    return other.cell if end is None else end

@@ -19,14 +19,12 @@ EVEN_HARM_KMH: Final = 2.0
 
 def advise(hazard: Kind, distance_m: float, speed_kmh: float, weather: Weather = "clear") -> Advice:
     """What to do about a hazard straight ahead. Raises `NoAdviceError` where nothing can be said."""
-    for field, value, (least, most), unit in (
-        ("distance_m", distance_m, DISTANCES_M, "m"),
-        ("speed_kmh", speed_kmh, SPEEDS_KMH, "km/h"),
+    for field, value, (low, high), code in (
+        ("distance_m", distance_m, DISTANCES_M, "distance_out_of_range"),
+        ("speed_kmh", speed_kmh, SPEEDS_KMH, "speed_out_of_range"),
     ):
-        if not least <= value <= most:
-            name = "speed" if field == "speed_kmh" else "distance"
-            can = f"I can advise at a {name} of {least:g} to {most:,.0f} {unit}"
-            raise NoAdviceError(field, f"{can}, and not at {value:.12g} {unit}.")
+        if not low <= value <= high:
+            raise NoAdviceError(code, field, low=low, high=high, value=value)
     middle = figures(hazard, distance_m, speed_kmh, weather)
     found = prospects(hazard, distance_m, speed_kmh, weather, middle)
     return Advice(

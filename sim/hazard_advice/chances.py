@@ -13,7 +13,16 @@ import numpy as np
 from sim.actions import Weather
 from sim.hazard_advice import physics, samples
 from sim.hazard_advice.facts import Choice, Ending, Figures, Prospect
-from sim.hazard_advice.parameters import CLEARING, FRICTION, GRAVITY, HARM, LATERAL, MARGIN_M, REACTION, WIDTH
+from sim.hazard_advice.parameters import (
+    FRICTION,
+    GRAVITY,
+    HARM,
+    LATERAL,
+    MARGIN_M,
+    REACTION,
+    clearing_of,
+    width_of,
+)
 from sim.types import Kind
 
 _Z = 1.96
@@ -24,7 +33,7 @@ def figures(hazard: Kind, distance_m: float, speed_kmh: float, weather: Weather)
     """The physics, with every quantity in the middle of its range."""
     speed, reaction, friction = speed_kmh / 3.6, REACTION.middle, FRICTION[weather].middle
     lateral = float(physics.lateral_acceleration(speed, friction, LATERAL.middle))
-    offset = _offset(hazard, WIDTH[hazard].middle)
+    offset = _offset(hazard, width_of(hazard).middle)
     steering_s = float(physics.steering_time(offset, lateral))
     drawn = physics.stopping_distance(
         speed * samples.speed_ratio(), samples.reaction(), samples.friction(weather)
@@ -102,7 +111,7 @@ def interval(share: float, count: int) -> tuple[float, float]:
 
 def _offset(hazard: Kind, width: physics.Number) -> physics.Number:
     """How far aside the car must be: what is to pass was heading for the hazard's middle."""
-    return (CLEARING[hazard] + width) / 2 + MARGIN_M
+    return (clearing_of(hazard) + width) / 2 + MARGIN_M
 
 
 def _ending(choice: Choice, meets_kmh: float, unharmed_kmh: float) -> Ending:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
+from types import MappingProxyType
 
 from sim.actions import Weather
+from sim.codes import ADVICE, check_facts, plain_text
 from sim.types import Kind
 
 
@@ -100,9 +102,11 @@ class Advice:
 
 
 class NoAdviceError(ValueError):
-    """A question about no hazard at all; `field` names what is the trouble."""
+    """A question about no hazard at all, as a code and facts (`sim.codes.ADVICE`); `field` is the trouble."""
 
-    def __init__(self, field: str, message: str) -> None:
-        super().__init__(message)
+    def __init__(self, code: str, field: str, **facts: float) -> None:
+        check_facts(code, facts, ADVICE.get(code))
+        super().__init__(plain_text(code, facts))
+        self.code = code
         self.field = field
-        self.message = message
+        self.facts = MappingProxyType(facts)

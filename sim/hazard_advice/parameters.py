@@ -147,7 +147,25 @@ DISTANCES_M: Final = (0.1, 1000.0)
 """What can be asked about: beyond, there is either nothing to do or no road car."""
 
 
+def width_of(hazard: Kind) -> Quantity:
+    """The width of a hazard; a kind that is not listed is taken to be as wide as an obstacle vehicle."""
+    return WIDTH.get(hazard, WIDTH[Kind.VEHICLE])
+
+
+def clearing_of(hazard: Kind) -> float:
+    """Metres of what must pass beside a hazard; the car where the kind is not listed."""
+    return CLEARING.get(hazard, CLEARING[Kind.VEHICLE])
+
+
 def parameters(hazard: Kind, weather: Weather) -> tuple[Quantity, ...]:
     """The quantities that advice about a hazard rests on."""
-    always = (REACTION, FRICTION[weather], DISTANCE[weather], SPEED, LATERAL, TURNING_RADIUS, WIDTH[hazard])
+    always = (
+        REACTION,
+        FRICTION[weather],
+        DISTANCE[weather],
+        SPEED,
+        LATERAL,
+        TURNING_RADIUS,
+        width_of(hazard),
+    )
     return (*always, HARM) if hazard is Kind.POTHOLE else always

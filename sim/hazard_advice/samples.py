@@ -23,6 +23,7 @@ from sim.hazard_advice.parameters import (
     SPEED,
     WIDTH,
     Quantity,
+    width_of,
 )
 from sim.randomness import Stream, fraction, word_at
 from sim.types import Kind
@@ -69,7 +70,7 @@ def lateral_share() -> Column:
 @lru_cache(maxsize=len(WIDTH))
 def width(hazard: Kind) -> Column:
     """Metres."""
-    return _drawn(WIDTH[hazard], "width")
+    return _drawn(width_of(hazard), "width")
 
 
 @lru_cache(maxsize=1)

@@ -21,11 +21,12 @@ from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import Final
 
+from sim.commit import moves_with
 from sim.forecast import Forecast
 from sim.oracle.ddmin import ddmin
 from sim.oracle.lower_bounds import can_arrive, foreseen, quickest_plan
 from sim.state import SimState
-from sim.transition import transition
+from sim.transition import next_world
 from sim.types import Move, Outcome
 from sim.world.grid import Board, bits
 
@@ -79,7 +80,7 @@ def arrives(state: SimState, plan: Iterable[Move]) -> bool:
             or state.config.ego_dynamics(world.road).target(world.av, move) is None
         ):
             return False
-        world = transition(world, move, state.config)
+        world = next_world(world, moves_with(world, move), state.config, state.parked)
     return world.outcome is Outcome.SUCCESS
 
 

@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from typing import Final
 
-from sim.forecast import Forecast, predict
-from sim.perceive import perceive
+from sim.forecast import Forecast
 from sim.search.astar import cheapest
 from sim.search.costs import weights
 from sim.search.reachability import flood_fill, reachability, shortest_plan, steps_left
@@ -27,7 +26,7 @@ def foreseen(state: SimState) -> tuple[Forecast, int]:
     if state.world.outcome is not Outcome.RUNNING:
         raise ValueError("the episode has ended")
     limit = steps_left(state.config, state.world.episode_tick)
-    return predict(perceive(state.world, state.config), max(1, limit)), limit
+    return Forecast.of_truth(state.world, state.config, max(1, limit)), limit
 
 
 def least_ticks(state: SimState, patience: int | None = None) -> int | None:

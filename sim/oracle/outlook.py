@@ -14,10 +14,9 @@ from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field, replace
 from typing import Final
 
-from sim.forecast import predict
+from sim.forecast import Forecast
 from sim.oracle.certificate import met_least, thinned
 from sim.oracle.lower_bounds import can_arrive, foreseen
-from sim.perceive import perceive
 from sim.search.reachability import reachability, steps_left
 from sim.search.reactive import ImpatientError
 from sim.state import SimState
@@ -67,7 +66,7 @@ def quickly_open(state: SimState) -> bool:
     limit = min(steps_left(config, world.episode_tick), 3 * road.rows // 2)
     if limit < 1 or world.outcome is not Outcome.RUNNING:
         return False
-    forecast = predict(perceive(world, config), limit)
+    forecast = Forecast.of_truth(world, config, limit)
     return reachability(forecast, 1 << forecast.ego, limit).ticks is not None
 
 

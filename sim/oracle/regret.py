@@ -8,13 +8,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
+from sim.commit import moves_with
 from sim.oracle.lower_bounds import foreseen, least_cost, least_ticks
 from sim.repetition import NOTHING_KEPT
 from sim.search.costs import weights
 from sim.search.time_expanded import TimeExpandedGraph
 from sim.session.timeline import Timeline
 from sim.state import SimState
-from sim.transition import transition
+from sim.transition import next_world
 from sim.types import MOVES, Move, Outcome
 
 
@@ -61,5 +62,5 @@ def regrets(timeline: Timeline, first: int, stop: int) -> Iterator[tuple[int, Re
 def _after(state: SimState, move: Move) -> SimState:
     if state.world.outcome is not Outcome.RUNNING:
         raise ValueError("the episode has ended")
-    after = transition(state.world, move, state.config)
-    return replace(state, world=after, queue=state.queue[1:], watch=NOTHING_KEPT)
+    after = next_world(state.world, moves_with(state.world, move), state.config, state.parked)
+    return replace(state.with_ego(queue=state.queue[1:], watch=NOTHING_KEPT), world=after)

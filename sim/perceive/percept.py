@@ -2,12 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
+from sim.fast_replace import field_setter
 from sim.rules.behaviour import DEFAULT_BEHAVIOUR
 from sim.rules.dynamics import DEFAULT_DYNAMICS
+from sim.types import Kind, Move
+from sim.world import Thing
+from sim.world.boards import Boards
 from sim.world.grid import Board, Road
+
+
+class OtherEgo(NamedTuple):
+    """Another ego, as it tells of itself: announcements need no sensor."""
+
+    id: str
+    cell: int
+    """cell index now"""
+    move: Move
+    """the move it has announced for the coming tick; to stay where it has announced none"""
+    parked: bool
+    """whether it stays until a person asks for something: it has arrived, or nobody drives it"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -20,11 +37,9 @@ class Percept:
     ego: int
     """cell index of the vehicle that looks"""
     ego_id: str
-    potholes: Board
-    barriers: Board
     right: Board
     left: Board
-    pedestrians: Board
+    boards: Boards
     yielding: Board
     """movers seen to give way to autonomous vehicles in this tick"""
     attentive: Board
@@ -39,3 +54,77 @@ class Percept:
     """how autonomous vehicles move (`sim.rules.dynamics`)"""
     behaviour: str = DEFAULT_BEHAVIOUR
     """how the others move (`sim.rules.behaviour`)"""
+    egos: tuple[OtherEgo, ...] = ()
+    """the other egos, in the order of their ids"""
+
+    @property
+    def potholes(self) -> Board:
+        """The cells of potholes."""
+        return self.boards[Kind.POTHOLE]
+
+    @property
+    def barriers(self) -> Board:
+        """The cells of barriers."""
+        return self.boards[Kind.BARRIER]
+
+    @property
+    def pedestrians(self) -> Board:
+        """The cells of pedestrians."""
+        return self.boards[Kind.PEDESTRIAN]
+
+    def things(self) -> Iterator[Thing]:
+        """Everything that is seen but autonomous vehicles, hazards first."""
+        for table in (self.hazards, self.movers):
+            for index in table:
+                yield self._thing(index, table)
+
+    def find(self, name: str) -> Thing | None:
+        """The thing with this id as it is seen, if it is."""
+        for table in (self.hazards, self.movers):
+            for index, other in table.items():
+                if other == name:
+                    return self._thing(index, table)
+        return None
+
+    def without(self, ids: Collection[str]) -> Percept:
+        """The same percept had these things not been detected. Unknown ids are ignored."""
+        return self._filtered(lambda name: name not in ids)
+
+    def keeping(self, ids: Collection[str]) -> Percept:
+        """The same percept had nothing but these things been detected."""
+        return self._filtered(lambda name: name in ids)
+
+    def _thing(self, index: int, table: Mapping[int, str]) -> Thing:
+        name, cell, bit = table[index], self.road.cell(index), 1 << index
+        if table is self.hazards:
+            return Thing(name, self.boards.fixed_kind(index), cell)
+        heading = "right" if self.right & bit else "left"
+        return Thing(name, self.boards.mover_kind(index), cell, heading, bool(self.boards.holding & bit))
+
+    def _filtered(self, kept: Callable[[str], bool]) -> Percept:
+        movers = {index: name for index, name in self.movers.items() if kept(name)}
+        hazards = {index: name for index, name in self.hazards.items() if kept(name)}
+        moving = sum(1 << index for index in movers)
+        fixed = sum(1 << index for index in hazards)
+        return _cut_down(
+            self,
+            self.right & moving,
+            self.left & moving,
+            self.boards.within(fixed, moving),
+            self.yielding & moving,
+            self.attentive & moving,
+            movers,
+            hazards,
+        )
+
+
+_cut_down = field_setter(
+    Percept,
+    "right",
+    "left",
+    "boards",
+    "yielding",
+    "attentive",
+    "movers",
+    "hazards",
+)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Mapping
+
 from sim.config import Config
 from sim.fast_replace import fast_constructor
-from sim.perceive.percept import Percept
+from sim.perceive.percept import OtherEgo, Percept
+from sim.perceive.sensor import NO_BELIEF, Belief
 from sim.rules.traffic_cache import cached_reactions
-from sim.types import Kind
+from sim.types import Move, ego_id
 from sim.world import World
 
 _seen = fast_constructor(
@@ -16,11 +19,9 @@ _seen = fast_constructor(
     "episode_tick",
     "ego",
     "ego_id",
-    "potholes",
-    "barriers",
     "right",
     "left",
-    "pedestrians",
+    "boards",
     "yielding",
     "attentive",
     "vehicles",
@@ -29,23 +30,32 @@ _seen = fast_constructor(
     "hazards",
     "dynamics",
     "behaviour",
+    "egos",
 )
+_NOTHING: dict[int, Move] = {}
 
 
-def perceive(world: World, config: Config, av: int = 0) -> Percept:
-    """What autonomous vehicle number `av` (from 0) sees of the world."""
+def perceive_truth(
+    world: World,
+    config: Config,
+    ego: int = 0,
+    announced: Mapping[int, Move] = _NOTHING,
+    parked: Collection[int] = (),
+) -> Percept:
+    """All that is, as ego number `ego` (from 0) sees it with perfect sight.
+
+    `announced`: the moves that other egos have told it of; `parked`: the egos that stay. Both by number.
+    """
     reactions = cached_reactions(world, config)
     return _seen(
         world.road,
         world.tick,
         world.episode_tick,
-        world.avs[av],
-        f"{Kind.AV}-{av + 1}",
-        world.potholes,
-        world.barriers,
+        world.avs[ego],
+        ego_id(ego),
         world.right,
         world.left,
-        world.pedestrians,
+        world.boards,
         reactions.yielding,
         reactions.attentive,
         world.driven,
@@ -54,4 +64,33 @@ def perceive(world: World, config: Config, av: int = 0) -> Percept:
         world.hazards,
         config.dynamics,
         config.behaviour,
+        () if len(world.avs) == 1 else other_egos(world, ego, announced, parked),
     )
+
+
+def other_egos(
+    world: World, ego: int, announced: Mapping[int, Move], parked: Collection[int]
+) -> tuple[OtherEgo, ...]:
+    """What the other egos tell ego number `ego` of themselves; no sensor has a part in it."""
+    return tuple(
+        OtherEgo(
+            ego_id(number),
+            cell,
+            announced.get(number, Move.STAY),
+            number in parked or cell < world.road.columns,
+        )
+        for number, cell in enumerate(world.avs)
+        if number != ego
+    )
+
+
+class PerfectSensor:
+    """Sees the truth, every tick anew."""
+
+    name = "perfect"
+    stateless = True
+    faithful = True
+
+    def perceive(self, world: World, config: Config, ego: int, belief: Belief) -> tuple[Percept, Belief]:  # noqa: ARG002
+        """See `Sensor.perceive`."""
+        return perceive_truth(world, config, ego), NO_BELIEF

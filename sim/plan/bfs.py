@@ -1,4 +1,4 @@
-"""`exact`: the fewest ticks to the goal, whatever else they cost.
+"""`bfs`: the fewest ticks to the goal, whatever else they cost.
 
 Structure: sets of cells stepped by the rules, once for each move that is free now. Guarantees: every
 move's ticks are exact; no livelock; a road that can be driven is driven. Simplifications: as `astar`, and
@@ -11,13 +11,15 @@ from sim.config import Config
 from sim.forecast import Forecast
 from sim.plan.by_cost import decide_by_cost
 from sim.plan.decision import Decision, Measure
+from sim.plan.protocol import Traits
 from sim.search.reachability import least_ticks_by_move, steps_left
 
 
 class BfsPlanner:
     """The first move of a way of fewest ticks."""
 
-    name = "exact"
+    name = "bfs"
+    traits = Traits(forward_only=True, decisions_per_answer=450)
 
     def horizon(self, config: Config) -> int:
         """To the end of the episode; ticks are only foretold as far as the sets get."""

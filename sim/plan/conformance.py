@@ -20,9 +20,11 @@ from math import inf
 from typing import Any, Final
 
 from sim.config import Config
+from sim.decide import sense
 from sim.forecast import predict
-from sim.perceive import Percept, perceive
-from sim.plan.registry import Planner, planner_named
+from sim.perceive import Percept
+from sim.plan.protocol import Planner
+from sim.plan.registry import planner_named
 from sim.plan.sandbox.answer import (
     FAULTS,
     Answer,
@@ -36,7 +38,8 @@ from sim.plan.sandbox.answer import (
 )
 from sim.plan.sandbox.codec import asked, question
 from sim.planner_names import installed, refused
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Move, Outcome
 
 MAX_TOLD = 20
@@ -171,7 +174,7 @@ class _Trial:
             if self._over():
                 return False
             self._say(f"road {state.config.seed + 1}, tick {state.world.tick}")
-            self._moment(perceive(state.world, state.config), state.config)
+            self._moment(sense(state)[0], state.config)
         for number, (percept, config, before) in enumerate(reversed(self.answers), start=1):
             if self._over():
                 return False

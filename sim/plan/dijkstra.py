@@ -13,6 +13,7 @@ from sim.config import Config
 from sim.forecast import Forecast
 from sim.plan.by_cost import decide_by_cost
 from sim.plan.decision import Decision, Measure
+from sim.plan.protocol import Traits
 from sim.search.costs import weights
 from sim.search.reachability import steps_left
 
@@ -21,6 +22,7 @@ class DijkstraPlanner:
     """The first move of a cheapest way to the goal."""
 
     name = "dijkstra"
+    traits = Traits(forward_only=True, weighs_costs=True, decisions_per_answer=240)
 
     def horizon(self, config: Config) -> int:
         """To the end of the episode; ticks are only foretold as far as the sweep begins."""

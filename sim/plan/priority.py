@@ -17,6 +17,7 @@ from sim.config import Config
 from sim.fast_replace import fast_constructor
 from sim.forecast import Forecast, StepVerdict
 from sim.plan.decision import Decision, Option
+from sim.plan.protocol import SIMPLEST, Traits
 from sim.rules.dynamics import Dynamics
 from sim.types import MOVES, Move
 
@@ -58,6 +59,9 @@ class PriorityPlanner:
     """The first move of `MOVES` whose cell will be free; staying when there is none."""
 
     name = "priority"
+    traits = Traits(
+        local=True, forward_only=True, plans_to_goal=False, work=SIMPLEST, decisions_per_answer=450
+    )
 
     def horizon(self, config: Config) -> int:  # noqa: ARG002 - the same for every road
         """One tick."""

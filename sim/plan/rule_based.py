@@ -12,8 +12,8 @@ barriers, and movers that are locked in between them. The ranking:
 A way on is closed while a mover comes toward the vehicle in between: the two would meet before the vehicle is
 there, and it would be pinned against the mover. So a row is entered only where its way on is open.
 Guarantees: never a step into a cell that will be taken while any is free; never into a dead end that fixed
-hazards make while staying is free; LOCAL (`sim.planner_names`): besides what never moves, the movers of the
-vehicle's row and of the one ahead decide.
+hazards make while staying is free; local (`sim.plan.protocol.Traits`): besides what never moves, the movers
+of the vehicle's row and of the one ahead decide.
 Simplifications: no memory, one tick of forecast. Beyond it a mover is taken to drive on, and to turn at the
 next thing that never moves, as if it were alone. A way that a mover keeps closed is waited for, which ends as
 STUCK. Left comes before right only among equals.
@@ -34,6 +34,7 @@ from sim.fast_replace import fast_constructor
 from sim.forecast import Forecast, StepVerdict
 from sim.plan.decision import Decision, Option
 from sim.plan.priority import met_option
+from sim.plan.protocol import SIMPLEST, Traits
 from sim.rules.dynamics import Dynamics
 from sim.search.passages import Ways, locked_in, ways_past
 from sim.types import MOVES, Move
@@ -92,6 +93,14 @@ class RulesPlanner:
     """The first move of the ranking whose cell will be free; staying when there is none."""
 
     name = "rules"
+    traits = Traits(
+        local=True,
+        forward_only=True,
+        plans_to_goal=False,
+        by_passages=True,
+        work=SIMPLEST,
+        decisions_per_answer=450,
+    )
 
     def horizon(self, config: Config) -> int:  # noqa: ARG002 - the same for every road
         """One tick."""
@@ -113,7 +122,10 @@ def standing(forecast: Forecast) -> Standing:
     road, ego = forecast.road, forecast.ego
     columns = road.columns
     right, left, _, _ = forecast.slices[0]
-    fixed = forecast.potholes | forecast.barriers
+    fixed = forecast.fixed
+    if forecast.egos and (parked := forecast.parked):
+        # A mover that brakes for a parked ego stays and keeps facing it.
+        fixed |= parked | right & parked >> 1 | left & parked << 1
     ways = ways_past(
         columns, road.rows, fixed | locked_in(right | left, fixed, road.left_edge, road.right_edge)
     )

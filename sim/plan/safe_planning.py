@@ -13,7 +13,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Final
 
 from sim.config import Config
-from sim.forecast import predict
+from sim.forecast import Forecast, predict
 from sim.perceive import Percept
 from sim.plan.decision import Decision, Measure
 from sim.plan.priority import options_in_order
@@ -32,14 +32,18 @@ def is_foreign(name: str) -> bool:
     return planner_named(name) is None
 
 
-def plan_safely(percept: Percept, config: Config) -> Decision:
-    """The planner's decision; or to stay, with the fault."""
+def plan_safely(percept: Percept, config: Config) -> tuple[Forecast, Decision]:
+    """What the planner reads and decides; or to stay, with the fault.
+
+    The forecast goes as far ahead as the planner asks for; for one of another package it is one tick.
+    """
     planner = planner_named(config.planner)
     if planner is not None:
-        return planner.decide(predict(percept, planner.horizon(config)), config)
+        forecast = predict(percept, planner.horizon(config))
+        return forecast, planner.decide(forecast, config)
     from sim.plan.sandbox.client import answered
 
-    return plan_answered(lambda: answered(percept, config), percept, config)
+    return predict(percept, 1), plan_answered(lambda: answered(percept, config), percept, config)
 
 
 def plan_answered(answered: Callable[[], Answer], percept: Percept, config: Config) -> Decision:

@@ -42,7 +42,7 @@ def _zeros(columns: int, rows: int, px: int) -> pygame.Surface:
 
 
 def _one(picture: pygame.Surface, kind: Kind, cell: tuple[int, int], px: int) -> None:
-    _digit(picture, "1", theme.ON_KIND, theme.SCHEMATIC[kind], cell, px)
+    _digit(picture, "1", theme.ON_KIND, theme.colour_of(kind), cell, px)
 
 
 def _digit(

@@ -13,28 +13,22 @@ from typing import Final
 
 import pygame
 
+from sim.decide import sense
 from sim.forecast import predict
-from sim.perceive import perceive
 from sim.plan import Decision, Measure, Option
 from sim.render import theme
-from sim.render.sprites import av_sprite, barrier_sprite, pedestrian_sprite, pothole_sprite, vehicle_sprite
+from sim.render.sprites import av_sprite, sprite_of
 from sim.render.text import cut, width_of, wrapped, written
 from sim.render.theme import Colour
 from sim.state import SimState
-from sim.types import HAZARDS, Cell, Kind, Move
+from sim.types import HAZARDS, MARKED, MOVERS, Cell, Kind, Move
 
 ACROSS: Final = 9
 """Cells along each side; the vehicle is in the middle."""
 LIST_ROWS: Final = 6
 LEAST_ROW_PX: Final = 18
 MOST_ROW_PX: Final = 26
-LEGEND: Final = {
-    Kind.AV: "vehicle",
-    Kind.VEHICLE: "car",
-    Kind.PEDESTRIAN: "pedestrian",
-    Kind.POTHOLE: "pothole",
-    Kind.BARRIER: "barrier",
-}
+LEGEND: Final = {Kind.AV: "vehicle", Kind.VEHICLE: "car"} | {kind: kind.value for kind in (*MARKED, *HAZARDS)}
 _HALF: Final = ACROSS // 2
 
 
@@ -83,27 +77,18 @@ def _grid(state: SimState, decision: Decision | None, px: int) -> pygame.Surface
     symbol_px = _symbol(px)
     things = [thing for thing in world.things() if near(thing.cell)]
     for thing in sorted(things, key=lambda each: each.kind not in HAZARDS):
-        look, heading = int(thing.id.rpartition("-")[2]), thing.heading or "left"
-        match thing.kind:
-            case Kind.POTHOLE:
-                sprite = pothole_sprite(symbol_px, thing.id)
-            case Kind.BARRIER:
-                sprite = barrier_sprite(symbol_px)
-            case Kind.PEDESTRIAN:
-                sprite = pedestrian_sprite(symbol_px, look, heading, thing.disabled)
-            case _:
-                sprite = vehicle_sprite(symbol_px, look, heading, thing.disabled)
+        sprite = sprite_of(thing, symbol_px)
         spot = box(thing.cell)
-        tint = theme.SCHEMATIC[thing.kind]
+        tint = theme.colour_of(thing.kind)
         pygame.draw.rect(picture, _faint(tint), spot.inflate(-1, -1))
         picture.blit(sprite, sprite.get_rect(center=spot.center))
     if decision is not None:
-        ahead = predict(perceive(world, state.config), 1).slices.movers(0)
+        ahead = predict(sense(state)[0], 1).slices.movers(0)
         going = {name: road.cell(index) for index, name in ahead.items()}
         for thing in things:
             end = going.get(thing.id)
             if end is not None and near(end):
-                _expected(picture, box(thing.cell), box(end), theme.SCHEMATIC[thing.kind])
+                _expected(picture, box(thing.cell), box(end), theme.colour_of(thing.kind))
         for option in decision.options:
             if option.cell is not None and option.move is not decision.move and option.cost is None:
                 _cross(picture, box(option.cell))
@@ -229,7 +214,7 @@ def reason_of(option: Option, decision: Decision) -> str:
     """Why a move was taken or not, in a few words."""
     if option.reason.blocks:
         words = theme.REASONS[option.reason]
-        movers = [name for name in option.causes if name.partition("-")[0] in (Kind.VEHICLE, Kind.PEDESTRIAN)]
+        movers = [name for name in option.causes if name.rpartition("-")[0] in MOVERS]
         if movers and option.reason.startswith(("mover", "disabled")):
             return f"{movers[0].replace('vehicle', 'car')} {words}"
         return words
@@ -276,7 +261,7 @@ def _tell(picture: pygame.Surface, text: str, room: pygame.Rect) -> int:
 def _legend(picture: pygame.Surface, room: pygame.Rect) -> None:
     """What the colours are of, at the lower edge, where there is room for all of it."""
     px, row_px = 18, 20
-    entries = [(LEGEND[kind], theme.SCHEMATIC[kind]) for kind in LEGEND]
+    entries = [(word, theme.colour_of(kind)) for kind, word in LEGEND.items()]
     widths = [width_of(name, px) + 34 for name, _ in entries]
     rows, x = 1, 0
     for width in widths:

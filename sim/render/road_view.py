@@ -12,10 +12,10 @@ from sim.render.camera import Camera, camera_on
 from sim.render.ground import lay_ground
 from sim.render.hud import draw_figures, draw_verdict
 from sim.render.motion import Pose, leading, poses
-from sim.render.sprites import av_sprite, barrier_sprite, pedestrian_sprite, pothole_sprite, vehicle_sprite
+from sim.render.sprites import av_sprite, sprite_of
 from sim.rules.bodies import SIZES
 from sim.state import SimState
-from sim.types import Kind, Outcome
+from sim.types import Outcome
 from sim.world import World
 
 BOX_FROM_PX = 48
@@ -52,18 +52,7 @@ def draw_road(
 
 def _draw_thing(picture: pygame.Surface, camera: Camera, pose: Pose) -> None:
     thing = pose.thing
-    px, look = camera.cell_px, int(thing.id.rpartition("-")[2])
-    heading = thing.heading or "left"
-    match thing.kind:
-        case Kind.POTHOLE:
-            sprite = pothole_sprite(px, thing.id)
-        case Kind.BARRIER:
-            sprite = barrier_sprite(px)
-        case Kind.PEDESTRIAN:
-            sprite = pedestrian_sprite(px, look, heading, thing.disabled)
-        case _:
-            sprite = vehicle_sprite(px, look, heading, thing.disabled)
-    _blit(picture, sprite, camera.centre(pose.column, pose.row))
+    _blit(picture, sprite_of(thing, camera.cell_px), camera.centre(pose.column, pose.row))
     if thing.kind.moves:
         _draw_box(picture, camera, pose, theme.BOX)
 

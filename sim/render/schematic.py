@@ -9,9 +9,11 @@ import pygame
 from sim.render import theme
 from sim.render.theme import MAX_SIDE_PX
 from sim.state import SimState
-from sim.types import Kind
+from sim.types import KINDS, Kind
 
 CELL_PX = 24
+_ROUND = ("pothole", "pedestrian")
+"""What is drawn as a disc."""
 
 
 def draw_schematic(state: SimState, size: tuple[int, int] | None) -> pygame.Surface:
@@ -42,7 +44,7 @@ def _empty(columns: int, rows: int, px: int) -> pygame.Surface:
 def _spot(picture: pygame.Surface, kind: Kind, cell: tuple[int, int], px: int) -> None:
     inset = max(0, px // 8)
     spot = pygame.Rect(cell[0] * px, cell[1] * px, px, px).inflate(-2 * inset, -2 * inset)
-    if kind in (Kind.POTHOLE, Kind.PEDESTRIAN):
-        pygame.draw.ellipse(picture, theme.SCHEMATIC[kind], spot)
+    if KINDS[kind].sprite in _ROUND:
+        pygame.draw.ellipse(picture, theme.colour_of(kind), spot)
     else:
-        pygame.draw.rect(picture, theme.SCHEMATIC[kind], spot, border_radius=px // 5)
+        pygame.draw.rect(picture, theme.colour_of(kind), spot, border_radius=px // 5)

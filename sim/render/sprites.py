@@ -7,8 +7,10 @@ edges. A pothole's rim and cracks follow from its id alone.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import lru_cache
 from math import cos, pi, sin
+from typing import Final
 
 import pygame
 
@@ -16,10 +18,16 @@ from sim.randomness import Stream
 from sim.render import theme
 from sim.render.theme import Colour
 from sim.rules.bodies import SIZES
-from sim.types import Kind
+from sim.types import KINDS, Kind
+from sim.world import Thing
 
 FINER = 4
 _SPRITES = 512
+
+
+def sprite_of(thing: Thing, px: int) -> pygame.Surface:
+    """A thing as its kind is drawn (`KindSpec.sprite`)."""
+    return _DRAWN[KINDS[thing.kind].sprite](thing, px)
 
 
 @lru_cache(maxsize=_SPRITES)
@@ -250,3 +258,17 @@ def _darker(colour: Colour, share: float) -> Colour:
 def _lighter(colour: Colour, share: float) -> Colour:
     r, g, b = (int(part + (255 - part) * share) for part in colour)
     return r, g, b
+
+
+def _look(thing: Thing) -> tuple[int, str, bool]:
+    return int(thing.id.rpartition("-")[2]), thing.heading or "left", thing.disabled
+
+
+_DRAWN: Final[dict[str, Callable[[Thing, int], pygame.Surface]]] = {
+    "ego": lambda _, px: av_sprite(px),
+    "car": lambda thing, px: vehicle_sprite(px, *_look(thing)),
+    "pedestrian": lambda thing, px: pedestrian_sprite(px, *_look(thing)),
+    "pothole": lambda thing, px: pothole_sprite(px, thing.id),
+    "barrier": lambda _, px: barrier_sprite(px),
+}
+"""What there is to draw, by the names in `sim.types.KINDS`."""

@@ -69,6 +69,14 @@ SCHEMATIC: Final[dict[str, Colour]] = {
     "barrier": (240, 122, 48),
 }
 
+OTHER_KIND: Final[Colour] = (190, 130, 230)
+
+
+def colour_of(kind: str) -> Colour:
+    """The colour of a kind where it is a mark and not a picture; one for all kinds without their own."""
+    return SCHEMATIC.get(kind, OTHER_KIND)
+
+
 REASONS: Final[dict[str, str]] = {
     "free": "free",
     "off_road": "off the road",
@@ -79,6 +87,10 @@ REASONS: Final[dict[str, str]] = {
     "mover_enters": "coming",
     "mover_swaps": "head-on",
     "mover_crosses": "cut off",
+    "ego_stays": "in the way",
+    "ego_enters": "coming",
+    "ego_swaps": "head-on",
+    "ego_crosses": "cut off",
 }
 """why a move is not taken, in a few words; who it is stands before those about movers"""
 MOVES: Final[dict[str, str]] = {

@@ -14,9 +14,10 @@ from io import BytesIO
 from itertools import chain, pairwise
 from typing import TYPE_CHECKING, Final
 
+from sim.decide import decide
 from sim.plan import Decision
 from sim.render import pixels, render
-from sim.state import SimState, decide
+from sim.state import SimState
 
 if TYPE_CHECKING:
     from PIL.Image import Image

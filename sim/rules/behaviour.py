@@ -13,11 +13,12 @@ A further behaviour is a class in a module of its own, named in `sim.rules.behav
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import chain, combinations, count, product
 from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple
 
-from sim.rules.traffic import Motion, brake, move_movers, pedestrians_walk
+from sim.rules.kinds import resting_marked
+from sim.rules.traffic import Motion, brake, move_movers
 from sim.rules.yielding import attentive_movers, movers_beside, yielding_movers
 from sim.world.grid import Board, bits, board_of
 
@@ -77,7 +78,7 @@ class Behaviour:
         self,
         right: Board,
         left: Board,
-        pedestrians: Board,
+        marked: Sequence[Board],
         disabled: Board,
         fixed: Board,
         left_edge: Board,
@@ -88,14 +89,14 @@ class Behaviour:
     ) -> Motion:
         """Where all movers are after the tick that begins at `episode_tick`, unless someone brakes.
 
-        Boards of one road, or of a part of it that holds whole rows: movers by heading, those of them that
-        walk, those that a pothole holds; fixed hazards; the first and the last column; and the autonomous
-        vehicles, where it is known where they are.
+        Boards of one road, or of a part of it that holds whole rows: movers by heading, those of each kind
+        in `MARKED` (empty where there are none), those that a hazard holds; fixed hazards; the first and the
+        last column; and the autonomous vehicles, where it is known where they are.
         """
         return move_movers(
             right,
             left,
-            disabled if pedestrians_walk(episode_tick) else disabled | pedestrians,
+            disabled | resting_marked(marked, episode_tick) if marked else disabled,
             fixed,
             reactions.yielding,
             vehicles,

@@ -19,31 +19,10 @@ from fractions import Fraction
 from types import MappingProxyType
 from typing import Final, NamedTuple
 
-from sim.types import Cell, Kind
+from sim.types import KINDS, Cell, Kind, Size
 
-
-class Size(NamedTuple):
-    """A body's extent in cells: across the lanes and along the road."""
-
-    across: Fraction
-    along: Fraction
-
-
-def _size(across_percent: int, along_percent: int) -> Size:
-    return Size(Fraction(across_percent, 100), Fraction(along_percent, 100))
-
-
-SIZES: Final[Mapping[Kind, Size]] = MappingProxyType(
-    {
-        Kind.AV: _size(32, 66),
-        Kind.VEHICLE: _size(66, 32),
-        Kind.PEDESTRIAN: _size(30, 32),
-        Kind.BARRIER: _size(66, 30),
-        Kind.POTHOLE: _size(50, 50),
-    }
-)
-"""An autonomous vehicle points up the road, an obstacle vehicle across it; of pedestrians and what is fixed,
-the box that holds all of it. In hundredths of a cell, so that a page can keep the same numbers exactly."""
+SIZES: Final[Mapping[Kind, Size]] = MappingProxyType({kind: spec.size for kind, spec in KINDS.items()})
+"""The box of every kind (`sim.types.KINDS`)."""
 
 
 class Path(NamedTuple):

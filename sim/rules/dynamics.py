@@ -16,6 +16,7 @@ from collections.abc import Callable
 from functools import lru_cache
 from typing import Any, ClassVar, Final, NamedTuple
 
+from sim.rules.contacts import Denied, paths_touch
 from sim.rules.ego_step import Steps
 from sim.types import MOVES, Move
 from sim.world.grid import Board, Road, bits, board_of
@@ -136,6 +137,25 @@ class Dynamics:
     def unhindered(self, start: Board) -> Board:  # noqa: ARG002 - nothing is known of a motion in general
         """Where going forward leads if only what is there afterwards can be met; nowhere if more can be."""
         return 0
+
+    def egos_touch(self, one: tuple[int, int], other: tuple[int, int]) -> bool:
+        """Whether two egos touch that go straight from a cell to another each; cell indices, (start, end)."""
+        (start, end), (start_of_other, end_of_other) = one, other
+        cell = self.road.cell
+        path, path_of_other = (cell(start), cell(end)), (cell(start_of_other), cell(end_of_other))
+        return paths_touch(path, path_of_other, "swept" if self.bodies else "cell")
+
+    def denied(self, cell: int, move: Move) -> tuple[Denied, ...]:
+        """For every move, in the order of `MOVES`, what another ego denies that makes `move` from `cell`."""
+        end = self.target(cell, move)
+        theirs = cell, cell if end is None else end
+        starts, ends = [0] * len(MOVES), [0] * len(MOVES)
+        for start in range(self.road.columns * self.road.rows):
+            for step in self._from(start):
+                if start != cell and self.egos_touch((start, step.end), theirs):
+                    starts[step.place] |= 1 << start
+                    ends[step.place] |= 1 << step.end
+        return tuple(map(Denied, starts, ends))
 
     def ends_anywhere(self, start: Board) -> Board:
         """Where moves lead from `start`, whatever is there."""

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from sim.rules.contacts import Denied, denied_steps, egos_touch
 from sim.rules.dynamics import DEFAULT_DYNAMICS, NOTHING, Dynamics, Swept
 from sim.rules.ego_step import (
     ClosedStarts,
@@ -140,6 +141,14 @@ class GridDynamics(Dynamics):
     def unhindered(self, start: Board) -> Board:
         """See `Dynamics`: nobody is met on the way straight on."""
         return start >> self.road.columns
+
+    def egos_touch(self, one: tuple[int, int], other: tuple[int, int]) -> bool:
+        """See `Dynamics`: looked up in the table of contacts."""
+        return egos_touch(self.road, one, other, "swept" if self.bodies else "cell")
+
+    def denied(self, cell: int, move: Move) -> tuple[Denied, ...]:
+        """See `Dynamics`: made from the table of contacts, once."""
+        return denied_steps(self.road.columns, self.road.rows, cell, move, "swept" if self.bodies else "cell")
 
     def ends_anywhere(self, start: Board) -> Board:
         """See `Dynamics`."""

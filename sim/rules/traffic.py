@@ -8,12 +8,9 @@ no order of ids matters, and a mirrored road behaves as the mirror image.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Final, NamedTuple
+from typing import NamedTuple
 
 from sim.world.grid import Board
-
-PEDESTRIAN_PERIOD: Final = 2
-"""Ticks a pedestrian needs for one cell; an obstacle vehicle needs one."""
 
 
 class Motion(NamedTuple):
@@ -32,9 +29,9 @@ class Motion(NamedTuple):
         return self.right | self.left
 
 
-def pedestrians_walk(episode_tick: int) -> bool:
-    """Whether pedestrians step in the tick that begins at `episode_tick`."""
-    return episode_tick % PEDESTRIAN_PERIOD == PEDESTRIAN_PERIOD - 1
+def steps_in_tick(period: int, episode_tick: int) -> bool:
+    """Whether movers that need `period` ticks for a cell step in the tick that begins at `episode_tick`."""
+    return episode_tick % period == period - 1
 
 
 def move_movers(

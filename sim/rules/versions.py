@@ -11,6 +11,8 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any, Final, TypeVar
 
+from sim.codes import plain_text
+
 Value = TypeVar("Value")
 
 RULES: Final = 2
@@ -33,13 +35,10 @@ LEFT: Final[Mapping[int, Mapping[str, Any]]] = MappingProxyType(
 class NewerRulesError(ValueError):
     """Something was made under rules that this program does not know."""
 
-    def __init__(self, what: str, rules: int) -> None:
-        """`what` begins the sentence: "This recording"."""
-        super().__init__(
-            f"{what} was made by a newer version of Roadtalk (rules {rules}). "
-            f"This one knows rules up to {RULES}."
-        )
+    def __init__(self, rules: int) -> None:
+        super().__init__(plain_text("newer_rules", {"rules": rules, "known": RULES}))
         self.rules = rules
+        self.known = RULES
 
 
 def version_of(parts: Mapping[str, Any]) -> Any:
@@ -47,10 +46,10 @@ def version_of(parts: Mapping[str, Any]) -> Any:
     return parts.get("rules", FIRST)
 
 
-def check_known(what: str, rules: Any) -> None:
-    """Raise `NewerRulesError` for a version after this program's; what is no version passes."""
+def check_known(rules: Any) -> None:
+    """Raises `NewerRulesError` for a version after this program's; what is no version passes."""
     if isinstance(rules, int) and rules > RULES:
-        raise NewerRulesError(what, rules)
+        raise NewerRulesError(rules)
 
 
 def default_under(rules: int, name: str, today: Value) -> Value:
@@ -75,8 +74,3 @@ def completed(parts: Mapping[str, Any]) -> dict[str, Any]:
     rules = version_of(parts)
     known = isinstance(rules, int) and not isinstance(rules, bool)
     return {**(held_under(rules) if known else {}), **parts, "rules": rules}
-
-
-def note_on(rules: int) -> str | None:
-    """What is told of a session under these rules when it is opened; None where they are today's."""
-    return f"Made under rules {rules}: it replays as it did then." if rules < RULES else None

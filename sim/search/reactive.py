@@ -19,11 +19,13 @@ from sim.forecast import Forecast
 from sim.rules.behaviour import NOBODY, Reactions
 from sim.rules.dynamics import Dynamics
 from sim.rules.dynamics_registry import dynamics_on
-from sim.rules.traffic import Motion, shift_board
+from sim.rules.kinds import shift_marked
+from sim.rules.traffic import Motion
 from sim.search.dead_ends import cells_that_may_arrive
 from sim.types import MOVES, Move
 from sim.world import World
-from sim.world.grid import Board, Road, bits
+from sim.world.boards import Boards
+from sim.world.grid import Board, Road, bits, board_of, union
 
 
 class ImpatientError(Exception):
@@ -36,7 +38,8 @@ class Row(NamedTuple):
     number: int
     right: Board
     left: Board
-    pedestrians: Board
+    marked: tuple[Board, ...]
+    """the movers of each kind in `MARKED`; empty where there are none"""
 
 
 Layer = dict[Row, Board]
@@ -94,7 +97,7 @@ class ReactiveSearch:
         """The states reached after 0, 1, ... ticks, up to the first in row 0; None if there is none."""
         world = self.world
         number, column = divmod(world.av, world.road.columns)
-        first = self._row(number, world.right, world.left, world.pedestrians)
+        first = self._row(number, world.right, world.left, _marked(world.boards))
         layers: list[Layer] = [{first: 1 << column}]
         if number == 0:
             return layers
@@ -138,7 +141,7 @@ class ReactiveSearch:
         below, front = row.number * columns - ahead_rows, (1 << ahead_rows) - 1
         came_right = coming.came_right >> below & front | moved.came_right << ahead_rows
         came_left = coming.came_left >> below & front | moved.came_left << ahead_rows
-        unmoved = world.fixed >> below
+        unmoved = (world.fixed | self._taken(row.number * columns + column, ahead)) >> below
         taken = coming.occupied >> below & front
         start = 1 << ahead_rows + column
         steps = window.steps(start, unmoved | taken | moved.occupied << ahead_rows, came_right, came_left)
@@ -165,13 +168,13 @@ class ReactiveSearch:
         """The movers of the row in this tick while the vehicle leaves its cell, and while it stands."""
         world, behaviour = self.world, self.config.mover_behaviour
         columns, bit = world.road.columns, 1 << column
-        moving = row.right | row.left
+        moving, whole = row.right | row.left, (1 << columns) - 1
         reactions = self._reactions(row, column, ahead) if moving & (bit << 1 | bit >> 1) else NOBODY
         moved = behaviour.step(
             row.right,
             row.left,
-            row.pedestrians,
-            moving & world.potholes >> row.number * columns,
+            row.marked,
+            moving & world.boards.holding >> row.number * columns,
             fixed,
             1,
             1 << columns - 1,
@@ -179,8 +182,23 @@ class ReactiveSearch:
             bit,
             reactions,
         )
-        stood = behaviour.brake(moved, bit, reactions) if moved.occupied & bit else moved
-        return moved, stood
+        if self.forecast.egos:
+            standing = self._others_standing(row.number, ahead)
+            moved = behaviour.brake(moved, standing, Reactions(attentive=whole))
+        return moved, behaviour.brake(moved, bit, reactions) if moved.occupied & bit else moved
+
+    def _taken(self, cell: int, ahead: int) -> Board:
+        """The cells that other egos keep the vehicle from entering, from a cell, in this tick."""
+        forecast = self.forecast
+        return forecast.taken(ahead) if forecast.egos and (ahead or cell == forecast.ego) else 0
+
+    def _others_standing(self, number: int, ahead: int) -> Board:
+        """The columns of a row that other egos stand in throughout this tick."""
+        columns, forecast = self.world.road.columns, self.forecast
+        standing = forecast.slices.standing
+        if not ahead:
+            standing &= board_of([other.cell for other in forecast.egos])
+        return standing >> number * columns & (1 << columns) - 1
 
     def _reactions(self, row: Row, column: int, ahead: int) -> Reactions:
         """Who of the row may react in this tick, as it is drawn."""
@@ -191,25 +209,37 @@ class ReactiveSearch:
             avs=(below + column,),
             right=row.right << below,
             left=row.left << below,
-            pedestrians=row.pedestrians << below,
+            boards=_only(world.boards, row.marked, below),
         )
         found = self.config.mover_behaviour.reactions(there, self.config)
         return Reactions(found.yielding >> below, found.attentive >> below)
 
     def _after(self, row: Row, motion: Motion) -> Row:
-        pedestrians = shift_board(row.pedestrians, motion) if row.pedestrians else 0
-        return Row(row.number, motion.right, motion.left, pedestrians)
+        return Row(row.number, motion.right, motion.left, shift_marked(row.marked, motion))
 
     def _entered(self, number: int, ahead: int) -> Row:
         """A row that no vehicle has been in, after this tick."""
         motion = self.forecast.slices[ahead]
-        return self._row(number, motion.right, motion.left, self.forecast.slices.pedestrians(ahead))
+        return self._row(number, motion.right, motion.left, _marked(self.forecast.slices.boards(ahead)))
 
-    def _row(self, number: int, right: Board, left: Board, pedestrians: Board) -> Row:
+    def _row(self, number: int, right: Board, left: Board, marked: tuple[Board, ...]) -> Row:
         columns = self.world.road.columns
         below, whole = number * columns, (1 << columns) - 1
-        return Row(number, right >> below & whole, left >> below & whole, pedestrians >> below & whole)
+        here = tuple([board >> below & whole for board in marked])
+        return Row(number, right >> below & whole, left >> below & whole, here if any(here) else ())
 
     def _fixed(self, number: int) -> Board:
         columns = self.world.road.columns
         return self.world.fixed >> number * columns & (1 << columns) - 1
+
+
+def _marked(boards: Boards) -> tuple[Board, ...]:
+    return boards.marked if boards.others else ()
+
+
+def _only(boards: Boards, marked: tuple[Board, ...], below: int) -> Boards:
+    """The boards with the movers of one row alone, each kind's in `marked`, its first cell at `below`."""
+    if not boards.others:
+        return boards
+    here = tuple([board << below for board in marked]) or (0,) * len(boards.marked)
+    return replace(boards, marked=here, others=union(here))

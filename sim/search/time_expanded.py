@@ -107,6 +107,6 @@ class TimeExpandedGraph:
         for _ in range(self.weights.buffer if self.weights.mover else 0):
             spread = around(spread, road)
             near.append(spread)
-        blocked = forecast.fixed | motion.occupied
+        blocked = forecast.fixed | motion.occupied | forecast.taken(ahead)
         obstacles = forecast.dynamics.obstacles(blocked, motion.came_right, motion.came_left)
         return Layer(obstacles, tuple(near))

@@ -1,8 +1,8 @@
-"""Actions on a run: what a person may change, one function an action. All or nothing.
+"""Actions on a session: what a person may change, one function an action. All or nothing.
 
-A run is a value: either `apply` answers a new one, or it raises `EditError` and nothing was done.
-While a result stands, a change begins the next episode first, since the road it would touch is
-about to go; what points at a thing on the old road is refused instead.
+States are values: `apply` returns a new one, or raises `EditError` and nothing is done. While the result of
+an episode stands, a change begins the next episode first, since the road it would touch is about to go;
+actions that point at a thing on the old road are refused.
 """
 
 from __future__ import annotations
@@ -29,25 +29,17 @@ from sim.generation import GenerationError, assign_ids, lowest_ranked
 from sim.randomness import Stream
 from sim.repetition import NOTHING_KEPT
 from sim.session.errors import EditError
-from sim.session.locate import PlaceError, nearest_first, place_for_adding, place_for_finding
-from sim.session.scenario import configured, unavailable
-from sim.session.settings import NEEDS_A_NEW_ROAD, preferring, setting, vehicles_for
+from sim.session.locate import nearest_first, place_for_adding, place_for_finding
+from sim.session.scenario import config_of_scenario, find_unavailable
+from sim.session.settings import NEEDS_A_NEW_ROAD, add_preference, change_setting, vehicles_for
 from sim.state import SimState, next_episode, reconfigure, restart_episode
-from sim.types import PLACEABLE, Kind, Outcome
+from sim.types import KINDS, PLACEABLE, Kind, Outcome
 from sim.world import Thing, World
+from sim.world.boards import BOARDED
 from sim.world.grid import Board, bits, board_of
 
 MAX_QUEUE = 100
 """How many moves of a person may wait."""
-
-PLURALS = {
-    Kind.POTHOLE: "potholes",
-    Kind.BARRIER: "barriers",
-    Kind.VEHICLE: "vehicles",
-    Kind.PEDESTRIAN: "pedestrians",
-    Kind.AV: "avs",
-}
-"""How counts are called in changes and configurations."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +64,7 @@ class Applied:
 
 
 def apply(state: SimState, action: WorldAction) -> Applied:
-    """The run with an action done at its present tick. Raises `EditError`."""
+    """Applies an action at the present tick. Raises `EditError`."""
     begun = state
     events: tuple[Event, ...] = ()
     if state.world.outcome is not Outcome.RUNNING and isinstance(action, Add | Remove | SetCount | Drive):
@@ -81,7 +73,9 @@ def apply(state: SimState, action: WorldAction) -> Applied:
         events = (event,)
     done = _apply(begun, action)
     changes = () if done.state is state else differences(state, done.state)
-    after = replace(done.state, watch=NOTHING_KEPT) if done.state.watch is not NOTHING_KEPT else done.state
+    after = done.state
+    if after.watch is not NOTHING_KEPT:
+        after = after.with_ego(watch=NOTHING_KEPT)
     return Applied(done.action, after, changes, done.added, done.removed, (*events, *done.events))
 
 
@@ -99,22 +93,22 @@ def _apply(state: SimState, action: WorldAction) -> Applied:
             begun, event = restart_episode(state)
             return Applied(action, begun, events=(event,))
         case SetMode():
-            return Applied(action, replace(state, mode=action.mode, queue=()))
+            return Applied(action, state.with_ego(mode=action.mode, queue=()))
         case Drive():
             if len(state.queue) >= MAX_QUEUE:
-                raise EditError("too-many", f"{MAX_QUEUE} moves are waiting already.", "move")
-            return Applied(action, replace(state, queue=(*state.queue, action.move)))
+                raise EditError("too_many_moves", "move", most=MAX_QUEUE)
+            return Applied(action, state.with_ego(queue=(*state.queue, action.move)))
         case Prefer():
-            return Applied(action, replace(state, config=preferring(state.config, action.preference)))
+            return Applied(action, replace(state, config=add_preference(state.config, action.preference)))
         case Set() | Adjust():
             return _set(state, action)
 
 
 def _set(state: SimState, action: Set | Adjust) -> Applied:
-    """A setting given a value. Those a road is made from show from the next road on, or begin one."""
-    config = setting(state.config, action)
+    """Gives a setting a value. Settings that a road is made from show from the next road on, or begin one."""
+    config = change_setting(state.config, action)
     if action.parameter in NEEDS_A_NEW_ROAD and config != state.config:
-        return _begun(state, action, config)
+        return _begin_road(state, action, config)
     after = replace(state, config=config)
     if action.parameter == "traffic" and state.world.outcome is Outcome.RUNNING:
         # Who says "heavy traffic" means what is on the road now as well.
@@ -134,28 +128,24 @@ def _add(state: SimState, action: Add) -> Applied:
     kind = _placeable(action.kind)
     where, world = action.where, state.world
     if where is not None and where.id is not None:
-        raise EditError("bad-place", "A new thing is put in a lane, a row or a cell, not at an id.", "where")
-    try:
-        place = place_for_adding(where, action.count, world, state.config.cell_m)
-    except PlaceError as error:
-        raise EditError("outside-road", str(error), "where") from None
+        raise EditError("id_is_no_place", "where")
+    place = place_for_adding(where, action.count, world, state.config.cell_m)
     if place.cells.bit_count() == 1 and action.count == 1:
         (cell,) = bits(place.cells)
         _refuse_occupied(world, kind, cell)
-        return _placed(state, action, kind, [cell])
+        return _place_things(state, action, kind, [cell])
     free = place.cells & ~world.occupied
     if free.bit_count() < action.count:
-        there = " there" if where else ""
-        raise EditError("does-not-fit", _no_room(action.count, kind, free, there), "count")
+        raise _no_room(action.count, kind, free, "there" if where else "between_start_and_goal")
     if place.ordered:
         cells = nearest_first(bits(free), world)[: action.count]
     else:
         cells = lowest_ranked(free, action.count, _draws(state))
-    return _placed(state, action, kind, cells)
+    return _place_things(state, action, kind, cells)
 
 
-def _placed(state: SimState, action: Add | SetCount, kind: Kind, cells: list[int]) -> Applied:
-    """New things in these cells; movers face a random way."""
+def _place_things(state: SimState, action: Add | SetCount, kind: Kind, cells: list[int]) -> Applied:
+    """Places new things in these cells; movers face a random way."""
     world = state.world
     board = board_of(cells)
     last = dict(world.numbered)
@@ -164,11 +154,9 @@ def _placed(state: SimState, action: Add | SetCount, kind: Kind, cells: list[int
     right = board_of([cell for cell in cells if heading.below(2, cell)]) if kind.moves else 0
     after = replace(
         world,
-        potholes=world.potholes | (board if kind is Kind.POTHOLE else 0),
-        barriers=world.barriers | (board if kind is Kind.BARRIER else 0),
-        pedestrians=world.pedestrians | (board if kind is Kind.PEDESTRIAN else 0),
         right=world.right | right,
         left=world.left | (board & ~right if kind.moves else 0),
+        boards=world.boards.with_kind(kind, world.boards[kind] | board) if kind in BOARDED else world.boards,
         movers={**world.movers, **table} if kind.moves else world.movers,
         hazards=world.hazards if kind.moves else {**world.hazards, **table},
         numbered=last,
@@ -178,16 +166,13 @@ def _placed(state: SimState, action: Add | SetCount, kind: Kind, cells: list[int
         for cell in bits(after.disabled & ~world.disabled)
     )
     added = tuple(thing for name in table.values() if (thing := after.find(name)))
-    return Applied(action, _edited(state, after), added=added, events=events)
+    return Applied(action, _with_world(state, after), added=added, events=events)
 
 
 def _remove(state: SimState, action: Remove) -> Applied:
     world, where = state.world, action.where
     kinds = PLACEABLE if action.kind == "everything" else (_placeable(action.kind),)
-    try:
-        place = place_for_finding(where, world, state.config.cell_m)
-    except PlaceError as error:
-        raise EditError("outside-road", str(error), "where") from None
+    place = place_for_finding(where, world, state.config.cell_m)
     if where is not None and where.id is not None:
         found = [_thing(world, where.id, kinds)]
     else:
@@ -201,23 +186,18 @@ def _remove(state: SimState, action: Remove) -> Applied:
             key=lambda thing: near[world.road.index(thing.cell)],
         )
     if action.count == "all":
-        return _taken(state, action, found) if found else Applied(action, state)
-    there = " there" if where is not None and not where.nearest else " on the road"
+        return _remove_things(state, action, found) if found else Applied(action, state)
+    there = "there" if where is not None and not where.nearest else "road"
     if not found:
-        raise EditError("none-there", f"There is no {_noun(1, action.kind)}{there}.", "kind")
+        raise EditError("none_there", "kind", kind=action.kind, place=there)
     if len(found) < action.count:
-        are = (
-            f"is only one {_noun(1, action.kind)}"
-            if len(found) == 1
-            else f"are only {_many(len(found), action.kind)}"
-        )
-        raise EditError("too-few", f"There {are}{there}.", "count")
-    return _taken(state, action, found[: action.count])
+        raise EditError("too_few", "count", count=len(found), kind=action.kind, place=there)
+    return _remove_things(state, action, found[: action.count])
 
 
-def _taken(state: SimState, action: Remove | SetCount, things: list[Thing]) -> Applied:
+def _remove_things(state: SimState, action: Remove | SetCount, things: list[Thing]) -> Applied:
     after = state.world.without({thing.id for thing in things})
-    return Applied(action, _edited(state, after), removed=tuple(things))
+    return Applied(action, _with_world(state, after), removed=tuple(things))
 
 
 def _set_count(state: SimState, action: SetCount) -> Applied:
@@ -226,102 +206,98 @@ def _set_count(state: SimState, action: SetCount) -> Applied:
     if more > 0:
         free = state.world.road.between & ~state.world.occupied
         if free.bit_count() < more:
-            raise EditError("does-not-fit", _no_room(action.count, kind, free, ""), "count")
-        return _placed(state, action, kind, lowest_ranked(free, more, _draws(state)))
+            raise _no_room(action.count, kind, free, "between_start_and_goal")
+        return _place_things(state, action, kind, lowest_ranked(free, more, _draws(state)))
     if more == 0:
         return Applied(action, state)
     going = lowest_ranked(state.world.board(kind), -more, _draws(state))
     names = [state.world.id_at(cell, kind) for cell in going]
-    return _taken(state, action, [thing for name in names if (thing := state.world.find(name))])
+    return _remove_things(state, action, [thing for name in names if (thing := state.world.find(name))])
 
 
 def _scenario(state: SimState, action: Scenario) -> Applied:
-    missing = unavailable(action)
+    missing = find_unavailable(action)
     if missing is not None:
-        raise EditError("not-available", f"{missing.message} is not available yet.", missing.field)
+        raise EditError("scenario_not_available", missing.field, problem=missing)
     try:
-        config = configured(state.config, action)
+        config = config_of_scenario(state.config, action)
     except ConfigError as error:
-        problem = error.problems[0]
-        assign_ids = (
-            f"{getattr(action, problem.field, None) or 'So many'} {problem.field} are {problem.message}."
-        )
-        raise EditError("does-not-fit", assign_ids, problem.field) from None
-    return _begun(state, action, config)
+        field = error.problems[0].field
+        amount = getattr(action, field, None)
+        raise EditError(
+            "too_many_for_scenario", field, amount=amount, setting=field, problem=error.problems[0]
+        ) from None
+    return _begin_road(state, action, config)
 
 
-def _begun(state: SimState, action: WorldAction, config: Config) -> Applied:
-    """A new road of this configuration."""
+def _begin_road(state: SimState, action: WorldAction, config: Config) -> Applied:
+    """Begins a new road of this configuration."""
     try:
         begun, event = reconfigure(state, config)
     except GenerationError as error:
-        message = f"No new road is begun: {error.problems[0].message}."
-        raise EditError("does-not-fit", message, "solvable") from None
+        raise EditError("no_new_road", "solvable", problem=error.problems[0]) from None
     return Applied(action, begun, events=(event,))
 
 
-def _no_room(count: int, kind: Kind, free: Board, there: str) -> str:
-    cells = "1 cell is" if free.bit_count() == 1 else f"{free.bit_count()} cells are"
-    where = there or " between start and goal"
-    return f"{_many(count, kind)} {'does' if count == 1 else 'do'} not fit: {cells} free{where}."
+def _no_room(count: int, kind: Kind, free: Board, place: str) -> EditError:
+    return EditError("no_room", "count", count=count, kind=kind, free=free.bit_count(), place=place)
 
 
 def _placeable(word: str) -> Kind:
     kind = Kind(word)
     if kind is Kind.AV:
-        raise EditError("not-available", "Other autonomous vehicles are not available yet.", "kind")
+        raise EditError("other_vehicles_not_available", "kind")
     return kind
 
 
 def _thing(world: World, name: str, kinds: tuple[Kind, ...]) -> Thing:
     thing = world.find(name)
     if thing is None:
-        raise EditError("none-there", f"There is no {name} on the road.", "where")
+        raise EditError("no_such_thing", "where", id=name)
     if thing.kind not in kinds:
-        wanted = _noun(1, kinds[0]) if len(kinds) == 1 else "thing that can be removed"
-        raise EditError("none-there", f"{name} is not a {wanted}.", "where")
+        wanted = kinds[0] if len(kinds) == 1 else "everything"
+        raise EditError("of_another_kind", "where", id=name, kind=wanted)
     return thing
 
 
 def _refuse_what_is_gone(action: Add | Remove | SetCount | Drive) -> None:
-    """A place that points at a thing points at the road whose episode has ended."""
+    """Refuses a place that points at a thing: its road goes with the episode that has ended."""
     if isinstance(action, Remove) and action.where is not None and (action.where.nearest or action.where.id):
-        raise EditError(
-            "none-there", "The episode has just ended; what you point at goes with its road.", "where"
-        )
+        raise EditError("road_is_gone", "where")
 
 
 def _refuse_occupied(world: World, kind: Kind, cell: int) -> None:
-    """One cell was named: only a pothole under a mover may share it."""
-    blocked = world.occupied & ~world.moving if kind is Kind.POTHOLE else world.occupied
+    """Refuses a named cell that is taken; only a pothole under a mover may share one."""
+    holds = KINDS[kind].holds_movers
+    blocked = world.occupied & ~world.moving if holds else world.occupied
     bit = 1 << cell
-    if not bit & blocked and not (kind is Kind.POTHOLE and bit & world.disabled):
+    if not bit & blocked and not (holds and bit & world.disabled):
         return
     column, row = world.road.cell(cell)
     if bit & world.board(Kind.AV):
-        who = "the autonomous vehicle"
+        who = world.id_at(cell, Kind.AV)
     else:
         who = world.movers.get(cell) or world.hazards[cell]
-    raise EditError("occupied", f"Cell ({column}, {row}) is taken by {who}.", "where")
+    raise EditError("occupied", "where", column=column, row=row, id=who)
 
 
 def _draws(state: SimState) -> Stream:
     return Stream.of(state.config.seed, "edit", state.edits)
 
 
-def _edited(state: SimState, world: World) -> SimState:
+def _with_world(state: SimState, world: World) -> SimState:
     return replace(state, world=world, edits=state.edits + 1)
 
 
 def differences(before: SimState, after: SimState) -> tuple[Change, ...]:
-    """Every figure that a change has changed."""
+    """Lists every figure that differs between two states."""
     changes = []
     if before.world.episode != after.world.episode:
         changes.append(Change("episode", before.world.episode, after.world.episode))
     counts = after.world.counts()
     for kind, count in before.world.counts().items():
         if count != counts[kind]:
-            changes.append(Change(PLURALS[kind], count, counts[kind]))
+            changes.append(Change(KINDS[kind].plural, count, counts[kind]))
     if before.config is not after.config:
         for field in fields(Config):
             was, now = getattr(before.config, field.name), getattr(after.config, field.name)
@@ -332,13 +308,3 @@ def differences(before: SimState, after: SimState) -> tuple[Change, ...]:
     if before.queue != after.queue:
         changes.append(Change("queue", before.queue, after.queue))
     return tuple(changes)
-
-
-def _noun(count: int, kind: str) -> str:
-    if kind == "everything":
-        return "thing" if count == 1 else "things"
-    return kind if count == 1 else PLURALS[Kind(kind)]
-
-
-def _many(count: int, kind: str) -> str:
-    return f"{count} {_noun(count, kind)}"

@@ -10,13 +10,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from sim.actions import Where
+from sim.session.errors import EditError
 from sim.types import Cell
 from sim.world import World
 from sim.world.grid import Board, Road, bits
-
-
-class PlaceError(ValueError):
-    """A place that is not on the road; the message is a sentence for a person."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,17 +26,22 @@ class Place:
 
 def nearest_first(cells: Iterable[int], world: World) -> list[int]:
     """Cell indices by distance from the vehicle; among equals its own lane, then ahead, first."""
-    column, row = world.road.cell(world.av)
+    return nearest_to(world.av, cells, world.road)
+
+
+def nearest_to(ego: int, cells: Iterable[int], road: Road) -> list[int]:
+    """Cell indices by distance from the cell `ego`; among equals its own lane, then ahead, first."""
+    column, row = road.cell(ego)
 
     def key(index: int) -> tuple[int, int, bool, int]:
-        c, r = world.road.cell(index)
+        c, r = road.cell(index)
         return max(abs(c - column), abs(r - row)), abs(c - column), r > row, index
 
     return sorted(cells, key=key)
 
 
 def lane_columns(road: Road, lane: str | int) -> list[int]:
-    """The columns of a lane; the middle of an even road is two. Raises `PlaceError`."""
+    """The columns of a lane; the middle of an even road is two. Raises `EditError`."""
     match lane:
         case "left":
             return [0]
@@ -49,7 +51,7 @@ def lane_columns(road: Road, lane: str | int) -> list[int]:
             return sorted({(road.columns - 1) // 2, road.columns // 2})
         case int() if 1 <= lane <= road.columns:
             return [lane - 1]
-    raise PlaceError(f"There is no lane {lane}: the road has {road.columns} lanes.")
+    raise EditError("no_such_lane", "where", lane=lane, lanes=road.columns)
 
 
 def cells_away(where: Where, cell_m: float) -> int | None:
@@ -62,7 +64,7 @@ def cells_away(where: Where, cell_m: float) -> int | None:
 
 
 def place_for_adding(where: Where | None, count: int, world: World, cell_m: float) -> Place:
-    """The cells `count` new things may be put in, free or not. Raises `PlaceError`.
+    """The cells `count` new things may be put in, free or not. Raises `EditError`.
 
     One thing at a distance has one cell; several spread along that row, or along the lane if one
     was named.
@@ -84,7 +86,7 @@ def place_for_adding(where: Where | None, count: int, world: World, cell_m: floa
 
 
 def place_for_finding(where: Where | None, world: World, cell_m: float) -> Place:
-    """The cells in which things that are meant may be. Raises `PlaceError`."""
+    """The cells in which things that are meant may be. Raises `EditError`."""
     if where is None:
         return Place(world.road.all, ordered=True)
     cells = _absolute(where, world.road)
@@ -107,14 +109,19 @@ def _absolute(where: Where, road: Road) -> Board:
     cells = road.all
     if where.cell is not None:
         if not road.holds(where.cell):
-            raise PlaceError(
-                f"Cell ({where.cell[0]}, {where.cell[1]}) is not on the road: "
-                f"columns are 0 to {road.columns - 1}, rows 0 to {road.rows - 1}."
+            column, row = where.cell
+            raise EditError(
+                "cell_off_road",
+                "where",
+                column=column,
+                row=row,
+                last_column=road.columns - 1,
+                last_row=road.rows - 1,
             )
         cells &= 1 << road.index(where.cell)
     if where.row is not None:
         if not 0 <= where.row < road.rows:
-            raise PlaceError(f"There is no row {where.row}: rows are 0 to {road.rows - 1}.")
+            raise EditError("no_such_row", "where", row=where.row, last_row=road.rows - 1)
         cells &= road.row(where.row)
     if where.lane is not None:
         columns = 0
@@ -156,14 +163,12 @@ def _band(world: World, side: str, away: int | None, *, open_ended: bool) -> Boa
 
 
 def _cell_away(road: Road, start: Cell, side: str, away: int) -> Cell:
-    """The cell that many cells to one side. Raises `PlaceError` where the road ends before it."""
+    """The cell that many cells to one side. Raises `EditError` where the road ends before it."""
     columns, rows = _STEPS[side]
     cell = (start[0] + columns * away, start[1] + rows * away)
     if not road.holds(cell):
         left = _ray(road, start, (columns, rows), 1).bit_count()
-        words = f"to the {side}" if side in ("left", "right") else side
-        cells = "cell" if left == 1 else "cells"
-        raise PlaceError(f"The road ends {left} {cells} {words}; {away} is too far.")
+        raise EditError("too_far", "where", left=left, side=side, away=away)
     return cell
 
 

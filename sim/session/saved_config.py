@@ -9,12 +9,12 @@ from sim.config import Config
 from sim.rules.versions import RULES, check_known, completed, version_of
 
 
-def saved_config(parts: Mapping[str, Any], what: str = "This session") -> Config:
+def saved_config(parts: Mapping[str, Any]) -> Config:
     """The configuration that kept parts meant when they were kept; without a version they are of the first.
 
-    Raises `ConfigError`, or `NewerRulesError`, which begins with `what`.
+    Raises `ConfigError` or `NewerRulesError`.
     """
-    check_known(what, version_of(parts))
+    check_known(version_of(parts))
     return Config().with_parts(**completed(parts))
 
 

@@ -6,13 +6,16 @@ the grid, the clock, the seed.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final
 
-from sim.actions import RoadType, Scenario, Traffic
-from sim.config import Config, ConfigError, Problem, barriers_refused
+from sim import sensor_names
+from sim.actions import Layout, RoadType, Scenario, Traffic
+from sim.config import COUNTS, Config, ConfigError, Problem
 from sim.planner_names import PROMISED
 from sim.rules.versions import default_under
+from sim.types import KINDS, Kind
 from sim.world.layouts import has_barriers
 
 
@@ -22,15 +25,19 @@ class RoadPreset:
 
     spawn_probability: float
     pothole_probability: float
-    pedestrians: int
-    barriers: int
+    counts: Mapping[Kind, int]
+    """exact numbers, of kinds that no probability furnishes; none of the others"""
 
 
 ROADS: Final[dict[RoadType | None, RoadPreset]] = {
-    None: RoadPreset(spawn_probability=0.68, pothole_probability=0.15, pedestrians=0, barriers=0),
-    "highway": RoadPreset(spawn_probability=0.68, pothole_probability=0.05, pedestrians=0, barriers=0),
-    "city": RoadPreset(spawn_probability=0.55, pothole_probability=0.15, pedestrians=4, barriers=3),
-    "rural": RoadPreset(spawn_probability=0.30, pothole_probability=0.30, pedestrians=1, barriers=1),
+    None: RoadPreset(spawn_probability=0.68, pothole_probability=0.15, counts={}),
+    "highway": RoadPreset(spawn_probability=0.68, pothole_probability=0.05, counts={}),
+    "city": RoadPreset(
+        spawn_probability=0.55, pothole_probability=0.15, counts={Kind.PEDESTRIAN: 4, Kind.BARRIER: 3}
+    ),
+    "rural": RoadPreset(
+        spawn_probability=0.30, pothole_probability=0.30, counts={Kind.PEDESTRIAN: 1, Kind.BARRIER: 1}
+    ),
 }
 
 TRAFFIC: Final[dict[Traffic, float]] = {"none": 0.0, "light": 0.34, "normal": 0.68, "heavy": 0.90}
@@ -39,32 +46,44 @@ TRAFFIC: Final[dict[Traffic, float]] = {"none": 0.0, "light": 0.34, "normal": 0.
 _PLANNER: Final = Config().planner
 
 
-def unavailable(scenario: Scenario) -> Problem | None:
-    """The first thing named that this version has not, and what it is called; None if it has all."""
+def find_unavailable(scenario: Scenario) -> Problem | None:
+    """The first thing a scenario names that this version lacks; None if it has all."""
     if scenario.weather not in (None, "clear"):
-        return Problem("weather", f"Weather other than clear ({scenario.weather})")
+        return Problem("weather", "weather_not_available", value=scenario.weather)
     if scenario.time_of_day not in (None, "day"):
-        return Problem("time_of_day", f"Another time of day than day ({scenario.time_of_day})")
-    if scenario.sensor not in (None, "perfect"):
-        return Problem("sensor", f"A sensor other than the perfect one ({scenario.sensor})")
+        return Problem("time_of_day", "time_of_day_not_available", value=scenario.time_of_day)
+    if scenario.sensor is not None and scenario.sensor not in sensor_names.names():
+        return Problem("sensor", "sensor_not_available", value=scenario.sensor)
     if scenario.planner in PROMISED:
-        return Problem("planner", f"The planner {scenario.planner}")
+        return Problem("planner", "planner_not_available", value=scenario.planner)
     if scenario.avs:
-        return Problem("avs", "A second autonomous vehicle")
+        return Problem("avs", "second_vehicle_not_available")
     return None
 
 
-def configured(config: Config, scenario: Scenario) -> Config:
+def default_counts(road: RoadType | None, layout: Layout | None) -> dict[str, int | None]:
+    """The counts of a scenario that names none, by field of `Config`; None: furnished by probability."""
+    preset = ROADS[road].counts
+    counts: dict[str, int | None] = {
+        name: None if KINDS[kind].probability else preset.get(kind, 0) for kind, name in COUNTS.items()
+    }
+    if has_barriers(layout):
+        counts[COUNTS[Kind.BARRIER]] = 0
+    return counts
+
+
+def config_of_scenario(config: Config, scenario: Scenario) -> Config:
     """The configuration of a scenario, everything it does not name at its default under the same rules.
 
     Raises `ConfigError` where the road cannot hold what was asked.
     """
     preset = ROADS[scenario.road]
-    barriers = preset.barriers
-    if has_barriers(scenario.layout):
-        if scenario.barriers is not None:
-            raise ConfigError((Problem("barriers", barriers_refused(scenario.layout)),))
-        barriers = 0
+    if has_barriers(scenario.layout) and scenario.barriers is not None:
+        raise ConfigError((Problem("barriers", "must_not_be_counted", layout=scenario.layout),))
+    counts = default_counts(scenario.road, scenario.layout)
+    for name in counts:
+        if (count := getattr(scenario, name)) is not None:
+            counts[name] = count
     spawn = TRAFFIC[scenario.traffic] if scenario.traffic else preset.spawn_probability
     return config.with_parts(
         road=scenario.road,
@@ -72,10 +91,7 @@ def configured(config: Config, scenario: Scenario) -> Config:
         traffic=scenario.traffic,
         spawn_probability=spawn,
         pothole_probability=preset.pothole_probability,
-        potholes=scenario.potholes,
-        vehicles=scenario.vehicles,
-        barriers=barriers if scenario.barriers is None else scenario.barriers,
-        pedestrians=preset.pedestrians if scenario.pedestrians is None else scenario.pedestrians,
+        **counts,
         planner=scenario.planner or default_under(config.rules, "planner", _PLANNER),
         sensor=scenario.sensor or "perfect",
     )

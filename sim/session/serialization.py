@@ -4,6 +4,9 @@ Worlds that follow each other share most of what they are made of: configuration
 world an episode began with. Here each such part has a number, given when it is first met, and is one object
 again when it is read. Boards are hexadecimal, since JSON readers take no whole numbers of that size. Leaves
 out what is to be made of it, and whether it can be trusted.
+
+A stateless sensor has no belief, and nothing is written for it. Any other belief has a form that only its
+sensor knows: such a state is not written (`BeliefError`), and comes back by a replay of its session.
 """
 
 from __future__ import annotations
@@ -13,19 +16,27 @@ from dataclasses import fields
 from hashlib import blake2b
 from typing import Any, TypeVar
 
-from sim.config import Config
-from sim.episode_record import DetourReason, EpisodeRecord
+from sim.config import COUNTS, Config
+from sim.ego import Ego
+from sim.episode_record import EpisodeRecord, sake_of
 from sim.metrics import Metrics
+from sim.perceive import NO_BELIEF
 from sim.repetition import Situation, Watch
-from sim.state import SimState
-from sim.types import Kind, Mode, Move, Outcome
+from sim.state import FIRST, SimState
+from sim.types import MARKED, Kind, Mode, Move, Outcome
 from sim.world import Cause, World
+from sim.world.boards import Boards
 from sim.world.grid import Road
 
 Part = TypeVar("Part")
 
 _CONFIG = tuple(field.name for field in fields(Config))
+_ALWAYS = {name for name in _CONFIG if name not in COUNTS.values()}
 _METRICS = tuple(field.name for field in fields(Metrics))
+
+
+class BeliefError(ValueError):
+    """A state whose sensor holds a belief, which cannot be written; a replay comes to it again."""
 
 
 class Pool:
@@ -54,9 +65,10 @@ class Packer:
         self._configs, self._tables, self._numbered = Pool(), Pool(), Pool()
         self._worlds, self._runs = Pool(), Pool()
         self._digests = blake2b(digest_size=16)
+        self._planners: set[str] = set()
 
     def run(self, state: SimState) -> int:
-        """The number of a run."""
+        """The number of a run. Raises `BeliefError`."""
         return self._runs.number(state, self._run)
 
     def packed(self) -> dict[str, Any]:
@@ -72,22 +84,33 @@ class Packer:
 
     def planners(self) -> set[str]:
         """Every planner that one of them is driven by."""
-        return {config["planner"] for config in self._configs.values}
+        return {config["planner"] for config in self._configs.values} | self._planners
 
     def config(self, config: Config) -> int:
         """The number of a configuration."""
         return self._configs.number(config, _config)
 
     def _run(self, state: SimState) -> list[Any]:
-        record = state.record
+        first, *others = [self._ego(ego, state.config) for ego in state.egos.values()]
+        _, planner, mode, queue, metrics, fault, record, watch = first
+        parts = [self.config(state.config), self._world(state.world), mode, queue, metrics, state.edits]
+        parts += [fault, record, watch]
+        # One ego with the configuration's planner is nearly all there is, and all there was once.
+        return [*parts, planner, others] if others or planner is not None else parts
+
+    def _ego(self, ego: Ego, config: Config) -> list[Any]:
+        if ego.belief is not NO_BELIEF:
+            raise BeliefError(f"the belief of the sensor {config.sensor} is rebuilt by replay alone")
+        record = ego.record
+        if ego.planner is not None:
+            self._planners.add(ego.planner)
         return [
-            self.config(state.config),
-            self._world(state.world),
-            state.mode,
-            [*state.queue],
-            [getattr(state.metrics, name) for name in _METRICS],
-            state.edits,
-            state.fault,
+            ego.id,
+            ego.planner,
+            ego.mode,
+            [*ego.queue],
+            [getattr(ego.metrics, name) for name in _METRICS],
+            ego.fault,
             [
                 None if record.start is None else self._world(record.start),
                 record.edits,
@@ -97,7 +120,7 @@ class Packer:
                 [[*each] for each in record.sakes],
                 None if record.last is None else self._world(record.last),
             ],
-            _watch(state.watch),
+            _watch(ego.watch),
         ]
 
     def _world(self, world: World) -> int:
@@ -114,12 +137,13 @@ class Packer:
             world.episode_start,
             world.outcome,
             world.ended,
-            None if cause is None else [cause.how, cause.kind, [*cause.ids], [*cause.cell]],
+            None if cause is None else _written_cause(cause),
             [*world.avs],
             *(f"{board:x}" for board in _boards(world)),
             self._tables.number(world.movers, _table),
             self._tables.number(world.hazards, _table),
             self._numbered.number(world.numbered, lambda numbered: [[*each] for each in numbered.items()]),
+            *([kind, f"{board:x}"] for kind, board in world.boards.later),
         ]
 
 
@@ -153,7 +177,8 @@ def _config(config: Config) -> dict[str, Any]:
 
 
 def _read_config(parts: Mapping[str, Any]) -> Config:
-    if {*parts} != set(_CONFIG):
+    # Counts of kinds that came later are at their defaults.
+    if not _ALWAYS <= {*parts} <= set(_CONFIG):
         raise ValueError("a configuration has other fields")
     return Config(**{**parts, "preferences": tuple(parts["preferences"])})
 
@@ -167,7 +192,8 @@ def _world(
 ) -> World:
     columns, rows, tick, episode, start, outcome, ended, cause, avs, *rest = parts
     potholes, barriers, right, left, pedestrians = (int(board, 16) for board in rest[:5])
-    movers, hazards, last = rest[5:]
+    movers, hazards, last, *later = rest[5:]
+    boards = {Kind.POTHOLE: potholes, Kind.BARRIER: barriers, Kind.PEDESTRIAN: pedestrians}
     return World(
         road=Road.of(columns, rows),
         tick=tick,
@@ -177,28 +203,31 @@ def _world(
         ended=ended,
         cause=None if cause is None else _cause(*cause),
         avs=tuple(avs),
-        potholes=potholes,
-        barriers=barriers,
         right=right,
         left=left,
-        pedestrians=pedestrians,
+        boards=Boards.of(boards | {Kind(kind): int(board, 16) for kind, board in later}),
         movers=tables[movers],
         hazards=tables[hazards],
         numbered=numbered[last],
     )
 
 
-def _cause(how: str, kind: str, ids: Sequence[str], cell: Sequence[int]) -> Cause:
+def _written_cause(cause: Cause) -> list[Any]:
+    parts = [cause.how, cause.kind, [*cause.ids], [*cause.cell]]
+    return parts if cause.ego == FIRST else [*parts, cause.ego]
+
+
+def _cause(how: str, kind: str, ids: Sequence[str], cell: Sequence[int], ego: str = FIRST) -> Cause:
     column, row = cell
-    return Cause(how, Kind(kind), tuple(ids), (column, row))
+    return Cause(how, Kind(kind), tuple(ids), (column, row), ego)
 
 
 def _watch(watch: Watch) -> list[Any]:
     kept, ticks, span = watch
     if kept is None:
         return [None, ticks, span]
-    cell, beat, *boards = kept
-    return [[cell, beat, *(f"{board:x}" for board in boards)], ticks, span]
+    cell, beat, right, left, marked = kept
+    return [[cell, beat, *(f"{board:x}" for board in (right, left, *marked))], ticks, span]
 
 
 def _read_watch(parts: Sequence[Any]) -> Watch:
@@ -206,19 +235,28 @@ def _read_watch(parts: Sequence[Any]) -> Watch:
     if kept is None:
         return Watch(None, ticks, span)
     cell, beat, *boards = kept
-    return Watch(Situation(cell, beat, *(int(board, 16) for board in boards)), ticks, span)
+    right, left, *marked = (int(board, 16) for board in boards)
+    marked += [0] * (len(MARKED) - len(marked))  # kinds that came later
+    return Watch(Situation(cell, beat, right, left, tuple(marked)), ticks, span)
 
 
 def _run(parts: Sequence[Any], configs: Sequence[Config], worlds: Sequence[World]) -> SimState:
-    config, world, mode, queue, metrics, edits, fault, record, watch = parts
+    config, world, mode, queue, metrics, edits, fault, record, watch, *more = parts
+    planner, others = more if more else (None, [])
+    first = [FIRST, planner, mode, queue, metrics, fault, record, watch]
+    egos = [_read_ego(each, worlds) for each in (first, *others)]
+    return SimState(configs[config], worlds[world], {ego.id: ego for ego in egos}, edits)
+
+
+def _read_ego(parts: Sequence[Any], worlds: Sequence[World]) -> Ego:
+    id, planner, mode, queue, metrics, fault, record, watch = parts
     start, seen, changed, certain, moves, sakes, last = record
-    return SimState(
-        configs[config],
-        worlds[world],
+    return Ego(
+        id,
+        planner,
         Mode(mode),
         tuple(Move(move) for move in queue),
         Metrics(**dict(zip(_METRICS, metrics, strict=True))),
-        edits,
         fault,
         EpisodeRecord(
             None if start is None else worlds[start],
@@ -226,7 +264,7 @@ def _run(parts: Sequence[Any], configs: Sequence[Config], worlds: Sequence[World
             changed,
             certain,
             moves,
-            tuple((DetourReason(sake), count) for sake, count in sakes),
+            tuple((sake_of(sake), count) for sake, count in sakes),
             None if last is None else worlds[last],
         ),
         _read_watch(watch),

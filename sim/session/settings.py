@@ -1,8 +1,8 @@
 """Settings that can be changed while a road runs, and what a change by a step means.
 
-Three kinds: what holds from the next decision on; what roads are made from, which shows from the next road on
-(a restart included); and what only a new road can have, which begins one. What this version has not
-is refused, unless what is asked for is how it is.
+There are three kinds. Some hold from the next decision on. Some are what roads are made from: they show from
+the next road on, a restart included. `NEEDS_A_NEW_ROAD` lists those that begin a new road. Settings that this
+version lacks are refused, unless the value asked for is the only one there is.
 """
 
 from __future__ import annotations
@@ -10,10 +10,11 @@ from __future__ import annotations
 from typing import Any, Final, get_args
 
 from sim.actions import Adjust, Preference, Set, Traffic, Wish
-from sim.config import RANGES, Config, ConfigError
+from sim.config import COUNTS, RANGES, Config, ConfigError
 from sim.planner_names import PROMISED
 from sim.session.errors import EditError
 from sim.session.scenario import TRAFFIC
+from sim.types import KINDS, Kind
 from sim.world.layouts import vehicles_on_average
 
 NEEDS_A_NEW_ROAD: Final = frozenset(("columns", "rows", "seed"))
@@ -32,13 +33,16 @@ STEPS: Final[dict[str, float]] = {
 """How far "up" and "down" go, for every number that can be set."""
 AS_IT_IS: Final = {"sensor": "perfect", "weather": "clear", "time_of_day": "day", "dynamics": "grid"}
 """Settings that this version has in one form only."""
-_COUNTS: Final = {"spawn_probability": "vehicles", "pothole_probability": "potholes", "traffic": "vehicles"}
+_COUNTS: Final = {
+    **{probability: name for kind, name in COUNTS.items() if (probability := KINDS[kind].probability)},
+    "traffic": COUNTS[Kind.VEHICLE],
+}
 """Exact numbers that a probability takes the place of."""
 _LEVELS: Final = get_args(Traffic)
 
 
-def offered(action: Set | Adjust) -> bool:
-    """Whether this version can do that at all, whatever the value."""
+def is_available(action: Set | Adjust) -> bool:
+    """Whether this version can change such a setting at all, whatever the value."""
     name = action.parameter
     if name in AS_IT_IS:
         return isinstance(action, Set) and action.value == AS_IT_IS[name]
@@ -47,18 +51,18 @@ def offered(action: Set | Adjust) -> bool:
     return name in STEPS or name == "traffic"
 
 
-def setting(config: Config, action: Set | Adjust) -> Config:
+def change_setting(config: Config, action: Set | Adjust) -> Config:
     """The configuration with a setting changed. Raises `EditError`."""
     name = action.parameter
-    if not offered(action):
-        raise EditError("not-available", f"{name} cannot be changed in this version yet.", "parameter")
+    if not is_available(action):
+        raise EditError("setting_not_available", "parameter", setting=name)
     if name in AS_IT_IS:
         return config
-    value = action.value if isinstance(action, Set) else _adjusted(config, action)
+    value = action.value if isinstance(action, Set) else _adjusted_value(config, action)
     parts: dict[str, Any] = {name: value}
     if name == "traffic":
         if value not in _LEVELS:
-            raise EditError("out-of-range", f"traffic must be one of {', '.join(_LEVELS)}.", "value")
+            raise EditError("no_such_traffic", "value", choices=_LEVELS)
         parts["spawn_probability"] = TRAFFIC[value]  # type: ignore[index]
     elif name == "spawn_probability":
         parts["traffic"] = None
@@ -71,12 +75,11 @@ def setting(config: Config, action: Set | Adjust) -> Config:
     except ConfigError as error:
         problem = error.problems[0]
         now = getattr(config, problem.field)
-        message = f"{problem.field} {problem.message}; it is {now} now."
-        raise EditError("out-of-range", message, "value") from None
+        raise EditError("value_refused", "value", setting=problem.field, problem=problem, now=now) from None
 
 
-def preferring(config: Config, wish: Wish) -> Config:
-    """The configuration with one more preference, the latest last; `balanced` is none."""
+def add_preference(config: Config, wish: Wish) -> Config:
+    """The configuration with one more preference, the latest last; `balanced` clears them."""
     if wish == "balanced":
         return config.with_parts(preferences=())
     opposite: dict[Preference, Preference] = {"fastest": "cautious", "cautious": "fastest"}
@@ -89,12 +92,12 @@ def vehicles_for(config: Config) -> int:
     return round(vehicles_on_average(config.layout, config.columns, config.rows, config.spawn_probability))
 
 
-def _adjusted(config: Config, action: Adjust) -> object:
+def _adjusted_value(config: Config, action: Adjust) -> object:
     name = action.parameter
     if name == "traffic":
         return _next_level(config, action)
     if name not in STEPS:
-        raise EditError("out-of-range", f"{name} has no more or less; say which one.", "parameter")
+        raise EditError("no_more_or_less", "parameter", setting=name)
     now = getattr(config, name)
     if action.factor is not None:
         return round(now * action.factor, 9)
@@ -102,16 +105,16 @@ def _adjusted(config: Config, action: Adjust) -> object:
         return round(now + action.by, 9)
     low, high = RANGES[name]
     if now == (high if action.direction == "up" else low):
-        raise EditError("out-of-range", f"{name} is at its limit already: {now}.", "direction")
+        raise EditError("at_its_limit", "direction", setting=name, now=now)
     step = STEPS[name] if action.direction == "up" else -STEPS[name]
     return round(min(high, max(low, now + step)), 9)
 
 
 def _next_level(config: Config, action: Adjust) -> str:
     if action.direction is None:
-        raise EditError("out-of-range", f"traffic is one of {', '.join(_LEVELS)}.", "parameter")
+        raise EditError("traffic_by_steps_only", "parameter", choices=_LEVELS)
     now = config.traffic or "normal"
     index = _LEVELS.index(now) + (1 if action.direction == "up" else -1)
     if not 0 <= index < len(_LEVELS):
-        raise EditError("out-of-range", f"traffic is at its limit already: {now}.", "direction")
+        raise EditError("at_its_limit", "direction", setting="traffic", now=now)
     return str(_LEVELS[index])

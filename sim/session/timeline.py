@@ -15,14 +15,15 @@ from dataclasses import dataclass
 
 from sim.actions import WorldAction
 from sim.config import Config
+from sim.decide import decide, sense
 from sim.events import Event, EventType
-from sim.perceive import perceive
-from sim.plan import Decision
+from sim.plan import Decision, traits_of
 from sim.plan.safe_planning import failed_decision, is_foreign, recorded_decision
 from sim.session.edits import Applied, apply
 from sim.session.move_log import MoveLog
 from sim.session.persistent_list import PersistentList
-from sim.state import SimState, StepResult, decide, step
+from sim.state import SimState, StepResult
+from sim.transition import step
 
 SNAPSHOT_TICKS = 128
 """Work between two snapshots, in ticks that are driven again; twice that each time there are too many."""
@@ -39,10 +40,6 @@ THINGS_AN_ACTION = 10
 ROAD_WORK, ROAD_CELLS = 4, 80
 """What drawing a road costs, and the cells that cost one such tick more."""
 
-SEARCH_WORK = 16
-"""What a tick costs with a planner that searches, or one that is not known here."""
-
-_SIMPLE_PLANNERS = frozenset(("priority", "rules", "dwa"))
 _DRAWN = frozenset((EventType.EPISODE_STARTED, EventType.ROAD_KEPT))
 
 RECENT_RUNS = 8
@@ -56,7 +53,7 @@ class PlannerSilentError(Exception):
     """A planner from another package did not answer in time."""
 
     def __init__(self, planner: str, fault: str) -> None:
-        super().__init__(f"The planner {planner} {fault}")
+        super().__init__(f"{planner}: {fault}")
         self.planner = planner
         self.fault = fault
 
@@ -82,10 +79,15 @@ class Snapshot:
 class Timeline:
     """A session's log and its present state. `copy()` is cheap: states and the log are values and shared."""
 
-    def __init__(self, config: Config) -> None:
-        """A session at tick 0."""
+    def __init__(self, config: Config, state: SimState | None = None) -> None:
+        """A session at tick 0; `state`: what it begins with, if not with a road generated for one ego.
+
+        Raises `ValueError` for a state of another tick.
+        """
         self.config = config
-        self.state = SimState.start(config)
+        self.state = SimState.start(config) if state is None else state
+        if self.tick:
+            raise ValueError(f"a session begins at tick 0, not at tick {self.tick}")
         self.entries: PersistentList[Entry] = PersistentList()
         self._gap = SNAPSHOT_TICKS
         self._work = 0
@@ -95,7 +97,7 @@ class Timeline:
         self._recent: deque[SimState] = deque(maxlen=RECENT_RUNS)
         self._before: tuple[Snapshot, ...] = ()
         """before the latest changes"""
-        self._track = MoveLog()
+        self._track = MoveLog(egos=len(self.state.egos))
 
     @classmethod
     def made(
@@ -115,7 +117,7 @@ class Timeline:
         new._snapshots, new._gap, new._work, new.worked = tuple(snapshots), gap, work, worked
         new._recent = deque(maxlen=RECENT_RUNS)
         new._before = ()
-        new._track = MoveLog(moves)
+        new._track = MoveLog(moves, len(state.egos))
         if len(new._track) != new.tick:
             raise ValueError(f"{len(new._track)} moves lead to tick {new.tick}")
         return new
@@ -156,7 +158,7 @@ class Timeline:
         answer when the tick is run again, so a tick without its answer must not become part of what is
         replayed.
         """
-        tick = _answered(step(self.state) if decided is None else step(self.state, decided))
+        tick = _answered(step(self.state) if decided is None else step(self.state, {decided.av: decided}))
         self._recent.append(self.state)
         self._went_on(tick, len(self.entries))
         return tick
@@ -252,28 +254,40 @@ class Timeline:
                 yield state
             state = track.after(state)
 
-    def decision(self, tick: int) -> Decision | None:
+    def decision(self, tick: int, ego: str | None = None) -> Decision | None:
         """The decision taken at a tick (None while a result stood), derived anew. Raises `IndexError`."""
-        return self.decided(self.at(tick))
+        return self.decided(self.at(tick), ego)
 
-    def decided(self, state: SimState) -> Decision | None:
-        """The decision taken in a state of this timeline (None while a result stood).
+    def decided(self, state: SimState, ego: str | None = None) -> Decision | None:
+        """The decision of an ego, of the first by default, taken in a state of this timeline.
+
+        None while a result stood, and where that ego had arrived.
 
         Derived anew, but for that of a planner of another package: where its move is noted it is not asked
         again. In the present state it is what would be decided now.
         """
-        tick, config = state.world.tick, state.config
-        if tick < self.tick and is_foreign(config.planner):
-            move = self._track.planned(tick)
-            if move is not None:
-                return recorded_decision(perceive(state.world, config), config, move)
-            if self._track.failed(tick):
-                return failed_decision(perceive(state.world, config), config)
-        return decide(state)
+        return decide(state, ego, self._noted(state))
 
     def led_to(self, state: SimState) -> StepResult:
         """The tick that a state of this timeline led to."""
-        return step(state, self.decided(state))
+        return step(state, self._noted(state))
+
+    def _noted(self, state: SimState) -> dict[str, Decision]:
+        """What planners of other packages decided in a past state, by ego id, where that is noted."""
+        tick, found = state.world.tick, dict[str, Decision]()
+        if tick >= self.tick:
+            return found
+        for number, id in enumerate(state.egos):
+            config = state.config_of(id)
+            if not is_foreign(config.planner):
+                continue
+            move = self._track.planned(tick, number)
+            if move is not None:
+                percept = sense(state, self._track.moves(state), id)[0]
+                found[id] = recorded_decision(percept, config, move)
+            elif self._track.failed(tick, number):
+                found[id] = failed_decision(sense(state, self._track.moves(state), id)[0], config)
+        return found
 
     def _check(self, tick: int) -> None:
         if not 0 <= tick <= self.tick:
@@ -282,7 +296,8 @@ class Timeline:
     def _went_on(self, tick: StepResult, entries: int) -> None:
         """One tick on, which was decided now, with so many entries applied."""
         self.state = tick.state
-        self._track.note(tick.decision)
+        steps = tick.steps
+        self._track.note(*[steps[id].decision if id in steps else None for id in tick.state.egos])
         self._worked(_tick_work(tick.state), 1 + _road_work(tick.state, tick.events), entries)
 
     def _worked(self, work: int, again: int, entries: int) -> None:
@@ -336,13 +351,14 @@ class Timeline:
 
 def _answered(tick: StepResult) -> StepResult:
     """A tick whose planner answered in time. Raises `PlannerSilentError`."""
-    if tick.decision is not None and tick.decision.timed_out:
-        raise PlannerSilentError(tick.decision.planner, tick.decision.fault or "")
+    for each in tick.steps.values():
+        if each.decision.timed_out:
+            raise PlannerSilentError(each.decision.planner, each.decision.fault or "")
     return tick
 
 
 def _tick_work(state: SimState) -> int:
-    return 1 if state.config.planner in _SIMPLE_PLANNERS else SEARCH_WORK
+    return max(traits_of(ego.planner or state.config.planner).work for ego in state.egos.values())
 
 
 def _action_work(applied: Applied) -> int:

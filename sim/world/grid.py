@@ -50,6 +50,14 @@ def board_of(indices: Iterable[int]) -> Board:
     return board
 
 
+def union(boards: Iterable[Board]) -> Board:
+    """Every cell that is in one of the boards."""
+    whole = 0
+    for board in boards:
+        whole |= board
+    return whole
+
+
 @dataclass(frozen=True, slots=True)
 class Road:
     """`columns` × `rows` cells; row 0 is the destination edge, column 0 is lane 1."""

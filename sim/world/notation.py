@@ -8,19 +8,22 @@
 
 Cells: `.` empty, `A` the autonomous vehicle, `o` pothole, `#` barrier, `>` `<` obstacle vehicles by
 heading, `)` `(` pedestrians; `}` `{` a vehicle held by a pothole, `]` `[` a pedestrian so held.
+The signs are those of `sim.types.KINDS`.
 `ids` gives numbers by kind in reading order, and `next` the first number not yet given; without them
 things are numbered 1, 2, 3 … An autonomous vehicle that shares its cell is on a line of its own
-(`av 4,29`), as is the cause of a crash (`cause swap vehicle-7 at 4,12`). An outcome other than
+(`av 4,29`), as is the cause of a crash (`cause swap vehicle-7 at 4,12`, and
+` by av-2` where it was not the first ego's). An outcome other than
 `running` is followed by the tick it was decided at (`crash at 12`).
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
-from sim.types import PLACEABLE, Cell, Kind, Outcome, kind_of
+from sim.types import HAZARDS, KINDS, MOVERS, PLACEABLE, Cell, Kind, Outcome, ego_id, kind_of
 from sim.world import Cause, World
+from sim.world.boards import BOARDED, Boards
 from sim.world.grid import Board, Road, bits, board_of
 
 MAX_CELLS = 64 * 512
@@ -29,22 +32,27 @@ MAX_CELLS = 64 * 512
 _HEAD = re.compile(
     r"road (\d+)x(\d+) tick (\d+) episode (\d+) from (\d+) (running|success|crash|stuck)(?: at (\d+))?"
 )
-_CAUSE = re.compile(r"cause (hit|swap|cross) (\S+(?: \S+)*) at (\d+),(\d+)")
+_CAUSE = re.compile(r"cause (hit|swap|cross) (\S+(?: \S+)*) at (\d+),(\d+)(?: by (av-\d+))?")
 
-_SIGNS: dict[str, tuple[str, ...]] = {
-    ".": (),
-    "A": ("av",),
-    "o": ("pothole",),
-    "#": ("barrier",),
-    ">": ("right",),
-    "<": ("left",),
-    ")": ("right", "pedestrian"),
-    "(": ("left", "pedestrian"),
-    "}": ("right", "pothole"),
-    "{": ("left", "pothole"),
-    "]": ("right", "pedestrian", "pothole"),
-    "[": ("left", "pedestrian", "pothole"),
-}
+
+def _signs() -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Every sign, and what is in its cell: kinds, and the heading of a mover."""
+    yield ".", ()
+    yield KINDS[Kind.AV].signs[0], (Kind.AV,)
+    for kind in HAZARDS:
+        yield KINDS[kind].signs[0], (kind,)
+    holding = next(kind for kind in HAZARDS if KINDS[kind].holds_movers)
+    for kind in MOVERS:
+        right, left, *_ = KINDS[kind].signs
+        yield right, ("right", kind)
+        yield left, ("left", kind)
+    for kind in MOVERS:
+        *_, right, left = KINDS[kind].signs
+        yield right, ("right", kind, holding)
+        yield left, ("left", kind, holding)
+
+
+_SIGNS: dict[str, tuple[str, ...]] = dict(_signs())
 _SIGN_OF = {frozenset(parts): sign for sign, parts in _SIGNS.items()}
 
 
@@ -62,7 +70,12 @@ def write(world: World) -> str:
         f"from {world.episode_start} {world.outcome}{ended}"
     ]
     alone = [cell for cell in world.avs if cell not in shared]
-    boards = _boards(world) | {"av": sum(1 << cell for cell in set(alone))}
+    boards: dict[str, Board] = {
+        "right": world.right,
+        "left": world.left,
+        Kind.AV: board_of(alone),
+        **{kind: world.board(kind) for kind in PLACEABLE},
+    }
     for row in range(road.rows):
         cells = range(row * road.columns, (row + 1) * road.columns)
         lines.append("".join(_sign(boards, cell) for cell in cells))
@@ -70,7 +83,8 @@ def write(world: World) -> str:
         lines.append("av " + " ".join(_point(road.cell(cell)) for cell in world.avs))
     if world.cause is not None:
         cause = world.cause
-        lines.append(f"cause {cause.how} {' '.join(cause.ids)} at {_point(cause.cell)}")
+        by = "" if cause.ego == ego_id(0) else f" by {cause.ego}"
+        lines.append(f"cause {cause.how} {' '.join(cause.ids)} at {_point(cause.cell)}{by}")
     ids = {kind: [world.id_at(cell, kind) for cell in bits(world.board(kind))] for kind in PLACEABLE}
     told = [
         f"{kind} {' '.join(name.rpartition('-')[2] for name in names)}"
@@ -99,15 +113,8 @@ def read(text: str) -> World:
     road = Road.of(columns, rows)
     boards = _read_grid(road, lines[1 : rows + 1])
     extra = _read_extra(lines[rows + 1 :], first=rows + 2)
-    avs = _read_avs(road, extra.get("av"), boards["av"])
-    moving = boards["right"] | boards["left"]
-    by_kind = {
-        Kind.POTHOLE: boards["pothole"],
-        Kind.BARRIER: boards["barrier"],
-        Kind.VEHICLE: moving & ~boards["pedestrian"],
-        Kind.PEDESTRIAN: boards["pedestrian"],
-    }
-    movers, hazards, numbered = _read_ids(by_kind, extra)
+    avs = _read_avs(road, extra.get("av"), boards[Kind.AV])
+    movers, hazards, numbered = _read_ids({kind: boards[kind] for kind in PLACEABLE}, extra)
     return World(
         road=road,
         tick=tick,
@@ -117,25 +124,13 @@ def read(text: str) -> World:
         ended=ended,
         cause=_read_cause(road, extra.get("cause")),
         avs=avs,
-        potholes=boards["pothole"],
-        barriers=boards["barrier"],
         right=boards["right"],
         left=boards["left"],
-        pedestrians=boards["pedestrian"],
+        boards=Boards.of({kind: boards[kind] for kind in BOARDED}),
         movers=movers,
         hazards=hazards,
         numbered=numbered,
     )
-
-
-def _boards(world: World) -> dict[str, Board]:
-    return {
-        "pothole": world.potholes,
-        "barrier": world.barriers,
-        "right": world.right,
-        "left": world.left,
-        "pedestrian": world.pedestrians,
-    }
 
 
 def _sign(boards: Mapping[str, Board], cell: int) -> str:
@@ -149,7 +144,7 @@ def _point(cell: Cell) -> str:
 def _read_grid(road: Road, lines: list[str]) -> dict[str, Board]:
     if len(lines) != road.rows:
         raise NotationError(f"expected {road.rows} rows of cells, found {len(lines)}")
-    boards = dict.fromkeys(("av", "pothole", "barrier", "right", "left", "pedestrian"), 0)
+    boards = dict.fromkeys(("right", "left", *Kind), 0)
     for row, line in enumerate(lines):
         if len(line) != road.columns or not set(line) <= set(_SIGNS):
             raise NotationError(f"line {row + 2}: expected {road.columns} of the signs {' '.join(_SIGNS)}")
@@ -201,7 +196,7 @@ def _read_cause(road: Road, line: str | None) -> Cause | None:
         raise NotationError(f"'{line}': {ids[0]} is no id of a thing") from error
     if not road.holds(cell):
         raise NotationError(f"'{line}': {_point(cell)} is not on the road")
-    return Cause(match[1], kind, ids, cell)
+    return Cause(match[1], kind, ids, cell, match[5] or ego_id(0))
 
 
 def _read_ids(

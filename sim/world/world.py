@@ -1,8 +1,8 @@
 """A world: sets of cells as bitboards, plus the table of things with ids. A value, never changed.
 
-What moves is in `right` and `left` (by heading; `pedestrians` says which of them walk), what does
-not in `potholes` and `barriers`. The tables `movers` and `hazards` hang ids on cells. Derived
-state is derived: a mover on a pothole is *disabled* for as long as the pothole is there.
+What moves is in `right` and `left`, by heading. `boards` says of which kind things are: what does not move,
+and which movers are no obstacle vehicles. The tables `movers` and `hazards` hang ids on cells. Derived state
+is derived: a mover on a pothole is *disabled* for as long as the pothole is there.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from hashlib import blake2b
 from struct import Struct, pack
 
 from sim.types import PLACEABLE, Cell, Kind, Outcome
+from sim.world.boards import NO_BOARDS, Boards
 from sim.world.grid import Board, Road, bits
 
 _OUTCOMES = {outcome: number for number, outcome in enumerate(Outcome)}
@@ -43,6 +44,8 @@ class Cause:
     kind: Kind
     ids: tuple[str, ...]
     cell: Cell
+    ego: str = "av-1"
+    """the ego that crashed; of two egos, the later one by id"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,11 +63,10 @@ class World:
     """the tick at which the outcome was decided"""
     cause: Cause | None = None
     avs: tuple[int, ...]
-    potholes: Board = 0
-    barriers: Board = 0
     right: Board = 0
     left: Board = 0
-    pedestrians: Board = 0
+    boards: Boards = NO_BOARDS
+    """which cells hold things of which kind; a mover on none of them is an obstacle vehicle"""
     movers: Mapping[int, str]
     hazards: Mapping[int, str]
     numbered: Mapping[Kind, int]
@@ -81,9 +83,24 @@ class World:
         return self.tick - self.episode_start
 
     @property
+    def potholes(self) -> Board:
+        """The cells of potholes."""
+        return self.boards[Kind.POTHOLE]
+
+    @property
+    def barriers(self) -> Board:
+        """The cells of barriers."""
+        return self.boards[Kind.BARRIER]
+
+    @property
+    def pedestrians(self) -> Board:
+        """The cells of pedestrians."""
+        return self.boards[Kind.PEDESTRIAN]
+
+    @property
     def fixed(self) -> Board:
-        """Every pothole and barrier."""
-        return self.potholes | self.barriers
+        """Everything that does not move."""
+        return self.boards.fixed
 
     @property
     def moving(self) -> Board:
@@ -93,7 +110,7 @@ class World:
     @property
     def disabled(self) -> Board:
         """Movers that a pothole holds."""
-        return self.moving & self.potholes
+        return (self.right | self.left) & self.boards.holding
 
     @property
     def occupied(self) -> Board:
@@ -113,17 +130,9 @@ class World:
 
     def board(self, kind: Kind) -> Board:
         """The cells of one kind."""
-        match kind:
-            case Kind.POTHOLE:
-                return self.potholes
-            case Kind.BARRIER:
-                return self.barriers
-            case Kind.VEHICLE:
-                return self.moving & ~self.pedestrians
-            case Kind.PEDESTRIAN:
-                return self.pedestrians
-            case Kind.AV:
-                return self.driven
+        if kind is Kind.AV:
+            return self.driven
+        return self.moving & ~self.boards.others if kind is Kind.VEHICLE else self.boards[kind]
 
     def count(self, kind: Kind) -> int:
         """How many things of one kind there are."""
@@ -189,14 +198,16 @@ class World:
             _OUTCOMES[self.outcome],
             len(avs),
         )
+        boards = self.boards
         parts = (
             head,
             _CELL(avs[0]) if len(avs) == 1 else pack(f"<{len(avs)}I", *avs),
-            self.potholes.to_bytes(size, "little"),
-            self.barriers.to_bytes(size, "little"),
+            boards[Kind.POTHOLE].to_bytes(size, "little"),
+            boards[Kind.BARRIER].to_bytes(size, "little"),
             self.right.to_bytes(size, "little"),
             self.left.to_bytes(size, "little"),
-            self.pedestrians.to_bytes(size, "little"),
+            boards[Kind.PEDESTRIAN].to_bytes(size, "little"),
+            *(kind.encode() + board.to_bytes(size, "little") for kind, board in boards.later),
         )
         read = _UNREAD.copy()  # a new one takes as long as all the rest
         read.update(b"".join(parts))
@@ -205,7 +216,7 @@ class World:
     def _thing(self, index: int, kind: Kind) -> Thing:
         bit = 1 << index
         heading = None if kind.fixed else "right" if self.right & bit else "left"
-        disabled = kind.moves and bool(self.potholes & bit)
+        disabled = kind.moves and bool(self.boards.holding & bit)
         return Thing(self.id_at(index, kind), kind, self.road.cell(index), heading, disabled)
 
     def _filtered(self, kept: Callable[[str], bool]) -> World:
@@ -215,11 +226,9 @@ class World:
         fixed = sum(1 << index for index in hazards)
         return replace(
             self,
-            potholes=self.potholes & fixed,
-            barriers=self.barriers & fixed,
             right=self.right & moving,
             left=self.left & moving,
-            pedestrians=self.pedestrians & moving,
+            boards=self.boards.within(fixed, moving),
             movers=movers,
             hazards=hazards,
         )

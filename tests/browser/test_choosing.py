@@ -24,10 +24,10 @@ def test_the_driver_is_chosen_from_all_planners_by_name(visit: Visit) -> None:
     visitor.say("let me drive")
     expect(driver).to_have_value("manual")
     driver.select_option("Quickest")
-    expect(driver).to_have_value("exact")
+    expect(driver).to_have_value("bfs")
     expect(visitor.last_exchange("Driver: Quickest").locator(".reply")).to_contain_text("A* → Quickest")
     state = visitor.script.state()
-    assert (state["mode"], state["planner"]) == ("auto", "exact")
+    assert (state["mode"], state["planner"]) == ("auto", "bfs")
 
 
 @pytest.mark.parametrize("width", [960, 1440])

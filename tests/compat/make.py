@@ -24,6 +24,7 @@ from typing import Any
 
 import httpx
 
+from tests.compat import env_states
 from tests.compat.scripts import KEPT, LINKS, RECORDINGS, TAUGHT, Back, Fork, Patch, Script
 
 ROOT = Path(__file__).parents[2]
@@ -234,6 +235,7 @@ def main(folder: Path) -> None:
         make_recordings(client, folder / "recordings")
         make_links(client, folder)
     make_database(folder)
+    env_states.make(folder)
 
 
 if __name__ == "__main__":

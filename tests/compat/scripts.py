@@ -218,6 +218,56 @@ RECORDINGS: Final[Mapping[str, Script]] = {
         [200, {"do": "add", "kind": "vehicle", "count": 9}, 150, {"do": "scenario", "potholes": 9}, 250],
         trimmed=True,
     ),
+    "rules": Script(
+        {"seed": 17, "planner": "rules", "config": {"potholes": 30, "vehicles": 40, "barriers": 4}},
+        [200, "add five potholes", 150, _set("attentive", 0.5), 150, "use the priority planner", 150],
+    ),
+    "attentive": Script(
+        {
+            "seed": 18,
+            "planner": "priority",
+            "config": {"attentive": 0.5, "courtesy": 0.5, "vehicles": 60, "potholes": 20, "pedestrians": 6},
+        },
+        [250, _set("attentive", 0.0), 250, _set("attentive", 1.0), _set("courtesy", 0.0), 250],
+    ),
+    "cells": Script(
+        {
+            "seed": 19,
+            "planner": "priority",
+            "config": {"collision": "cell", "repetition": False, "attentive": 0.0, "vehicles": 45},
+        },
+        [400, [MANUAL, *_drive("forward_left", "forward_right", "forward_left")], 10, AUTO, 300],
+    ),
+    "layouts": Script(
+        {"seed": 20, "config": {"layout": "maze", "columns": 10}},
+        [
+            150,
+            *(
+                deed
+                for layout, planner in (
+                    ("walls", "exact"),
+                    ("narrows", "astar"),
+                    ("dead_ends", "rules"),
+                    ("crossing", "priority"),
+                )
+                for deed in ({"do": "scenario", "layout": layout, "planner": planner, "potholes": 5}, 120)
+            ),
+            UNDO,
+            60,
+        ],
+    ),
+    "hit": Script(
+        {
+            "seed": 42,
+            "planner": "priority",
+            "config": {"columns": 5, "rows": 12, "vehicles": 14, "attentive": 0.0, "pedestrians": 2},
+        },
+        [400, _set("planner", "rules"), 300],
+    ),
+    "older": Script(
+        {"seed": 41, "config": {"rules": 1, "vehicles": 40, "potholes": 20}},
+        [250, "add five potholes", 150, {"do": "scenario", "vehicles": 45}, 200],
+    ),
 }
 
 KEPT: Final[Mapping[str, Script]] = {
@@ -265,6 +315,10 @@ KEPT: Final[Mapping[str, Script]] = {
         {"seed": 26, "config": {"columns": 5, "rows": 12, "vehicles": 22, "potholes": 4, "barriers": 8}},
         [700, "add a pedestrian", 300],
     ),
+    "kept layout": Script(
+        {"seed": 27, "planner": "exact", "config": {"layout": "crossing", "attentive": 0.5}},
+        [200, "add two potholes", 100, {"do": "scenario", "layout": "walls"}, 150],
+    ),
 }
 """Sessions of the database, each under its name; those it is forked from stay without one."""
 
@@ -279,5 +333,9 @@ LINKS: Final[Mapping[str, Script]] = {
     "scenario": Script(
         {"seed": 33, "scenario": "a rural road with heavy traffic", "planner": "exact"},
         [100, [MANUAL, *_drive("forward_left", "forward_left", "forward")], 8, AUTO, 150],
+    ),
+    "layout": Script(
+        {"seed": 34, "config": {"layout": "narrows", "attentive": 0.5, "collision": "cell"}},
+        [150, "add three potholes", 150],
     ),
 }

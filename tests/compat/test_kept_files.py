@@ -10,7 +10,7 @@ import json
 import shutil
 import sqlite3
 from collections.abc import AsyncIterator, Iterator
-from contextlib import asynccontextmanager
+from contextlib import asynccontextmanager, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -20,17 +20,31 @@ import pytest
 from service.api.views import PREFIX
 from service.app import create_app
 from service.settings import Settings
+from sim.planner_names import canonical
 from sim.session.timeline import Timeline
 from tests.compat.make import summed
 
-DATA = Path(__file__).parents[1] / "data" / "v1"
-RECORDINGS = sorted(
-    path.stem for path in (DATA / "recordings").glob("*.json") if not path.stem.endswith(".expected")
-)
-LINKS = json.loads((DATA / "links.json").read_text())
-KEPT = json.loads((DATA / "kept.expected.json").read_text())
+ROOT = Path(__file__).parents[1] / "data"
+VERSIONS = ("v1", "v2")
+RECORDINGS = [
+    (version, path.stem)
+    for version in VERSIONS
+    for path in sorted((ROOT / version / "recordings").glob("*.json"))
+    if not path.stem.endswith(".expected")
+]
+
 
 Json = dict[str, Any]
+
+
+def kept(version: str, *parts: str) -> Json:
+    """What a file of a version's folder holds."""
+    *folders, name = parts
+    return dict(json.loads(ROOT.joinpath(version, *folders, f"{name}.json").read_text()))
+
+
+LINKS = [(version, name) for version in VERSIONS for name in kept(version, "links")]
+KEPT = [(version, name) for version in VERSIONS for name in kept(version, "kept.expected")]
 
 
 class Opened:
@@ -66,14 +80,21 @@ async def opened(database: str = "memory:") -> AsyncIterator[Opened]:
         yield Opened(client, app.state.context.manager)
 
 
-@pytest.fixture
-def database(tmp_path: Path) -> Iterator[Path]:
-    """A copy of the kept file, which itself stays as it is."""
-    kept, copy = DATA / "kept.sqlite", tmp_path / "kept.sqlite"
-    before = kept.read_bytes()
-    shutil.copy(kept, copy)
+@contextmanager
+def copied(version: str, folder: Path) -> Iterator[Path]:
+    """A copy of a version's database, which itself stays as it is."""
+    original, copy = ROOT / version / "kept.sqlite", folder / "kept.sqlite"
+    before = original.read_bytes()
+    shutil.copy(original, copy)
     yield copy
-    assert kept.read_bytes() == before
+    assert original.read_bytes() == before
+
+
+@pytest.fixture
+def database(version: str, tmp_path: Path) -> Iterator[Path]:
+    """The copy for a test that has a version."""
+    with copied(version, tmp_path) as copy:
+        yield copy
 
 
 def check(timeline: Timeline, wanted: Json) -> None:
@@ -94,7 +115,7 @@ async def check_onwards(service: Opened, session: str, wanted: Json) -> None:
     """Where it stands, how it goes on, and what it is when its latest change is taken back there."""
     state = await service.ask(session, "state")
     stood = {name: state[name] for name in ("tick", "digest", "episode", "planner", "metrics")}
-    assert stood == {name: wanted[name] for name in stood}
+    assert stood == {name: canonical(wanted[name]) for name in stood}
     then = wanted["then"]
     await service.ask(session, "step", ticks=then["ticks"])
     timeline = await service.timeline(session)
@@ -107,43 +128,44 @@ async def check_onwards(service: Opened, session: str, wanted: Json) -> None:
         assert {name: state[name] for name in ("tick", "digest")} == then["undone"]
 
 
-def test_there_are_recordings_of_every_kind() -> None:
+@pytest.mark.parametrize("version", VERSIONS)
+def test_there_are_recordings_of_every_kind(version: str) -> None:
     """Crashes, successes and livelocks, under every planner there was."""
     ends = dict.fromkeys(("crashes", "successes", "stuck"), 0)
     planners = set()
-    for name in RECORDINGS:
-        wanted = json.loads((DATA / "recordings" / f"{name}.expected.json").read_text())
-        recording = json.loads((DATA / "recordings" / f"{name}.json").read_text())
-        planners.add(recording["config"].get("planner"))
+    for name in [name for of, name in RECORDINGS if of == version]:
+        wanted = kept(version, "recordings", f"{name}.expected")
+        planners.add(kept(version, "recordings", name)["config"].get("planner"))
         for end in ends:
             ends[end] += wanted["metrics"][end]
     assert min(ends.values()) >= 10, ends
-    assert planners == {None, "priority", "astar", "dijkstra", "exact"}
+    assert planners >= {None, "priority", "astar", "dijkstra", "exact"}
+    assert ("rules" in planners) == (version != "v1")
 
 
-@pytest.mark.parametrize("name", RECORDINGS)
-async def test_a_recording_replays_as_it_was(name: str) -> None:
-    recording = json.loads((DATA / "recordings" / f"{name}.json").read_text())
-    wanted = json.loads((DATA / "recordings" / f"{name}.expected.json").read_text())
+@pytest.mark.parametrize(("version", "name"), RECORDINGS)
+async def test_a_recording_replays_as_it_was(version: str, name: str) -> None:
+    recording = kept(version, "recordings", name)
+    wanted = kept(version, "recordings", f"{name}.expected")
     async with opened() as service:
         session = (await service.make(recording=recording))["id"]
         check(await service.timeline(session), wanted)
         await check_onwards(service, session, wanted)
 
 
-@pytest.mark.parametrize("name", RECORDINGS)
-async def test_what_is_recorded_of_a_replay_replays_as_well(name: str) -> None:
-    recording = json.loads((DATA / "recordings" / f"{name}.json").read_text())
-    wanted = json.loads((DATA / "recordings" / f"{name}.expected.json").read_text())
+@pytest.mark.parametrize(("version", "name"), RECORDINGS)
+async def test_what_is_recorded_of_a_replay_replays_as_well(version: str, name: str) -> None:
+    recording = kept(version, "recordings", name)
+    wanted = kept(version, "recordings", f"{name}.expected")
     async with opened() as service:
         first = (await service.make(recording=recording))["id"]
         again = (await service.make(recording=await service.ask(first, "recording")))["id"]
         check(await service.timeline(again), wanted)
 
 
-@pytest.mark.parametrize("name", LINKS)
-async def test_a_link_replays_as_it_was(name: str) -> None:
-    wanted = LINKS[name]
+@pytest.mark.parametrize(("version", "name"), LINKS)
+async def test_a_link_replays_as_it_was(version: str, name: str) -> None:
+    wanted = kept(version, "links")[name]
     async with opened() as service:
         session = (await service.make(link=wanted["link"]))["id"]
         check(await service.timeline(session), wanted)
@@ -154,10 +176,12 @@ async def test_a_link_replays_as_it_was(name: str) -> None:
 
 
 @pytest.mark.parametrize("shortcuts", [True, False])
-@pytest.mark.parametrize("name", KEPT)
-async def test_a_kept_session_comes_back_as_it_was(name: str, shortcuts: bool, database: Path) -> None:
+@pytest.mark.parametrize(("version", "name"), KEPT)
+async def test_a_kept_session_comes_back_as_it_was(
+    version: str, name: str, shortcuts: bool, database: Path
+) -> None:
     """With the snapshots that are in the file, whether they fit this code or not, and without any."""
-    wanted = KEPT[name]
+    wanted = kept(version, "kept.expected")[name]
     if not shortcuts:
         connection = sqlite3.connect(database)
         connection.execute("DELETE FROM snapshots")
@@ -176,10 +200,10 @@ async def test_a_kept_session_comes_back_as_it_was(name: str, shortcuts: bool, d
         assert {name: state[name] for name in ("tick", "digest")} == wanted["then"]["undone"]
 
 
-@pytest.mark.parametrize("name", KEPT)
-async def test_a_fork_of_a_kept_session_goes_the_same_way(name: str, database: Path) -> None:
+@pytest.mark.parametrize(("version", "name"), KEPT)
+async def test_a_fork_of_a_kept_session_goes_the_same_way(version: str, name: str, database: Path) -> None:
     """Taken half way, here and by a link that names the session, and after it was let go of."""
-    wanted = KEPT[name]
+    wanted = kept(version, "kept.expected")[name]
     half = wanted["tick"] // 2
     reached = [digest for number, digest in enumerate(wanted["digests"]) if number * wanted["every"] <= half]
     async with opened(f"sqlite:///{database}") as service:
@@ -194,19 +218,21 @@ async def test_a_fork_of_a_kept_session_goes_the_same_way(name: str, database: P
             assert digests[:: wanted["every"]] == reached
 
 
-async def test_all_of_a_kept_file_is_listed(database: Path) -> None:
+@pytest.mark.parametrize("version", VERSIONS)
+async def test_all_of_a_kept_file_is_listed(version: str, database: Path) -> None:
+    sessions = kept(version, "kept.expected")
     async with opened(f"sqlite:///{database}") as service:
         listed = (await service.client.get(f"{PREFIX}/sessions")).json()["items"]
         named = {each["name"]: each for each in listed if each["name"] is not None}
         assert {name: each["id"] for name, each in named.items()} == {
-            name: wanted["id"] for name, wanted in KEPT.items()
+            name: wanted["id"] for name, wanted in sessions.items()
         }
         assert {name: each["parent"] for name, each in named.items()} == {
-            name: wanted["parent"] for name, wanted in KEPT.items()
+            name: wanted["parent"] for name, wanted in sessions.items()
         }
         moments = (await service.client.get(f"{PREFIX}/saved")).json()["items"]
         assert sorted(each["name"] for each in moments) == sorted(
-            each["name"] for wanted in KEPT.values() for each in wanted["saved"]
+            each["name"] for wanted in sessions.values() for each in wanted["saved"]
         )
         taught = (await service.client.get(f"{PREFIX}/language")).json()["taught"]
         assert [each["phrase"] for each in taught] == ["rush hour"]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sqlite3
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -13,9 +14,11 @@ from typer.testing import CliRunner
 from service.api.views import PREFIX
 from service.cli import cli
 from sim.rules.versions import RULES
-from tests.compat.test_kept_files import DATA, KEPT, LINKS, Json, database, opened
+from tests.compat.test_kept_files import ROOT, Json, copied, kept, opened
 
-__all__ = ["database"]
+OLD = "v1"
+"""What is told of older rules is tried on what was kept under the first."""
+KEPT, LINKS = kept(OLD, "kept.expected"), kept(OLD, "links")
 
 NEWER = RULES + 1
 NOTE = "Made under rules 1: it replays as it did then."
@@ -28,7 +31,14 @@ def refusal(what: str) -> str:
 
 
 def recorded(name: str = "trimmed") -> Json:
-    return dict(json.loads((DATA / "recordings" / f"{name}.json").read_text()))
+    return kept(OLD, "recordings", name)
+
+
+@pytest.fixture
+def database(tmp_path: Path) -> Iterator[Path]:
+    """A copy of the database."""
+    with copied(OLD, tmp_path) as copy:
+        yield copy
 
 
 async def test_a_new_session_is_of_today_and_says_so() -> None:
@@ -159,6 +169,6 @@ async def test_a_kept_session_of_newer_rules_is_refused_and_left_alone(database:
 
 
 def test_the_command_replay_tells_of_older_rules() -> None:
-    told = CliRunner().invoke(cli, ["replay", str(DATA / "recordings" / "trimmed.json")])
+    told = CliRunner().invoke(cli, ["replay", str(ROOT / OLD / "recordings" / "trimmed.json")])
     assert told.exit_code == 0, told.output
     assert NOTE in told.stdout

@@ -12,10 +12,11 @@ from typing import Any
 from service.actions import Action, dump, load
 from service.language import Language, Understood
 from service.language.sentences import Unsayable
+from sim.planner_names import BUILT_IN, PROMISED
 
 KINDS = ("pothole", "vehicle", "barrier", "pedestrian", "av")
 MOVES = ("forward", "left", "right", "forward_left", "forward_right", "stay")
-PLANNERS = ("priority", "astar", "dijkstra", "dwa", "rl", "cooperative")
+PLANNERS = (*BUILT_IN, *PROMISED)
 CHOICES: dict[str, tuple[str, ...]] = {
     "weather": ("clear", "rain", "fog", "snow"),
     "time_of_day": ("day", "dusk", "night", "dawn"),

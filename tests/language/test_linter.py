@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from service.language import Language, LanguageDataError
+from service.language import Language, LanguageDataError, Refused
 from tests.language.beside import FOLDER
 
 
@@ -49,6 +49,19 @@ def test_a_planted_defect_stops_the_loading(copy: Path, file: str, text: str, sa
 def test_a_saying_that_does_not_parse_is_found(copy: Path) -> None:
     append(copy / "en" / "frames/views.yaml", "  odd: {say: [sing a song], needs: view, do: {do: pause}}\n")
     assert any("sing a song" in defect for defect in Language.load(folder=copy).check())
+
+
+def test_a_saying_that_is_refused_is_found_and_no_suggestion(copy: Path) -> None:
+    """A refusal names suggestions, which are made of sayings: reading a refused one must not begin again."""
+    impossible = "  odd: {say: [paint the log], needs: odd_word view, do: {do: step, ticks: -3}}\n"
+    append(copy / "en" / "frames/views.yaml", impossible)
+    append(copy / "en" / "lexicon/values.yaml", "odd_word: paint\n")
+    language = Language.load(folder=copy, offered=lambda _: True)
+    assert language.suggestions.nearest("paint the log", language.concepts("paint the log"))
+    refused = language.parse("paint the log")
+    assert isinstance(refused, Refused)
+    assert "paint the log" not in refused.suggestions
+    assert any("paint the log" in defect for defect in language.check())
 
 
 def test_a_missing_language_says_where_it_was_sought(tmp_path: Path) -> None:

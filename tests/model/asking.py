@@ -7,7 +7,8 @@ from typing import Any
 from service import actions as contract
 from sim.session.edits import apply
 from sim.session.errors import EditError
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Outcome
 from tests.model.compare import holds, same
 from tests.model.plan import Json
@@ -84,7 +85,7 @@ async def otherwise(walker: Any, path: str, tick: int, actions: list[Json]) -> N
         for action in contract.load(road):
             changed = apply(changed, action).state
     except EditError as error:
-        holds(f"a change that cannot be: {error.message}", status in (409, 422), told)
+        holds(f"a change that cannot be: {error}", status in (409, 422), told)
         return
     if status != 200:
         holds("a change that is not offered", any(each.get("kind") == "av" for each in road), told)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Mode, Outcome
 from tests.model.compare import holds, same
 from tests.model.plain import Plain

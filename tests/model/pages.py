@@ -7,7 +7,8 @@ from typing import Any
 from service import actions as contract
 from sim.config import Config
 from sim.session.edits import apply
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Outcome
 from tests.model.compare import (
     compare_changes,

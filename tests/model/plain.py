@@ -18,13 +18,15 @@ from service import actions as contract
 from service.actions import Action
 from sim.actions import Adjust, Scenario, Set
 from sim.config import Config
+from sim.decide import decide
 from sim.oracle.outlook import Outlook, outlook, quickly_open
 from sim.plan import Decision
 from sim.session.edits import apply
 from sim.session.errors import EditError
-from sim.session.scenario import unavailable
-from sim.session.settings import offered
-from sim.state import SimState, decide, step
+from sim.session.scenario import find_unavailable
+from sim.session.settings import is_available
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Outcome
 
 MOST_STEPS = 1_000
@@ -322,9 +324,9 @@ def _check_offered(action: Action) -> None:
         raise RefusedError(f"{do} is not offered")
     if do in ("show", "hide") and action.view == "sensors":
         raise RefusedError("no sensors")
-    if isinstance(action, Scenario) and unavailable(action) is not None:
+    if isinstance(action, Scenario) and find_unavailable(action) is not None:
         raise RefusedError("such a scenario is not offered")
-    if isinstance(action, Set | Adjust) and not is_pace(action) and not offered(action):
+    if isinstance(action, Set | Adjust) and not is_pace(action) and not is_available(action):
         raise RefusedError("such a setting is not offered")
 
 
@@ -364,9 +366,9 @@ class _Doing:
             return
         now = self.now
         try:
-            applied = apply(now.state, action)
+            applied = apply(now.run, action)
         except EditError as error:
-            raise RefusedError(error.message) from error
+            raise RefusedError(str(error)) from error
         now.stand = replace(now.stand, log=(*now.stand.log, Said(now.sequence, now.tick, action)))
         now._write(applied.events)
 

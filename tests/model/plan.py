@@ -19,11 +19,11 @@ Json: TypeAlias = dict[str, Any]
 DEV = Path(__file__).parents[1] / "language" / "data" / "dev.jsonl"
 KINDS = ("pothole", "vehicle", "barrier", "pedestrian")
 MOVES = ("forward", "left", "right", "forward_left", "forward_right", "stay")
-PLANNERS = ("rules", "rules", "priority", "astar", "dijkstra", "exact")
+PLANNERS = ("rules", "rules", "priority", "astar", "dijkstra", "bfs")
 NAMES = ("a", "rush hour", "the third")
 PHRASES = ("zanzibar", "make it quibble", "brillig morning")
 SETTINGS: dict[str, tuple[Any, ...]] = {
-    "planner": ("rules", "priority", "astar", "dijkstra", "exact"),
+    "planner": ("rules", "priority", "astar", "dijkstra", "bfs"),
     "courtesy": (0.0, 0.4, 1.0),
     "attentive": (0.0, 0.5, 1.0),
     "safety_buffer": (0, 1, 2),

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import random
 import re
-from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -50,7 +49,7 @@ def found(**parts: Any) -> Confidence:
     [
         (OPEN, "I am sure: I see everything, and nothing is left to chance. Run on, I arrive in 1.5 s."),
         (
-            replace(OPEN, mode=Mode.MANUAL),
+            OPEN.with_ego(mode=Mode.MANUAL),
             "You are driving, so it is up to you. Suppose I take over now. I am sure: "
             "I see everything, and nothing is left to chance. Run on, I arrive in 1.5 s.",
         ),
@@ -138,7 +137,7 @@ def test_a_planner_that_fails_leaves_nothing_to_be_sure_of(monkeypatch: pytest.M
 
 def worn(metrics: Metrics) -> dict[str, Any]:
     timeline = Timeline(Config())
-    timeline.state = replace(timeline.state, metrics=metrics)
+    timeline.state = timeline.state.with_ego(metrics=metrics)
     return Maintenance(SAYINGS).answer(Asked(Ask(about="maintenance"), timeline))
 
 

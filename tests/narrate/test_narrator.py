@@ -12,7 +12,8 @@ from service.sessions.facts import Asked
 from sim.actions import Add, Drive, Prefer, Remove, Reset, Scenario, SetCount, SetMode, Where, WorldAction
 from sim.config import Config
 from sim.session.timeline import Timeline
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Mode, Move
 from tests.sim.explain.moments import moments
 from tests.sim.roads import road, run_on

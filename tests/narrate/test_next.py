@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -13,7 +12,8 @@ from service.sessions.facts import Asked
 from sim.config import Config
 from sim.metrics import Metrics
 from sim.session.timeline import Timeline
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Mode, Move, Outcome
 from tests.narrate.test_narrator import ids_in, looks_like_sentences
 from tests.sim.explain.check_what_if import sessions
@@ -32,11 +32,11 @@ def told(run: SimState, about: Any, metric: Any = None) -> str:
 def test_the_way_from_here() -> None:
     way = "go forward, then move left round the pothole 10 m ahead, then go forward 15 m."
     assert told(HOLE, "next") == f"Next I {way}"
-    by_hand = replace(HOLE, mode=Mode.MANUAL)
+    by_hand = HOLE.with_ego(mode=Mode.MANUAL)
     assert told(by_hand, "next") == (
         f"You are driving and have asked for nothing, so I stay. If you let me, I would {way}"
     )
-    queued = replace(by_hand, queue=(Move.RIGHT,))
+    queued = by_hand.with_ego(queue=(Move.RIGHT,))
     assert told(queued, "next") == "Next I move right, as you asked, then wait for your word."
     short = run_on(road("........", "........", "........", "...A...."))
     assert told(short, "next") == "Next I go forward 15 m, and then I am there."
@@ -78,14 +78,14 @@ COUNTED = Metrics(successes=8, crashes=3, stuck=1, forward=300, lateral=90, stay
     ],
 )
 def test_how_it_is_going(metric: str | None, words: str) -> None:
-    assert told(replace(HOLE, metrics=COUNTED), "metrics", metric) == words
+    assert told(HOLE.with_ego(metrics=COUNTED), "metrics", metric) == words
 
 
 def test_with_little_to_go_by() -> None:
     assert told(HOLE, "metrics") == "Nothing to count yet: I have not moved so far."
-    one = replace(HOLE, metrics=Metrics(forward=1, distance_m=5.0))
+    one = HOLE.with_ego(metrics=Metrics(forward=1, distance_m=5.0))
     assert told(one, "metrics", "crashes") == "No episode has ended yet, so there is nothing to count."
-    few = replace(HOLE, metrics=Metrics(successes=2, stuck=1, forward=40, distance_m=200.0))
+    few = HOLE.with_ego(metrics=Metrics(successes=2, stuck=1, forward=40, distance_m=200.0))
     assert told(few, "metrics", "success_rate") == (
         "I arrived in 2 of 3 episodes; that is too few to speak of a rate."
     )

@@ -12,14 +12,15 @@ from service.narrate.naming import Naming
 from service.narrate.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.config import Config
+from sim.decide import decide
 from sim.episode_record import EpisodeRecord
 from sim.events import Event, EventType
 from sim.explain.summary import summary
 from sim.oracle.lower_bounds import can_arrive
 from sim.render.hud import _told
 from sim.session.timeline import Timeline
-from sim.state import SimState, decide, step
-from sim.transition import transition
+from sim.state import SimState
+from sim.transition import next_world, step
 from sim.types import Mode, Move, Outcome
 from tests.narrate.test_narrator import looks_like_sentences
 from tests.sim.roads import road, run_on
@@ -42,7 +43,7 @@ def driven(run: SimState) -> list[SimState]:
     return runs
 
 
-@pytest.mark.parametrize("planner", ["exact", "astar", "dijkstra"])
+@pytest.mark.parametrize("planner", ["bfs", "astar", "dijkstra"])
 @pytest.mark.parametrize(
     ("attentive", "reason"),
     [(0.0, "no way leads to the goal any more"), (1.0, "I know no way to the goal from here")],
@@ -61,12 +62,12 @@ def test_a_planner_that_knows_no_way_says_no_more_than_it_knows(
 
 
 def test_one_who_waits_without_a_way_says_so() -> None:
-    run = run_on(road("....", "####", "#A#.", "###."), planner="exact")
+    run = run_on(road("....", "####", "#A#.", "###."), planner="bfs")
     assert said(run) == "Waiting: no way leads to the goal any more."
 
 
 def test_what_cannot_be_escaped_is_not_said_to_keep_clear() -> None:
-    run = run_on(road("....", "###.", "#A<.", "###."), planner="exact")
+    run = run_on(road("....", "###.", "#A<.", "###."), planner="bfs")
     assert "keeps me clear" not in said(run)
     assert said(run).startswith("Staying, though ")
 
@@ -115,14 +116,14 @@ def test_two_movers_are_told_of_for_what_each_does(
 
 def test_a_mover_that_cuts_across_is_told_in_the_decision_and_in_the_crash() -> None:
     run = run_on(road("....", "....", ".>..", "..A.", "...."))
-    timeline = _timeline(replace(run, queue=(Move.FORWARD_LEFT,), mode=Mode.MANUAL))
+    timeline = _timeline(run.with_ego(queue=(Move.FORWARD_LEFT,), mode=Mode.MANUAL))
     held = timeline.advance()
     assert NARRATOR.decision(held.decision, run) == (  # type: ignore[arg-type]
         "Not diagonally left: the car 5 m ahead on my left is about to cut across my way "
         "to the cell ahead to the left."
     )
     assert NARRATOR.event(held.events[0], run).startswith("You asked for diagonally left, but the car")
-    crossed = transition(run.world, Move.FORWARD_LEFT, run.config)
+    crossed = next_world(run.world, (Move.FORWARD_LEFT,), run.config)
     course = EpisodeRecord().after(
         run.world,
         crossed,
@@ -134,7 +135,7 @@ def test_a_mover_that_cuts_across_is_told_in_the_decision_and_in_the_crash() -> 
         ended=True,
     )
     assert NARRATOR.event(
-        Event(crossed.tick, EventType.CRASHED, 1), replace(run, world=crossed, record=course)
+        Event(crossed.tick, EventType.CRASHED, 1), replace(run.with_ego(record=course), world=crossed)
     ) == (
         "Crash after 1 tick: a car going to lane 3, row 2 cut across my diagonal; "
         "until the last move a way to the goal was open."

@@ -7,9 +7,10 @@ import pytest
 from service.narrate import Narrator
 from service.narrate.explained import Explained
 from service.narrate.sayings import Sayings
+from sim.decide import decide
 from sim.explain.why_causes import explain_why
 from sim.explain.why_not import explain_why_not
-from sim.state import SimState, decide
+from sim.state import SimState
 from sim.types import Move
 from tests.sim.roads import road, run_on
 

@@ -12,9 +12,10 @@ from service.narrate.sayings import Sayings
 from service.narrate.scene import Scenes
 from service.sessions.facts import Asked
 from sim.explain.scene import describe_percept
-from sim.perceive import perceive
+from sim.perceive import perceive_truth
 from sim.session.timeline import Timeline
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import PLACEABLE, Kind, Outcome
 from tests.narrate.test_narrator import ID, looks_like_sentences
 from tests.sim.explain.moments import moments
@@ -121,7 +122,7 @@ def test_seconds_and_metres_are_those_of_the_session() -> None:
 def test_what_sensors_are_not_sure_of_is_said_with_how_sure_they_are() -> None:
     run = run_on(road("........", "...o....", "...#....", "...A...."))
     scene = describe_percept(
-        perceive(run.world, run.config), run.config, {"pothole-1": 0.7, "barrier-1": 0.9999}
+        perceive_truth(run.world, run.config), run.config, {"pothole-1": 0.7, "barrier-1": 0.9999}
     )
     assert SCENES.text(scene, run, Kind.POTHOLE).startswith("Yes, one 10 m ahead (70 % sure).")
     assert "a barrier in 0.5 s (right ahead, 99 % sure)" in SCENES.text(scene, run, None)

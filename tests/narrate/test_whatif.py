@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -55,7 +54,7 @@ def asked(run: SimState, *change: dict[str, Any]) -> dict[str, Any]:
             "5 ticks. But the planner priority weighs nothing: say “use A*” for one that does.",
         ),
         (
-            [{"do": "set", "parameter": "planner", "value": "exact"}],
+            [{"do": "set", "parameter": "planner", "value": "bfs"}],
             "If I planned with the quickest planner, I would move diagonally left now instead of moving "
             "left, and arrive in 4 ticks rather than 5. "
             "As it is, moving left costs me 1 tick against the best I could do.",
@@ -86,7 +85,7 @@ def test_read_aloud(change: list[dict[str, Any]], words: str) -> None:
 
 
 def test_driven_by_hand() -> None:
-    told = asked(replace(HOLE, mode=Mode.MANUAL), REMOVE)
+    told = asked(HOLE.with_ego(mode=Mode.MANUAL), REMOVE)
     assert told["text"] == (
         "You are driving, and as long as you ask for nothing I stay where I am. If the pothole right ahead "
         "were not there, nothing would change: I would make the same moves, and get stuck."
@@ -97,7 +96,7 @@ def test_after_the_end_the_next_road_is_meant() -> None:
     timeline = Timeline(Config(seed=2, vehicles=0))
     while timeline.state.world.outcome is Outcome.RUNNING:
         timeline.advance()
-    change = (Set(parameter="planner", value="exact"),)
+    change = (Set(parameter="planner", value="bfs"),)
     told = NARRATOR.answer(Asked(Ask(about="what_if", change=change), timeline))
     assert str(told["text"]).startswith("This episode is over, so I looked at the next road. If I planned")
 

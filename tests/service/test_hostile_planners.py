@@ -134,10 +134,9 @@ async def _nothing_of_theirs(service: Service, planner: str, path: str) -> None:
 
 
 def _forecast(run: Any) -> Any:
-    from sim.forecast import predict
-    from sim.perceive import perceive
+    from sim.forecast import Forecast
 
-    return predict(perceive(run.world, run.config), 1)
+    return Forecast.of_truth(run.world, run.config, 1)
 
 
 async def test_a_question_is_not_waited_for_on_the_event_loop(service: Service) -> None:

@@ -9,7 +9,8 @@ import orjson
 from service.sessions.messages import changed_message, motion_json
 from service.wire.state import Standing
 from sim.config import Config
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 
 
 def test_what_moved_does_not_hang_on_the_order_in_which_things_are_kept() -> None:

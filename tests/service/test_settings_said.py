@@ -58,7 +58,7 @@ async def test_what_cannot_be_set_changes_nothing(talking: Service, text: str) -
     assert (await talking.client.get(path)).json()["config"] == before["config"]
 
 
-@pytest.mark.parametrize("planner", ["astar", "dijkstra", "exact"])
+@pytest.mark.parametrize("planner", ["astar", "dijkstra", "bfs"])
 async def test_a_weighing_planner_says_what_its_moves_cost(talking: Service, planner: str) -> None:
     path = await talking.session(paused=True, planner=planner, seed=3, config={"potholes": 40})
     assert (await talking.act(path, {"do": "step", "ticks": 12})).status_code == 200

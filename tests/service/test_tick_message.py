@@ -8,7 +8,9 @@ from service.narrate import Narrator
 from service.narrate.sayings import Sayings
 from service.sessions.messages import motion_json
 from sim.config import Config
-from sim.state import SimState, decide, step
+from sim.decide import decide
+from sim.state import SimState
+from sim.transition import step
 from sim.world import World
 
 TICKS = 60

@@ -22,6 +22,7 @@ from sim.render.motion import poses
 from sim.rules.bodies import SIZES, Path, first_contact
 from sim.types import HAZARDS, MOVERS, Cell, Kind, Move, Outcome
 from sim.world import World
+from sim.world.boards import BOARDED, NO_BOARDS, Boards
 from tests.sim.roads import numbered, road
 
 TABLE: Final = FilePath(__file__).parents[1] / "web" / "bodies.json"
@@ -88,15 +89,10 @@ def worlds(case: Case) -> tuple[World, World]:
         av_index = av[1] * side + av[0]
         bare = replace(road(*(["." * side] * (side - 1)), "A" + "." * (side - 1)), avs=(av_index,))
         board = 1 << index
-        match case.kind:
-            case Kind.POTHOLE:
-                return replace(bare, potholes=board)
-            case Kind.BARRIER:
-                return replace(bare, barriers=board)
-            case _:
-                walking = board if case.kind is Kind.PEDESTRIAN else 0
-                left = board if case.step < 0 else 0
-                return replace(bare, left=left, right=board & ~left, pedestrians=walking)
+        boards = Boards.of({case.kind: board}) if case.kind in BOARDED else NO_BOARDS
+        left = board if case.kind.moves and case.step < 0 else 0
+        right = board & ~left if case.kind.moves else 0
+        return replace(bare, left=left, right=right, boards=boards)
 
     before = at(MIDDLE, (column, row))
     end = (MIDDLE[0] + case.move.offset[0], MIDDLE[1] + case.move.offset[1])
@@ -113,6 +109,7 @@ def document() -> dict[str, Any]:
     are seen, from the cell the vehicle started in.
     """
     listed = []
+    kinds = (Kind.AV, *MOVERS, *reversed(HAZARDS))
     for case in cases():
         before, after = worlds(case)
         places = []
@@ -122,7 +119,7 @@ def document() -> dict[str, Any]:
                 places += [round(pose.column - MIDDLE[0], 9), round(pose.row - MIDDLE[1], 9)]
         listed.append([case.kind, case.move, *case.offset, case.step, places])
     return {
-        "sizes": {kind: [float(size.across), float(size.along)] for kind, size in SIZES.items()},
+        "sizes": {kind: [float(side) for side in SIZES[kind]] for kind in kinds},
         "phases": PHASES,
         "cases": listed,
     }

@@ -15,7 +15,8 @@ from dataclasses import dataclass, field
 from sim.config import Config
 from sim.planner_names import names
 from sim.render.motion import STEP_FRAMES, Box, Scene, poses
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Move, Outcome
 
 TOUCHING = 1e-9

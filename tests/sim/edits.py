@@ -10,7 +10,9 @@ from sim.actions import (
     PlaceableKind,
     WorldAction,
 )
-from sim.session.edits import Applied, EditError, apply
+from sim.codes import EDITS
+from sim.session.edits import Applied, apply
+from sim.session.errors import EditError
 from sim.state import SimState
 from sim.types import Kind
 from sim.world import World
@@ -41,20 +43,19 @@ KINDS: list[PlaceableKind] = ["pothole", "barrier", "vehicle", "pedestrian"]
 
 
 def refusal(state: SimState, action: WorldAction) -> EditError:
-    """The error of an action; its message is a sentence and the run is as it was."""
+    """The error of an action; its code is listed and the run is as it was."""
     before = replace(state)
     with pytest.raises(EditError) as refused:
         apply(state, action)
     error = refused.value
     assert state == before
-    assert str(error) == error.message
-    assert error.message[0].isalnum()
-    assert error.message.endswith(".")
+    assert EDITS[error.code] == (error.category, tuple(error.facts))
+    assert str(error).startswith(error.code.replace("_", " "))
     return error
 
 
 def tried(state: SimState, action: WorldAction) -> Applied | None:
-    """What an action has done, or None if it was refused in a sentence."""
+    """What an action has done, or None if it was refused."""
     try:
         return apply(state, action)
     except EditError:

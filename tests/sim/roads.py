@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import replace
 from typing import Any
 
@@ -9,8 +10,9 @@ from hypothesis import strategies as st
 
 from sim.config import Config
 from sim.state import SimState
-from sim.types import Kind
+from sim.types import KINDS, MOVERS, PLACEABLE, Kind
 from sim.world import World, notation
+from sim.world.boards import BOARDED, Boards
 from sim.world.grid import Road, board_of
 
 
@@ -43,22 +45,25 @@ def grid(world: World) -> list[str]:
 
 @st.composite
 def worlds(draw: st.DrawFn, *, max_columns: int = 9, max_rows: int = 8) -> World:
-    """Any world in which an episode may stand: movers of both kinds, some held by potholes."""
+    """Any world in which an episode may stand: movers of every kind, some held by potholes."""
     columns = draw(st.integers(3, max_columns))
     rows = draw(st.integers(4, max_rows))
     geometry = Road.of(columns, rows)
     av = draw(st.integers(columns, columns * rows - 1))
     signs = draw(
         st.lists(
-            st.sampled_from("....oo#>><<)(}{]["),
+            st.sampled_from("...." + "".join(sign for kind in PLACEABLE for sign in KINDS[kind].signs)),
             min_size=columns * rows,
             max_size=columns * rows,
         )
     )
-    cells = {
-        sign: board_of([i for i, s in enumerate(signs) if s == sign and i != av]) for sign in "o#><)(}{]["
-    }
-    potholes = cells["o"] | cells["}"] | cells["{"] | cells["]"] | cells["["]
+
+    def cells(wanted: Collection[str]) -> int:
+        return board_of([i for i, sign in enumerate(signs) if sign in wanted and i != av])
+
+    movers = [KINDS[kind].signs for kind in MOVERS]
+    boards = {kind: cells(KINDS[kind].signs) for kind in BOARDED}
+    boards[Kind.POTHOLE] |= cells([sign for each in movers for sign in each[2:]])
     start = draw(st.integers(0, 500))
     bare = World(
         road=geometry,
@@ -66,11 +71,9 @@ def worlds(draw: st.DrawFn, *, max_columns: int = 9, max_rows: int = 8) -> World
         episode=draw(st.integers(1, 9)),
         episode_start=start,
         avs=(av,),
-        potholes=potholes,
-        barriers=cells["#"],
-        right=cells[">"] | cells[")"] | cells["}"] | cells["]"],
-        left=cells["<"] | cells["("] | cells["{"] | cells["["],
-        pedestrians=cells[")"] | cells["("] | cells["]"] | cells["["],
+        right=cells([sign for each in movers for sign in each[::2]]),
+        left=cells([sign for each in movers for sign in each[1::2]]),
+        boards=Boards.of(boards),
         movers={},
         hazards={},
         numbered={},
@@ -82,7 +85,7 @@ def numbered(world: World) -> World:
     """The world with its things numbered 1, 2, 3 … in reading order."""
     tables: dict[bool, dict[int, str]] = {True: {}, False: {}}
     last = {}
-    for kind in (Kind.POTHOLE, Kind.BARRIER, Kind.VEHICLE, Kind.PEDESTRIAN):
+    for kind in PLACEABLE:
         board, count = world.board(kind), 0
         for cell in range(world.road.columns * world.road.rows):
             if board >> cell & 1:
@@ -107,11 +110,9 @@ def mirrored(world: World) -> World:
     return replace(
         world,
         avs=tuple(cell(av) for av in world.avs),
-        potholes=board(world.potholes),
-        barriers=board(world.barriers),
         right=board(world.left),
         left=board(world.right),
-        pedestrians=board(world.pedestrians),
+        boards=Boards.in_order([board(cells) for cells in world.boards.by_kind]),
         movers={cell(index): name for index, name in world.movers.items()},
         hazards={cell(index): name for index, name in world.hazards.items()},
     )

@@ -23,7 +23,7 @@ WIDE = {"columns": 64, "rows": 512}
 def problems(**parts: Any) -> dict[str, str]:
     with pytest.raises(ConfigError) as refused:
         Config(**parts)
-    told = {problem.field: problem.message for problem in refused.value.problems}
+    told = {problem.field: str(problem) for problem in refused.value.problems}
     assert len(told) == len(refused.value.problems), "one problem a field"
     assert all(f"{field}: {message}" in str(refused.value) for field, message in told.items())
     return told
@@ -43,7 +43,7 @@ def test_the_defaults_are_the_source_s_table_and_the_rules_of_version_2() -> Non
 
 
 def test_every_field_has_a_range_or_a_choice_and_nothing_else_has() -> None:
-    assert sorted([*RANGES, *CHOICES, *LISTS, *SWITCHES, "planner"]) == sorted(
+    assert sorted([*RANGES, *CHOICES, *LISTS, *SWITCHES, "planner", "sensor"]) == sorted(
         field.name for field in fields(Config)
     )
 

@@ -6,7 +6,8 @@ from dataclasses import replace
 
 from sim.config import Config
 from sim.render.motion import STEP_FRAMES, leading, poses
-from sim.state import SimState, apply_move
+from sim.state import FIRST, SimState
+from sim.transition import transition
 from sim.types import Kind, Mode, Move, Outcome
 from sim.world import World
 from tests.sim.contacts import Case, cases, worlds
@@ -38,8 +39,8 @@ def test_an_episode_is_watched_tick_by_tick() -> None:
 
 def crashed() -> tuple[SimState, SimState]:
     """A run and its crash, into a pothole straight ahead."""
-    state = replace(run_on(road("........", "...o....", "...A....", "........")), mode=Mode.MANUAL)
-    return state, apply_move(state, Move.FORWARD, by_person=True)
+    state = run_on(road("........", "...o....", "...A....", "........")).with_ego(mode=Mode.MANUAL)
+    return state, transition(state, {FIRST: Move.FORWARD}, by_person=(FIRST,)).state
 
 
 def test_what_crashed_stays_where_it_touched_while_the_result_stands() -> None:

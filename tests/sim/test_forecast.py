@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from sim.forecast import StepVerdict, predict
-from sim.perceive import perceive
-from sim.state import commit
+from sim.commit import commit
+from sim.forecast import Forecast, StepVerdict, predict
+from sim.perceive import perceive_truth
 from sim.types import Move
 from sim.world import World
 from sim.world.grid import bits
@@ -17,7 +17,7 @@ from tests.sim.roads import road, run_on, worlds
 
 
 def expected(world: World, move: Move, horizon: int = 1) -> tuple[StepVerdict, tuple[str, ...]]:
-    forecast = predict(perceive(world, run_on(world).config), horizon)
+    forecast = Forecast.of_truth(world, run_on(world).config, horizon)
     return forecast.check_step(world.av, world.road.moved(world.av, move))
 
 
@@ -25,10 +25,10 @@ def expected(world: World, move: Move, horizon: int = 1) -> tuple[StepVerdict, t
 @given(worlds())
 def test_movers_are_foreseen_where_they_will_be(world: World) -> None:
     horizon = 12
-    forecast = predict(perceive(world, run_on(world).config), horizon)
+    forecast = Forecast.of_truth(world, run_on(world).config, horizon)
     later = world
     for ahead in range(horizon):
-        later = commit(later, Move.STAY, run_on(world).config)
+        later = commit(later, (Move.STAY,), run_on(world).config)
         slice_ = forecast.slices[ahead]
         assert forecast.slices.movers(ahead) == later.movers
         assert set(bits(slice_.occupied)) == set(later.movers)
@@ -38,15 +38,15 @@ def test_movers_are_foreseen_where_they_will_be(world: World) -> None:
 @given(worlds())
 def test_courtesy_is_known_for_the_coming_tick(world: World) -> None:
     config = run_on(world, courtesy=0.5, seed=8).config
-    forecast = predict(perceive(world, config), 1)
-    assert forecast.slices.movers(0) == commit(world, Move.STAY, config).movers
+    forecast = Forecast.of_truth(world, config, 1)
+    assert forecast.slices.movers(0) == commit(world, (Move.STAY,), config).movers
 
 
 @settings(max_examples=150, deadline=None)
 @given(worlds(), st.booleans())
 def test_will_be_free_is_what_the_twin_says(world: World, attentive: bool) -> None:
     """Also of staying, before movers who brake for it."""
-    forecast = predict(perceive(world, run_on(world, attentive=float(attentive)).config), 1)
+    forecast = predict(perceive_truth(world, run_on(world, attentive=float(attentive)).config), 1)
     now = twin.position(world)
     later = twin.moved_bodies(now)
     for move in Move:
@@ -90,7 +90,7 @@ def test_nobody_follows_into_a_cell_that_is_left_in_the_same_tick() -> None:
 
 def test_pedestrians_are_foreseen_in_step() -> None:
     world = road("....", ")...", "..A.", "....")
-    slices = predict(perceive(world, run_on(world).config), 4).slices
+    slices = Forecast.of_truth(world, run_on(world).config, 4).slices
     assert [min(slices.movers(ahead)) - 4 for ahead in range(4)] == [0, 1, 1, 2]
 
 

@@ -83,11 +83,13 @@ def test_a_diagonal_is_met_by_a_mover_that_comes_from_that_side_into_the_cell_it
 
 def test_two_autonomous_vehicles_in_one_cell_or_swapped() -> None:
     both = av_at(ROAD, (4, 3), (5, 3))
-    met = Cause("hit", Kind.AV, ("av-1", "av-2"), (5, 3))
-    passed = Cause("swap", Kind.AV, ("av-1", "av-2"), (4, 3))
+    met = Cause("hit", Kind.AV, ("av-1", "av-2"), (5, 3), "av-2")
+    passed = Cause("swap", Kind.AV, ("av-1", "av-2"), (4, 3), "av-2")
     assert collisions(both, av_at(both, (5, 3), (5, 3)), dynamics_on(both.road)) == (met,)
     assert collisions(both, av_at(both, (5, 3), (4, 3)), dynamics_on(both.road)) == (passed,)
-    assert collisions(both, av_at(both, (5, 2), (4, 3)), dynamics_on(both.road)) == ()
+    freed = Cause("cross", Kind.AV, ("av-1", "av-2"), (4, 3), "av-2")
+    assert collisions(both, av_at(both, (5, 2), (4, 3)), dynamics_on(both.road)) == (freed,)
+    assert collisions(both, av_at(both, (5, 2), (4, 3)), dynamics_on(both.road, bodies=False)) == ()
     assert collisions(both, both, dynamics_on(both.road)) == ()
 
 
@@ -96,8 +98,8 @@ def test_all_defects_are_listed() -> None:
     after = av_at(mover_at(ROAD, "vehicle-1", (2, 2)), (3, 2), (3, 2), (1, 1))
     assert collisions(before, after, dynamics_on(before.road)) == (
         Cause("swap", Kind.VEHICLE, ("vehicle-1",), (3, 2)),
-        Cause("hit", Kind.AV, ("av-1", "av-2"), (3, 2)),
-        Cause("hit", Kind.POTHOLE, ("pothole-1",), (1, 1)),
+        Cause("hit", Kind.AV, ("av-1", "av-2"), (3, 2), ego="av-2"),
+        Cause("hit", Kind.POTHOLE, ("pothole-1",), (1, 1), ego="av-3"),
     )
 
 

@@ -8,14 +8,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from sim.commit import commit
 from sim.config import Config
-from sim.forecast import predict
+from sim.decide import decide
+from sim.forecast import Forecast
 from sim.oracle import least_ticks
-from sim.perceive import perceive
 from sim.plan import Decision, planner_named
-from sim.state import SimState, commit, decide, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Kind, Move, Outcome
 from sim.world import World
+from sim.world.boards import Boards
 from sim.world.grid import Board, Road, bits, board_of
 from tests.sim import slow_search
 from tests.sim.roads import road, run_on, worlds
@@ -44,21 +47,25 @@ def mirror(world: World) -> World:
     return replace(
         world,
         avs=tuple(flipped_cell(cell, geometry) for cell in world.avs),
-        potholes=flipped(world.potholes, geometry),
-        barriers=flipped(world.barriers, geometry),
         right=flipped(world.left, geometry),
         left=flipped(world.right, geometry),
-        pedestrians=flipped(world.pedestrians, geometry),
+        boards=Boards.in_order([flipped(board, geometry) for board in world.boards.by_kind]),
         movers={flipped_cell(cell, geometry): name for cell, name in world.movers.items()},
         hazards={flipped_cell(cell, geometry): name for cell, name in world.hazards.items()},
     )
+
+
+def with_barrier(world: World, cell: int) -> World:
+    """The same road with one barrier more."""
+    boards = world.boards.with_kind(Kind.BARRIER, world.barriers | 1 << cell)
+    return replace(world, boards=boards, hazards={**world.hazards, cell: "barrier-99"})
 
 
 def decision(state: SimState, planner: str) -> Decision:
     found = planner_named(planner)
     assert found is not None
     return found.decide(
-        predict(perceive(state.world, state.config), found.horizon(state.config)), state.config
+        Forecast.of_truth(state.world, state.config, found.horizon(state.config)), state.config
     )
 
 
@@ -69,7 +76,7 @@ def test_a_mirrored_road_runs_as_the_mirror_image(world: World, moves: list[Move
     for move in moves:
         if world.road.moved(world.av, move) is None:
             continue
-        world, image = commit(world, move, config), commit(image, MIRRORED.get(move, move), config)
+        world, image = commit(world, (move,), config), commit(image, (MIRRORED.get(move, move),), config)
         assert image == mirror(world)
 
 
@@ -77,7 +84,7 @@ def test_a_mirrored_road_runs_as_the_mirror_image(world: World, moves: list[Move
 @given(worlds())
 def test_a_mirrored_decision_weighs_the_same(world: World) -> None:
     state, image = run_on(world), run_on(mirror(world))
-    for planner in ("priority", "astar", "exact"):
+    for planner in ("priority", "astar", "bfs"):
         here, there = decision(state, planner), decision(image, planner)
         for move in Move:
             option, other = here.option(move), there.option(MIRRORED.get(move, move))
@@ -94,10 +101,7 @@ def test_on_a_road_without_movers_another_hazard_never_helps(world: World, data:
     cells = [cell for cell in range(still.road.columns * still.road.rows) if cell != still.av]
     cell = data.draw(st.sampled_from(cells))
     if not still.fixed >> cell & 1:
-        harder = replace(
-            still, barriers=still.barriers | 1 << cell, hazards={**still.hazards, cell: "barrier-99"}
-        )
-        _never_better(run_on(still), run_on(harder))
+        _never_better(run_on(still), run_on(with_barrier(still, cell)))
 
 
 @settings(max_examples=200)
@@ -107,12 +111,10 @@ def test_another_hazard_that_turns_no_mover_never_helps(world: World, data: st.D
     if not cells:
         return
     cell = data.draw(st.sampled_from(cells))
-    harder = replace(
-        world, barriers=world.barriers | 1 << cell, hazards={**world.hazards, cell: "barrier-99"}
-    )
+    harder = with_barrier(world, cell)
     easy, hard = world, harder
     for _ in range(11 * world.road.rows):  # longer than any episode
-        easy, hard = (commit(each, Move.STAY, run_on(each).config) for each in (easy, hard))
+        easy, hard = (commit(each, (Move.STAY,), run_on(each).config) for each in (easy, hard))
         if (easy.right, easy.left) != (hard.right, hard.left):
             return
     _never_better(run_on(world), run_on(harder))
@@ -131,8 +133,7 @@ def test_a_hazard_that_turns_a_mover_can_open_a_road() -> None:
         before = least_ticks(state)
         for cell in bits(state.world.road.between & ~state.world.occupied):
             world = state.world
-            hazards = {**world.hazards, cell: "barrier-99"}
-            harder = replace(world, barriers=world.barriers | 1 << cell, hazards=hazards)
+            harder = with_barrier(world, cell)
             after = least_ticks(replace(state, world=harder))
             if after is not None and (before is None or after < before):
                 assert slow_search.least_ticks(position(harder)) == after
@@ -154,7 +155,7 @@ def test_what_is_behind_changes_nothing(world: World) -> None:
     ]
     state, without = run_on(world), run_on(world.without(frozenset(names)))
     assert least_ticks(state) == least_ticks(without)
-    for planner in ("priority", "exact"):
+    for planner in ("priority", "bfs"):
         here, there = decision(state, planner), decision(without, planner)
         assert here == there
     for _ in range(6):
@@ -175,7 +176,7 @@ def test_rows_do_not_interact(world: World) -> None:
         ]
         alone = world.keeping(frozenset(names))
         for _ in range(4):
-            world, alone = commit(world, Move.STAY, config), commit(alone, Move.STAY, config)
+            world, alone = commit(world, (Move.STAY,), config), commit(alone, (Move.STAY,), config)
             assert (world.right & cells, world.left & cells) == (alone.right & cells, alone.left & cells)
 
 
@@ -196,7 +197,7 @@ def test_movers_are_kept_each_in_its_row(world: World) -> None:
     rows = {name: cell // columns for cell, name in world.movers.items()}
     held = {name: cell for cell, name in world.movers.items() if world.disabled >> cell & 1}
     for _ in range(12):
-        world = commit(world, Move.STAY, config)
+        world = commit(world, (Move.STAY,), config)
         assert {name: cell // columns for cell, name in world.movers.items()} == rows
         assert world.moving.bit_count() == len(world.movers) == len(rows)
         assert all(world.movers[cell] == name for name, cell in held.items())

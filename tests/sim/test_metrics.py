@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from sim.config import Config
 from sim.metrics import Metrics
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Move, Outcome
 
 ENDS = [Outcome.SUCCESS, Outcome.CRASH, Outcome.STUCK]

@@ -13,7 +13,8 @@ import pytest
 
 from sim.config import Config
 from sim.metrics import Metrics
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Outcome
 
 SOURCE = Config(planner="priority", collision="cell", attentive=0.0, repetition=False)

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from sim.config import Collision
-from sim.state import SimState, step
+from sim.transition import step
 from sim.types import Kind, Mode, Move, Outcome
 from sim.world import World
 from tests.sim import twin
@@ -41,7 +41,7 @@ def test_same_state_on_any_crowded_road(
 @settings(max_examples=150, deadline=None)
 @given(worlds(), st.lists(st.sampled_from(list(Move)), min_size=1, max_size=25))
 def test_a_persons_moves_lead_to_the_same_states_and_ends(world: World, moves: list[Move]) -> None:
-    state = SimState(run_on(world).config, world, mode=Mode.MANUAL, queue=tuple(moves))
+    state = run_on(world).with_ego(mode=Mode.MANUAL, queue=tuple(moves))
     slow = twin.position(world)
     for asked in moves:
         tick = step(state)

@@ -10,7 +10,8 @@ from hypothesis import given, settings
 
 from sim.config import Config
 from sim.oracle import Drivable, certify
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Kind, Move, Outcome
 from sim.validation import validate_plan, validate_world
 from sim.world import Cause, World
@@ -19,21 +20,28 @@ from tests.sim.roads import road, run_on, worlds
 SOUND = road("....", ".o#.", ".>(.", ".A..")
 BIT = 1 << 15
 """An empty cell."""
+with_kind = SOUND.boards.with_kind
 
 
 @pytest.mark.parametrize(
     ("code", "parts"),
     [
-        ("potholes_off_road", {"potholes": SOUND.potholes | 1 << 99}),
+        ("potholes_off_road", {"boards": with_kind(Kind.POTHOLE, SOUND.potholes | 1 << 99)}),
         ("movers_off_road", {"right": SOUND.right | 1 << 99}),
         ("two_headings", {"left": SOUND.left | SOUND.right}),
-        ("pothole_and_barrier", {"barriers": SOUND.barriers | SOUND.potholes}),
-        ("mover_in_barrier", {"barriers": SOUND.barriers | SOUND.right}),
-        ("pedestrian_without_heading", {"pedestrians": SOUND.pedestrians | BIT}),
+        (
+            "pothole_and_barrier",
+            {"boards": with_kind(Kind.BARRIER, SOUND.barriers | SOUND.potholes)},
+        ),
+        ("mover_in_barrier", {"boards": with_kind(Kind.BARRIER, SOUND.barriers | SOUND.right)}),
+        (
+            "pedestrian_without_heading",
+            {"boards": with_kind(Kind.PEDESTRIAN, SOUND.pedestrians | BIT)},
+        ),
         ("no_mover_here", {"movers": {**SOUND.movers, 15: "vehicle-1"}}),
         ("mover_without_id", {"right": SOUND.right | BIT}),
         ("no_hazard_here", {"hazards": {**SOUND.hazards, 15: "pothole-1"}}),
-        ("hazard_without_id", {"potholes": SOUND.potholes | BIT}),
+        ("hazard_without_id", {"boards": with_kind(Kind.POTHOLE, SOUND.potholes | BIT)}),
         ("wrong_kind", {"hazards": {5: "barrier-1", 6: "barrier-1"}}),
         ("number_not_given", {"hazards": {5: "pothole-9", 6: "barrier-1"}}),
         ("same_id", {"hazards": {5: "pothole-1", 6: "pothole-1"}}),

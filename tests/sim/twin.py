@@ -13,7 +13,7 @@ from collections.abc import Collection, Hashable
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
-from sim.types import Cell, Kind, Move, Outcome
+from sim.types import KINDS, Cell, Kind, Move, Outcome
 from sim.world import World
 
 SIDE = {"left": -1, "right": 1}
@@ -29,8 +29,12 @@ STEPS: dict[Move, Cell] = {
 Size = tuple[Fraction, Fraction]
 """Across the road and along it, in cells."""
 EGO: Size = (Fraction(32, 100), Fraction(66, 100))
-VEHICLE: Size = (Fraction(66, 100), Fraction(32, 100))
-PEDESTRIAN: Size = (Fraction(30, 100), Fraction(32, 100))
+SIZES: dict[Kind, Size] = {
+    Kind.VEHICLE: (Fraction(66, 100), Fraction(32, 100)),
+    Kind.PEDESTRIAN: (Fraction(30, 100), Fraction(32, 100)),
+}
+PERIODS: dict[Kind, int] = {Kind.VEHICLE: 1, Kind.PEDESTRIAN: 2}
+"""Ticks for a cell. What the rules say of kinds that came later is read from their table."""
 
 
 @dataclass(frozen=True)
@@ -40,11 +44,19 @@ class Body:
     id: str
     cell: Cell
     heading: str
-    walks: bool
+    kind: Kind
+
+    @property
+    def walks(self) -> bool:
+        return self.kind is Kind.PEDESTRIAN
 
     @property
     def size(self) -> Size:
-        return PEDESTRIAN if self.walks else VEHICLE
+        return SIZES.get(self.kind, KINDS[self.kind].size)
+
+    @property
+    def period(self) -> int:
+        return PERIODS.get(self.kind, KINDS[self.kind].period or 1)
 
     def beside(self, heading: str) -> Cell:
         return (self.cell[0] + SIDE[heading], self.cell[1])
@@ -77,9 +89,7 @@ def position(world: World) -> Position:
     things = list(world.things())
     cells = {kind: frozenset(thing.cell for thing in things if thing.kind is kind) for kind in Kind}
     bodies = [
-        Body(thing.id, thing.cell, thing.heading, thing.kind is Kind.PEDESTRIAN)
-        for thing in things
-        if thing.heading is not None
+        Body(thing.id, thing.cell, thing.heading, thing.kind) for thing in things if thing.heading is not None
     ]
     return Position(
         columns=world.road.columns,
@@ -101,7 +111,7 @@ def moved_bodies(now: Position, courteous: Collection[Cell] = ()) -> tuple[Body,
     planning = [
         body
         for body in now.bodies
-        if body.cell not in now.potholes and (not body.walks or now.episode_tick % 2 == 1)
+        if body.cell not in now.potholes and now.episode_tick % body.period == body.period - 1
     ]
 
     def blocked(body: Body, wanted: Cell) -> bool:
@@ -262,7 +272,7 @@ class Memory:
         if now.av[1] != self.row:
             self.row, self.situations = now.av[1], []
         near = frozenset(
-            (body.cell, body.heading, body.walks)
+            (body.cell, body.heading, body.kind)
             for body in now.bodies
             if body.cell[1] in (now.av[1], now.av[1] - 1)
         )

@@ -17,7 +17,8 @@ from sim.actions import Add, Where
 from sim.config import Config
 from sim.rules.yielding import attentive_movers, yielding_movers
 from sim.session.edits import apply
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Cell, Outcome
 from sim.world.grid import Board, bits
 from tests.sim import twin

@@ -108,12 +108,14 @@ async def opening() -> AsyncIterator[Opening]:
             store: Store | None = None,
             model: LanguageModel | None = None,
             settings: Settings | None = None,
+            *,
+            every_language: bool = False,
             **config: Any,
         ) -> Talk:
             app = create_app(
                 settings or Settings(database="memory:"),
                 store=store or MemoryStore(),
-                language=english(),
+                language=None if every_language else english(),
                 clock=HandClock(),
                 model=model,
             )

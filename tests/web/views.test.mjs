@@ -96,7 +96,7 @@ test("each of the six moves has its reason, from a whole trace and from what a t
   options[0].cost = 4;
   options[4].cost = 6.5;
   const weighed = (planner) => waysOf({ tick: 10, move: "forward", planner, options }, [4, 20], world).find(({ move }) => move === "forward_right").reason;
-  assert.deepEqual(["priority", "astar", "exact"].map(weighed), ["free, less preferred", "free, costs 2.5 more", "free, 2.5 ticks later"]);
+  assert.deepEqual(["priority", "astar", "bfs"].map(weighed), ["free, less preferred", "free, costs 2.5 more", "free, 2.5 ticks later"]);
   options[5].cost = null;
   assert.equal(waysOf({ tick: 10, move: "forward", options }, [4, 20], world).at(-1).reason, "free, but leads nowhere");
 });

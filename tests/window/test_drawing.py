@@ -34,6 +34,13 @@ def test_the_five_views_show_what_there_is(window: Open) -> None:
     assert theme.LINES["changed"] in driver.colours(body(driver, "log"))
 
 
+def test_the_header_names_the_planner_as_people_know_it(window: Open) -> None:
+    driver = window(config=Config(seed=3, planner="astar"))
+    assert driver.window._status("road") == "1×  ·  A*  ·  seed 3"
+    driver.say("let me drive")
+    assert driver.window._status("road") == "1×  ·  by hand  ·  seed 3"
+
+
 def test_what_is_not_on_the_road_is_in_no_view(window: Open) -> None:
     driver = window(config=Config(seed=3, potholes=0, vehicles=5))
     for name in ("schematic", "occupancy"):

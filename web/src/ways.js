@@ -53,7 +53,7 @@ function behind(cost, { planner, move, options }) {
 const MEASURES = {
   astar: (more) => `costs ${more} more`,
   dijkstra: (more) => `costs ${more} more`,
-  exact: (more) => `${counted(more, "tick")} later`,
+  bfs: (more) => `${counted(more, "tick")} later`,
 };
 
 /** @param {string} reason @param {string[]} ids @param {World} world */

@@ -22,6 +22,10 @@ const REASONS = /** @type {Record<string, string>} */ ({
   mover_stays: "something stands there",
   mover_swaps: "something comes the other way",
   mover_crosses: "something cuts across the way there",
+  ego_enters: "another of our vehicles moves in",
+  ego_stays: "another of our vehicles stands there",
+  ego_swaps: "another of our vehicles comes the other way",
+  ego_crosses: "another of our vehicles cuts across the way there",
   disabled_mover: "a disabled vehicle",
 });
 
@@ -47,7 +51,7 @@ export const PLANNERS = /** @type {Record<string, string>} */ ({
   priority: "Priority rules of the source",
   astar: "A*",
   dijkstra: "Dijkstra",
-  exact: "Quickest",
+  bfs: "Quickest",
 });
 
 /** Families of roads as they are asked for, in the order in which they are offered. @type {Record<string, string>} */

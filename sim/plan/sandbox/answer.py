@@ -41,6 +41,7 @@ FAULTS: Final = {
     "no-move": "answered what is no move",
     "elsewhere": "answered for another moment or vehicle",
     "off-road": "answered a move that leads off the road",
+    "into-ego": "answered a move into another ego",
     "no-verdicts": "answered without a verdict on each of the six moves",
     "no-number": "answered a cost that is no number",
     "not-finite": "answered a cost that is no finite number",
@@ -143,10 +144,14 @@ def checked_cost(cost: object, move: Move) -> float | None:
 def decision_of(answer: Answer, percept: Percept, config: Config) -> Decision:
     """The decision: the planner's move and costs, and what this project's forecast says of each move.
 
-    Cheapest first, a move without a cost last. Raises `FaultError` for a move that leads off the road.
+    Cheapest first, a move without a cost last. Raises `FaultError` for a move that leads off the road
+    or into another ego.
     """
     if config.ego_dynamics(percept.road).target(percept.ego, answer.move) is None:
         raise CodedError("off-road", detail=answer.move)
+    forecast = predict(percept, 1)
+    if forecast.meets_ego(answer.move):
+        raise CodedError("into-ego", detail=answer.move)
     costs = dict(zip(Move, answer.costs, strict=True))
     options = [
         Option(
@@ -156,7 +161,7 @@ def decision_of(answer: Answer, percept: Percept, config: Config) -> Decision:
             None if option.reason.blocks else costs[option.move],
             option.causes,
         )
-        for option in options_in_order(predict(percept, 1))
+        for option in options_in_order(forecast)
     ]
     options.sort(key=lambda option: (option.cost is None, option.cost or 0.0, option.move is not answer.move))
     return Decision(

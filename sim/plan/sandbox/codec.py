@@ -14,7 +14,9 @@ from functools import cache
 from typing import Any, Final, get_type_hints
 
 from sim.config import Config
-from sim.perceive import Percept
+from sim.perceive import OtherEgo, Percept
+from sim.types import Move
+from sim.world.boards import Boards
 from sim.world.grid import Road
 
 EXACT: Final = 2**53
@@ -47,6 +49,9 @@ def percept_of(values: Mapping[str, Any]) -> Percept:
     for name, value in values.items():
         part, kind = _back(value), kinds.get(name)
         parts[name] = kind(part) if isinstance(kind, type) and issubclass(kind, Enum) else part
+    parts["egos"] = tuple(
+        OtherEgo(id, cell, Move(move), parked) for id, cell, move, parked in parts.get("egos", ())
+    )
     return Percept(**parts)
 
 
@@ -60,6 +65,8 @@ def _values(value: object) -> Any:
         return value.value if isinstance(value, Enum) else value
     if isinstance(value, int):
         return value if -EXACT < value < EXACT else {"hex": hex(value)}
+    if isinstance(value, Boards):
+        return {"boards": [_values(board) for board in value.by_kind]}
     if isinstance(value, Road):
         return {"road": [value.columns, value.rows]}
     if isinstance(value, Mapping):
@@ -75,6 +82,8 @@ def _back(value: Any) -> Any:
     ((kind, content),) = value.items()
     if kind == "hex":
         return int(content, 16)
+    if kind == "boards":
+        return Boards.in_order([_back(board) for board in content])
     if kind == "road":
         return Road.of(*content)
     if kind == "map":

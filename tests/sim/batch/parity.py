@@ -17,7 +17,8 @@ from sim.batch import Batch
 from sim.config import Config, ConfigError
 from sim.generation import GenerationError
 from sim.metrics import Metrics
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 
 LANES_OF_A_SIZE = 10
 

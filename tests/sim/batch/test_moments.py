@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from sim.batch import Batch
+from sim.batch import Batch, batch
 from sim.config import Config
 from sim.state import SimState, next_episode
+from sim.types import Kind
 
 pytestmark = pytest.mark.xdist_group("compiled")
 
@@ -93,3 +94,14 @@ def test_what_was_saved_is_restored() -> None:
         Batch(CONFIGS[:60], after="stop").restore(saved)
     with pytest.raises(ValueError, match="restart"):
         Batch(CONFIGS, after="restart").saved()
+
+
+def test_a_kind_that_the_kernels_do_not_know_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As a kind that comes later would be."""
+    monkeypatch.setattr(batch, "_UNKNOWN", (Kind.PEDESTRIAN,))
+    with pytest.raises(ValueError, match="and no pedestrians; run such roads one by one"):
+        Batch(CONFIGS[:2])
+    states = [SimState.start(config) for config in CONFIGS[:2]]
+    with pytest.raises(ValueError, match="and no pedestrians"):
+        Batch.of(states)
+    Batch([config.with_parts(pedestrians=0) for config in CONFIGS[:2]])

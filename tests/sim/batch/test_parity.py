@@ -12,8 +12,9 @@ from hypothesis import strategies as st
 
 from sim.batch import Batch, BatchPlanner
 from sim.config import Config
-from sim.state import SimState, StepResult, decide, step
-from sim.transition import transition
+from sim.decide import decide
+from sim.state import SimState, StepResult
+from sim.transition import next_world, step
 from sim.types import Kind, Mode, Move, Outcome
 from sim.world import World
 from tests.sim.batch.parity import difference, mixed_configs
@@ -68,7 +69,7 @@ def test_any_move_ends_as_the_judge_says(world: World, move: Move, rules: dict[s
     batch = Batch.of([run])
     batch.step(np.array([MOVES.index(move)], np.uint8))
     possible = world.road.moved(world.av, move) is not None
-    assert batch.digest(0) == transition(world, move if possible else Move.STAY, run.config).digest()
+    assert batch.digest(0) == next_world(world, (move if possible else Move.STAY,), run.config).digest()
 
 
 @settings(max_examples=60)
@@ -77,7 +78,7 @@ def test_planners_decide_the_same_along_any_way(
     world: World, rules: dict[str, Any], buffer: int, waits: int
 ) -> None:
     """Least ticks and least cost with their moves, also after waits that no planner would choose."""
-    for live, name in (("exact", "exact"), ("dijkstra", "weighted")):
+    for live, name in (("bfs", "bfs"), ("dijkstra", "weighted")):
         run = run_on(world, **rules, safety_buffer=buffer, planner=live)
         batch = Batch.of([run])
         for tick in range(6):
@@ -88,7 +89,7 @@ def test_planners_decide_the_same_along_any_way(
             cost = decision.options[0].cost
             assert batch.least(name)[0] == (-1 if cost is None else cost)
             move = Move.STAY if waits >> tick & 1 else decision.move
-            run = replace(run, world=transition(run.world, move, run.config))
+            run = replace(run, world=next_world(run.world, (move,), run.config))
             batch.step(np.array([MOVES.index(move)], np.uint8))
             assert batch.digest(0) == run.world.digest()
 
@@ -105,7 +106,7 @@ def test_what_lies_near_is_charged_on_its_own_side() -> None:
 def test_a_mover_brakes_for_a_vehicle_that_stays() -> None:
     """And the rule, the planners and moves handed in know it."""
     walled = road(".....", "#####", ".>A#.", ".###.", ".....")
-    for planner, name in (("priority", "priority"), ("exact", "exact"), ("dijkstra", "weighted")):
+    for planner, name in (("priority", "priority"), ("bfs", "bfs"), ("dijkstra", "weighted")):
         run = run_on(walled, planner=planner, attentive=1.0, repetition=False)
         batch = Batch.of([run])
         batch.run(1, name)
@@ -153,14 +154,14 @@ def test_a_batch_takes_over_what_a_run_has_watched() -> None:
 
 
 def test_moves_handed_in_are_never_repetitions_and_are_forgotten() -> None:
-    run = SimState(run_on(CAGE).config, CAGE, mode=Mode.MANUAL)
+    run = run_on(CAGE).with_ego(mode=Mode.MANUAL)
     batch = Batch.of([run], after="stop")
     stay = np.array([MOVES.index(Move.STAY)], np.uint8)
     for _ in range(12):
         run = step(run).state
         batch.step(stay)
         assert batch.digest(0) == run.world.digest()
-    run = replace(run, mode=Mode.AUTO)
+    run = run.with_ego(mode=Mode.AUTO)
     for _ in range(3):
         run = step(run).state
         batch.run(1)
@@ -295,12 +296,12 @@ def test_a_lane_can_be_looked_at_as_a_world() -> None:
 def test_a_planner_that_there_is_not_is_refused(planner: Any) -> None:
     batch = Batch([Config(rows=5)], after="stop")
     for use in (lambda: batch.run(1, planner), lambda: batch.run_to_end(planner)):
-        with pytest.raises(ValueError, match="priority, exact, weighted, astar or dijkstra"):
+        with pytest.raises(ValueError, match="priority, bfs, weighted, astar or dijkstra"):
             use()
     for ask in (batch.moves, batch.least):
-        with pytest.raises(ValueError, match="priority, exact, weighted, astar or dijkstra"):
+        with pytest.raises(ValueError, match="priority, bfs, weighted, astar or dijkstra"):
             ask(planner)
-    with pytest.raises(ValueError, match="priority, exact"):
+    with pytest.raises(ValueError, match="priority, bfs"):
         batch.run(0, planner)
     assert (batch.episode_ticks == 0).all()
 
@@ -318,7 +319,7 @@ def test_planners_that_weigh_costs_go_by_their_own_names(name: BatchPlanner) -> 
     batch = Batch(configs, after="stop")
     assert (batch.moves(name) == batch.moves("weighted")).all()
     assert (batch.least(name) == batch.least("weighted")).all()
-    assert (batch.least(name) != batch.least("exact")).any()
+    assert (batch.least(name) != batch.least("bfs")).any()
     batch.run_to_end(name)
     run = SimState.start(replace(configs[3], planner=name))
     while run.world.outcome is Outcome.RUNNING:
@@ -337,9 +338,9 @@ def test_threads_ticks_and_what_follows_an_end_are_checked() -> None:
         with pytest.raises(ValueError, match="1 thread or more"):
             batch.step(stay, threads=threads)
         with pytest.raises(ValueError, match="1 thread or more"):
-            batch.moves("exact", threads=threads)
+            batch.moves("bfs", threads=threads)
         with pytest.raises(ValueError, match="1 thread or more"):
-            batch.least("exact", threads=threads)
+            batch.least("bfs", threads=threads)
     with pytest.raises(ValueError, match="0 ticks or more"):
         batch.run(-1)
     batch.run(0)

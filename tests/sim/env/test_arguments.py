@@ -55,8 +55,8 @@ def test_unknown_arguments_are_named(make: Callable[..., Any], arguments: Any, w
         ({"step_cost": float("nan")}, "step_cost must be a finite number"),
         ({"action_mask": "no"}, "action_mask must be True or False, not 'no'"),
         ({"discount": 1.5}, "discount must be at most 1"),
-        ({"config": {"seed": 3}}, r"seed: is given to reset\(seed=…\)"),
-        ({"config": {"pothole": 3}}, "pothole: .*did you mean potholes"),
+        ({"config": {"seed": 3}}, "seed: is given to reset"),
+        ({"config": {"pothole": 3}}, "pothole: not a setting.*potholes"),
     ],
 )
 def test_values_that_cannot_be_are_named(make: Callable[..., Any], arguments: Any, words: str) -> None:

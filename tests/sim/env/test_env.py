@@ -16,7 +16,9 @@ from gymnasium.vector import AutoresetMode, SyncVectorEnv
 import sim.env
 from sim.config import Config
 from sim.env import RoadEnv, RoadVectorEnv
-from sim.state import SimState, step
+from sim.env.observation import PLANES
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Move, Outcome
 
 # What they use is compiled at first use, once in every worker that has one of them.
@@ -156,7 +158,7 @@ def test_it_can_be_made_by_name() -> None:
     many = gymnasium.make_vec("Roadtalk-v0", num_envs=3, config={"rows": 12})
     assert type(many) is RoadVectorEnv
     observations, _ = many.reset(seed=1)
-    assert observations.shape == (3, 7, 12, 8)
+    assert observations.shape == (3, PLANES, 12, 8)
     many.close()
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from sim.env import RoadEnv, RoadVectorEnv
-from sim.env.observation import VEHICLE
+from sim.perceive.observe import VEHICLE
 from sim.types import Move
 
 pytestmark = pytest.mark.xdist_group("compiled")

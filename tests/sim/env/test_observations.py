@@ -10,7 +10,8 @@ import pytest
 from gymnasium import spaces
 
 from sim.env import RoadEnv, RoadVectorEnv
-from sim.env.observation import MIN_IMAGE_PX, OFF_ROAD, PLANES, STEPPING, VEHICLE
+from sim.env.observation import MIN_IMAGE_PX, OFF_ROAD
+from sim.perceive.observe import PLANES, STEPPING, VEHICLE
 
 pytestmark = pytest.mark.xdist_group("compiled")
 
@@ -49,7 +50,7 @@ def test_a_window_is_what_is_around_the_vehicle(window: Any) -> None:
                 expected = (
                     planes[:, there, beside]
                     if on_road
-                    else np.eye(PLANES, dtype=int)[STEPPING] * planes[6, 0, 0]
+                    else np.eye(PLANES, dtype=int)[STEPPING] * planes[STEPPING, 0, 0]
                 )
                 assert (seen[:PLANES, down, along] == expected).all()
         assert seen[VEHICLE, ahead, side] == 1

@@ -12,10 +12,11 @@ import pytest
 
 from sim.config import Config
 from sim.env import RoadEnv
-from sim.env.observation import VEHICLE
-from sim.perceive import perceive
+from sim.perceive import perceive_truth
+from sim.perceive.observe import VEHICLE
 from sim.plan.safe_planning import plan_safely
-from sim.state import SimState, apply_move
+from sim.state import FIRST, SimState
+from sim.transition import transition
 from sim.types import Move
 
 MOVES = tuple(Move)
@@ -32,7 +33,7 @@ def played(env: RoadEnv, seed: int, policy: Policy) -> tuple[list[float], list[i
         action = policy(state, info)
         road = state.world.road
         move = MOVES[action] if road.moved(state.world.av, MOVES[action]) is not None else Move.STAY
-        state = apply_move(state, move, by_person=False)
+        state = transition(state, {FIRST: move}).state
         observation, reward, terminated, truncated, info = env.step(action)
         paid.append(float(reward))
         rows.append(int(np.argwhere(observation[VEHICLE])[0][0]))
@@ -43,7 +44,7 @@ def played(env: RoadEnv, seed: int, policy: Policy) -> tuple[list[float], list[i
 def by_planner(name: str) -> Policy:
     def policy(state: SimState, _: Any) -> int:
         config = state.config.with_parts(planner=name)
-        return MOVES.index(plan_safely(perceive(state.world, config), config).move)
+        return MOVES.index(plan_safely(perceive_truth(state.world, config), config)[1].move)
 
     return policy
 
@@ -70,7 +71,7 @@ def test_who_stands_still_is_paid_least_and_who_arrives_most(parts: dict[str, An
         return fmean(sum(played(env, seed, policy)[0]) for seed in SEEDS)
 
     still = mean(stays)
-    assert still < mean(by_planner("priority")) < mean(by_planner("exact"))
+    assert still < mean(by_planner("priority")) < mean(by_planner("bfs"))
     assert still < mean(at_random(only_free=True))
     assert still < mean(at_random(only_free=False))
 
@@ -79,7 +80,7 @@ def test_the_parts_of_a_return() -> None:
     """Without a discount the potential cancels out: only the end and the ticks are left."""
     env = RoadEnv({"rows": 12}, goal_reward=5, crash_penalty=3, step_cost=0.25, progress_reward=7)
     seen = set()
-    for policy in (at_random(only_free=False), by_planner("exact")):
+    for policy in (at_random(only_free=False), by_planner("bfs")):
         for seed in range(10):
             paid, _, outcome = played(env, seed, policy)
             assert outcome in ("success", "crash")
@@ -109,6 +110,6 @@ def test_time_costs_twice_a_crash_by_default() -> None:
     paid, _, outcome = played(env, 0, stays)
     assert outcome == "stuck"
     assert sum(paid) == pytest.approx(-2 * len(paid) / Config(rows=4).max_ticks)
-    assert played(env, 0, by_planner("exact"))[0] == pytest.approx(
+    assert played(env, 0, by_planner("bfs"))[0] == pytest.approx(
         [1 / 3 - 0.05, 1 / 3 - 0.05, 2 - 2 / 3 - 0.05]
     )

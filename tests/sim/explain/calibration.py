@@ -17,10 +17,11 @@ from dataclasses import dataclass
 from sim.config import Config
 from sim.explain.confidence import Confidence, Method, confidence
 from sim.session.timeline import Timeline
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Outcome
 
-PLANNERS = ("priority",) * 8 + ("exact", "astar")
+PLANNERS = ("priority",) * 8 + ("bfs", "astar")
 
 
 @dataclass(frozen=True, slots=True)

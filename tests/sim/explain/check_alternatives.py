@@ -15,7 +15,7 @@ from sim.types import Move, Outcome
 from tests.sim.explain.judge import played
 from tests.sim.explain.moments import moments
 
-SHARES = {"priority": 0.90, "exact": 0.05, "dijkstra": 0.03, "astar": 0.02}
+SHARES = {"priority": 0.90, "bfs": 0.05, "dijkstra": 0.03, "astar": 0.02}
 BATCH = 100
 
 

@@ -14,7 +14,7 @@ from sim.explain import why
 from tests.sim.explain.judge import wrong_claims
 from tests.sim.explain.moments import moments
 
-SHARES = {"priority": 0.94, "exact": 0.03, "dijkstra": 0.02, "astar": 0.01}
+SHARES = {"priority": 0.94, "bfs": 0.03, "dijkstra": 0.02, "astar": 0.01}
 """How many of the decisions are whose: planners that weigh costs are run hundreds of times for one answer."""
 BATCH = 100
 

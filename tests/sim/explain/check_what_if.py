@@ -39,7 +39,7 @@ from sim.session.errors import EditError
 from sim.session.timeline import Timeline
 from sim.types import Mode, Move, Outcome
 
-PLANNERS = ("priority", "astar", "dijkstra", "exact")
+PLANNERS = ("priority", "astar", "dijkstra", "bfs")
 ENDS = {
     Outcome.SUCCESS: r"arrive in {ticks}\b",
     Outcome.CRASH: r"crash with \w+ [\w ]+? in {ticks}\b",

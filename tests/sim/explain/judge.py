@@ -9,7 +9,8 @@ from sim.actions import Drive, Prefer, Remove, Set, SetMode, Where, WorldAction
 from sim.config import Config
 from sim.explain import Explanation
 from sim.session.edits import apply
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Mode, Move, Outcome, kind_of
 
 MOST_PARTS = 3

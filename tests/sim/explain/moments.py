@@ -9,7 +9,8 @@ from sim.actions import Remove, Where, WorldAction
 from sim.config import Config
 from sim.session.edits import apply
 from sim.session.timeline import Timeline
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Move, Outcome, kind_of
 
 

@@ -13,7 +13,7 @@ from tests.sim.explain.moments import moments
 
 
 @pytest.mark.parametrize(
-    ("planner", "count"), [("priority", 250), ("exact", 30), ("dijkstra", 12), ("astar", 12)]
+    ("planner", "count"), [("priority", 250), ("bfs", 30), ("dijkstra", 12), ("astar", 12)]
 )
 def test_the_stated_end_is_the_end(planner: str, count: int) -> None:
     draw, compared = random.Random(2), 0

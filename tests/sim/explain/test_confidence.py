@@ -12,9 +12,11 @@ from sim.config import Config
 from sim.explain import QuestionError
 from sim.explain import confidence as module
 from sim.explain.confidence import Confidence, Method, confidence
+from sim.plan import traits_of
 from sim.session.timeline import Timeline
-from sim.state import SimState, step
+from sim.state import SimState
 from sim.statistics import wilson
+from sim.transition import step
 from sim.types import Mode, Move, Outcome
 from tests.sim.explain import calibration
 from tests.sim.explain.moments import moments
@@ -56,7 +58,7 @@ def test_with_nothing_left_to_chance_the_one_future_is_told() -> None:
             assert (found.crashes, found.stuck) == (outcome is Outcome.CRASH, outcome is Outcome.STUCK)
 
 
-@pytest.mark.parametrize("planner", ["priority", "exact"])
+@pytest.mark.parametrize("planner", ["priority", "bfs"])
 def test_a_share_agrees_with_futures_run_under_other_seeds(planner: str) -> None:
     draw = random.Random(planner)
     looked_at = open_cases = 0
@@ -112,7 +114,7 @@ def test_work_is_limited_and_the_same_moment_has_the_same_answer() -> None:
     for _ in range(20):
         timeline = Timeline(calibration.drawn_config(draw))
         found = confidence(timeline)
-        limit = module.WORK[timeline.config.planner] + 2 * timeline.config.max_ticks
+        limit = traits_of(timeline.config.planner).decisions_per_answer + 2 * timeline.config.max_ticks
         assert found.decisions <= limit
         assert confidence(timeline.copy()) == found
 
@@ -129,7 +131,7 @@ def test_seen_courtesy_of_the_coming_tick_is_no_chance() -> None:
 
 def test_a_way_shut_by_hazards_is_not_run_to_its_end() -> None:
     world = road("........", "########", "........", "...A....")
-    for planner, decisions in (("priority", module.PATIENCE["priority"]), ("exact", 0)):
+    for planner, decisions in (("priority", module.PROOF_AFTER), ("bfs", 0)):
         found = of(run_on(world, planner=planner, repetition=False))
         assert (found.shut_off, found.arrives, found.end_ticks) == (1.0, 0.0, None)
         assert found.decisions == decisions
@@ -139,7 +141,7 @@ def test_what_is_proved_hopeless_never_arrives() -> None:
     """Rows of movers with no gap are proved shut, whoever gives way; what is not proved is run."""
     draw, proved = random.Random(5), 0
     while proved < 12:
-        config = calibration.drawn_config(draw).with_parts(planner="exact")
+        config = calibration.drawn_config(draw).with_parts(planner="bfs")
         if config.rows > 8:
             continue
         timeline = Timeline(config)
@@ -152,10 +154,10 @@ def test_what_is_proved_hopeless_never_arrives() -> None:
 
 def test_a_person_who_drives_is_told_how_it_goes_without_them() -> None:
     state = run_on(road("........", "........", "........", "...A...."))
-    by_hand = of(replace(state, mode=Mode.MANUAL))
+    by_hand = of(state.with_ego(mode=Mode.MANUAL))
     assert by_hand.by_hand
     assert by_hand.arrival_ticks == of(state).arrival_ticks == (3, 3)
-    waited = of(replace(state, mode=Mode.MANUAL, queue=(Move.STAY, Move.STAY)))
+    waited = of(state.with_ego(mode=Mode.MANUAL, queue=(Move.STAY, Move.STAY)))
     assert waited.arrival_ticks == (5, 5), "moves that were asked for are made first"
 
 
@@ -169,7 +171,7 @@ def test_after_the_end_there_is_nothing_to_be_sure_of() -> None:
 
 
 def test_how_clear_the_last_move_was() -> None:
-    timeline = Timeline(Config(rows=8, vehicles=0, potholes=0, planner="exact"))
+    timeline = Timeline(Config(rows=8, vehicles=0, potholes=0, planner="bfs"))
     assert confidence(timeline).clarity is None
     timeline.advance()
     clarity = confidence(timeline).clarity

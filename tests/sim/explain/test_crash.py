@@ -14,7 +14,8 @@ from sim.explain.alternatives import after_move
 from sim.explain.crash import Crash, led_to_crash, why_crashed
 from sim.session.edits import apply
 from sim.session.timeline import Timeline
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Mode, Move, Outcome
 
 
@@ -74,14 +75,14 @@ def test_the_move_that_would_have_saved_it_does_when_the_quickest_way_is_taken_f
         moment = timeline.at(saving.tick)
         assert timeline.decision(saving.tick).move is saving.made  # type: ignore[union-attr]
         state = after_move(moment, saving.instead)
-        state = replace(state, config=state.config.with_parts(planner="exact"))
+        state = replace(state, config=state.config.with_parts(planner="bfs"))
         while state.world.outcome is Outcome.RUNNING:
             state = step(state).state
         assert state.world.outcome is Outcome.SUCCESS
         assert state.world.episode_tick == saving.ticks
         for tick in range(saving.tick + 1, crash.end):
             lost = timeline.at(tick)
-            lost = replace(lost, config=lost.config.with_parts(planner="exact"))
+            lost = replace(lost, config=lost.config.with_parts(planner="bfs"))
             while lost.world.outcome is Outcome.RUNNING:
                 lost = step(lost).state
             assert lost.world.outcome is not Outcome.SUCCESS

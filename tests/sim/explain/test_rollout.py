@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
 
 from sim.actions import Add
@@ -13,8 +11,9 @@ from sim.explain.rollout import route_ahead, story
 from sim.explain.summary import long_to_tell, summary
 from sim.oracle import least_ticks
 from sim.session.timeline import Timeline
-from sim.state import SimState, step
-from sim.types import Mode, Move, Outcome
+from sim.state import SimState
+from sim.transition import step
+from sim.types import Kind, Mode, Move, Outcome
 from tests.sim.explain.moments import moments
 from tests.sim.roads import road, run_on
 
@@ -57,32 +56,32 @@ def test_a_result_that_stands_is_waited_out() -> None:
 def test_whoever_would_have_been_met_is_whom_a_detour_is_for() -> None:
     told = story(WALLED)
     first = told.detours[0]
-    assert (first.move, first.sake, first.ids) == (Move.LEFT, DetourReason.POTHOLE, ("pothole-1",))
+    assert (first.move, first.sake, first.ids) == (Move.LEFT, Kind.POTHOLE, ("pothole-1",))
     assert told.outcome is Outcome.SUCCESS
 
 
 def test_driven_by_hand_and_asked_for_nothing_it_stays() -> None:
-    told = story(replace(WALLED, mode=Mode.MANUAL))
+    told = story(WALLED.with_ego(mode=Mode.MANUAL))
     assert told.by_hand
     assert set(told.path) == {Move.STAY}
     assert {detour.sake for detour in told.detours} == {DetourReason.YOU}
-    asked = story(replace(WALLED, mode=Mode.MANUAL, queue=(Move.FORWARD,)))
+    asked = story(WALLED.with_ego(mode=Mode.MANUAL, queue=(Move.FORWARD,)))
     assert not asked.by_hand
     assert asked.held_back == (0,)
 
 
 def test_a_search_on_a_very_long_road_is_cut_short() -> None:
-    told = story(SimState.start(Config(rows=512, columns=12, planner="exact", vehicles=0, potholes=0)))
+    told = story(SimState.start(Config(rows=512, columns=12, planner="bfs", vehicles=0, potholes=0)))
     assert (told.outcome, told.driven) == (Outcome.RUNNING, 4)
 
 
 @pytest.mark.parametrize("mode", Mode)
 def test_the_way_ahead_is_the_way_taken(mode: Mode) -> None:
     for seed in range(20):
-        state = replace(SimState.start(Config(seed=seed, potholes=20)), mode=mode)
+        state = SimState.start(Config(seed=seed, potholes=20)).with_ego(mode=mode)
         way = route_ahead(state)
         assert way.offered is (mode is Mode.MANUAL)
-        runs = driven(replace(state, mode=Mode.AUTO))
+        runs = driven(state.with_ego(mode=Mode.AUTO))
         for number, decision in enumerate(way.decisions):
             taken = step(runs[number]).decision
             assert taken == decision
@@ -116,7 +115,7 @@ def test_an_end_is_summed_up_as_driving_it_again_would(potholes: int | None) -> 
 
 def test_a_crash_that_could_have_been_avoided() -> None:
     crossed = run_on(road("........", "........", "........", "..>A...."))
-    hit = driven(replace(crossed, mode=Mode.MANUAL, queue=(Move.STAY,)))[-1]
+    hit = driven(crossed.with_ego(mode=Mode.MANUAL, queue=(Move.STAY,)))[-1]
     found = summary(hit)
     assert found.outcome is Outcome.CRASH
     assert (found.free, found.open_before) == (True, True)

@@ -7,18 +7,20 @@ from dataclasses import replace
 import pytest
 from hypothesis import given
 
+from sim.commit import commit
 from sim.config import Config
 from sim.explain.scene import Scene, describe_percept
 from sim.judge import collisions
-from sim.perceive import perceive
-from sim.state import SimState, commit
+from sim.perceive import perceive_truth
+from sim.state import SimState
 from sim.types import Kind, Move
 from sim.world import World
+from sim.world.boards import NO_BOARDS, Boards
 from tests.sim.roads import road, run_on, worlds
 
 
 def scene(state: SimState) -> Scene:
-    return describe_percept(perceive(state.world, state.config), state.config)
+    return describe_percept(perceive_truth(state.world, state.config), state.config)
 
 
 def met_by_driving(state: SimState, reach: int) -> dict[str, int]:
@@ -26,7 +28,7 @@ def met_by_driving(state: SimState, reach: int) -> dict[str, int]:
     met: dict[str, int] = {}
     world = state.world
     for tick in range(1, reach + 1):
-        after = commit(world, Move.FORWARD, state.config)
+        after = commit(world, (Move.FORWARD,), state.config)
         for cause in collisions(world, after, state.config.ego_dynamics(world.road)):
             for name in cause.ids:
                 met.setdefault(name, tick)
@@ -82,11 +84,11 @@ def test_no_further_than_the_next_rows_is_looked_for_what_would_be_met() -> None
 
 def test_what_the_sensors_miss_is_not_seen_and_what_they_imagine_is() -> None:
     state = run_on(road("........", "...o....", "........", "...A...."))
-    percept = perceive(state.world, state.config)
-    blind = replace(percept, potholes=0, hazards={})
+    percept = perceive_truth(state.world, state.config)
+    blind = replace(percept, boards=NO_BOARDS, hazards={})
     assert describe_percept(blind, state.config).seen == ()
     index = state.world.road.index((3, 2))
-    ghost = replace(blind, barriers=1 << index, hazards={index: "barrier-9"})
+    ghost = replace(blind, boards=Boards.of({Kind.BARRIER: 1 << index}), hazards={index: "barrier-9"})
     (thing,) = describe_percept(ghost, state.config, {"barrier-9": 0.7}).seen
     assert (thing.id, thing.kind, thing.likelihood, thing.ticks) == ("barrier-9", Kind.BARRIER, 0.7, 1)
 

@@ -12,7 +12,8 @@ from sim.actions import Add, Remove, Where, WorldAction
 from sim.session.edits import apply
 from sim.session.errors import EditError
 from sim.session.timeline import Timeline
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Kind, Move
 from tests.sim.explain.moments import moments
 

@@ -104,7 +104,7 @@ def test_an_overdetermined_decision_names_the_stand_in() -> None:
 
 def test_a_move_held_back_is_explained_by_what_it_would_have_met() -> None:
     state = run_on(road("........", "........", "........", "..#A...."))
-    held = SimState(state.config, state.world, Mode.MANUAL, (Move.LEFT,))
+    held = state.with_ego(mode=Mode.MANUAL, queue=(Move.LEFT,))
     explanation = why(timeline_on(held))
     assert explanation.decision.held_back
     assert [cause.id for cause in explanation.causes] == ["barrier-1"]

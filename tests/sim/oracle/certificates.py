@@ -42,7 +42,7 @@ def main() -> int:
     options = parser.parse_args()
     configs = [Config(seed=seed, potholes=options.potholes) for seed in range(options.worlds)]
     blocked = [
-        config for config, least in zip(configs, Batch(configs).least("exact"), strict=True) if least < 0
+        config for config, least in zip(configs, Batch(configs).least("bfs"), strict=True) if least < 0
     ]
     failures = 0
     for number, config in enumerate(blocked, 1):

@@ -346,6 +346,7 @@ HOSTILE: dict[str, type[Hostile]] = {
 POSING = {
     "astar": Hostile,
     "rules": Hostile,
+    "bfs": Hostile,
     "exact": Hostile,
     "manual": Hostile,
     "AStar": Hostile,

@@ -12,13 +12,14 @@ from hypothesis import strategies as st
 from sim.actions import Preference
 from sim.batch import Batch
 from sim.config import Collision, Config
-from sim.forecast import predict
-from sim.perceive import perceive
+from sim.decide import decide
+from sim.forecast import Forecast
 from sim.plan import Decision, planner_named
 from sim.rules.versions import RULES
 from sim.search.costs import BALANCED, weights
 from sim.search.reachability import reachability
-from sim.state import SimState, decide, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Mode, Move, Outcome
 from sim.world import World
 from tests.sim.roads import road, run_on, worlds
@@ -46,7 +47,7 @@ def decision(state: SimState, planner: str) -> Decision:
     found = planner_named(planner)
     assert found is not None
     return found.decide(
-        predict(perceive(state.world, state.config), found.horizon(state.config)), state.config
+        Forecast.of_truth(state.world, state.config, found.horizon(state.config)), state.config
     )
 
 
@@ -101,16 +102,16 @@ def _agree(state: SimState) -> None:
     assert MOVES[batch.moves("weighted")[0]] is searched.move
     least = searched.chosen.cost
     assert batch.least("weighted")[0] == (-1 if least is None else least)
-    quickest = decision(state, "exact")
-    assert MOVES[batch.moves("exact")[0]] is quickest.move
+    quickest = decision(state, "bfs")
+    assert MOVES[batch.moves("bfs")[0]] is quickest.move
     ticks = quickest.chosen.cost
-    assert batch.least("exact")[0] == (-1 if ticks is None else ticks)
+    assert batch.least("bfs")[0] == (-1 if ticks is None else ticks)
 
 
 @settings(max_examples=100)
 @given(worlds())
 def test_no_step_into_what_is_known_to_be_there_while_another_is_free(world: World) -> None:
-    for planner in ("astar", "exact"):
+    for planner in ("astar", "bfs"):
         taken = decision(run_on(world), planner)
         assert taken.chosen.verdict == "free" or all(o.verdict != "free" for o in taken.options)
         assert [o.cost for o in taken.options if o.cost is not None] == sorted(
@@ -118,7 +119,7 @@ def test_no_step_into_what_is_known_to_be_there_while_another_is_free(world: Wor
         )
 
 
-@pytest.mark.parametrize("planner", ["astar", "dijkstra", "exact"])
+@pytest.mark.parametrize("planner", ["astar", "dijkstra", "bfs"])
 @pytest.mark.parametrize("potholes", [0, 40, 70])
 def test_the_cost_to_go_falls_by_what_is_paid(planner: str, potholes: int) -> None:
     """So there is no livelock: the next decision's total is this one's less the step taken."""
@@ -153,7 +154,7 @@ def test_the_rule_swings_for_ever_where_a_plan_arrives() -> None:
 
 def test_with_no_way_on_it_lasts_as_long_as_it_can() -> None:
     world = road("....", "oooo", ">...", "..A.")
-    for planner in ("astar", "dijkstra", "exact"):
+    for planner in ("astar", "dijkstra", "bfs"):
         state = run_on(world, planner=planner)
         taken = decide(state)
         assert taken is not None
@@ -168,7 +169,7 @@ def test_a_person_may_take_a_step_that_leads_nowhere() -> None:
     state = run_on(world, planner="astar")
     trap = decision(state, "astar").option(Move.RIGHT)
     assert trap.dead_end or trap.cost is not None
-    asked = step(SimState(state.config, world, mode=Mode.MANUAL, queue=(Move.RIGHT,)))
+    asked = step(SimState(state.config, world).with_ego(mode=Mode.MANUAL, queue=(Move.RIGHT,)))
     assert asked.decision is not None
     assert asked.decision.move is Move.RIGHT
 
@@ -203,7 +204,7 @@ def test_a_smooth_ride_turns_less() -> None:
 def test_the_fastest_takes_the_least_ticks() -> None:
     for seed in range(12):
         state = SimState.start(Config(seed=seed, potholes=50, preferences=("fastest",), planner="astar"))
-        forecast = predict(perceive(state.world, state.config), 301)
+        forecast = Forecast.of_truth(state.world, state.config, 301)
         least = reachability(forecast, 1 << state.world.av, 301).ticks
         while state.world.outcome is Outcome.RUNNING:
             state = step(state).state
@@ -220,7 +221,7 @@ def test_most_roads_are_driven_in_about_the_least_ticks() -> None:
     """The batch's planner is astar's own (above), so many roads can be tried."""
     for potholes in (0, 20, 60):
         batch = Batch([Config(seed=s, potholes=potholes) for s in range(1_000)], after="stop")
-        least = batch.least("exact")
+        least = batch.least("bfs")
         batch.run_to_end("weighted")
         totals_ = batch.totals()
         solvable = least > 0

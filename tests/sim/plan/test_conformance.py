@@ -28,7 +28,7 @@ def test_a_broken_promise_is_found(planner: type[Planner]) -> None:
     assert BROKEN[planner] in {defect.promise for defect in report.defects}
 
 
-@pytest.mark.parametrize("name", ["rules", "priority", "astar", "dijkstra", "exact"])
+@pytest.mark.parametrize("name", ["rules", "priority", "astar", "dijkstra", "bfs"])
 def test_the_planners_there_are_keep_their_promises(name: str) -> None:
     planner = planner_named(name)
     assert planner is not None

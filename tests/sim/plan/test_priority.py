@@ -7,11 +7,11 @@ from hypothesis import given, settings
 
 from sim import planner_names
 from sim.config import Config
-from sim.forecast import StepVerdict, predict
-from sim.perceive import perceive
+from sim.decide import decide
+from sim.forecast import Forecast, StepVerdict
 from sim.plan import Decision, planner_named, register
 from sim.plan.priority import PriorityPlanner, options_in_order
-from sim.state import SimState, decide
+from sim.state import SimState
 from sim.types import MOVES, Move, kind_of
 from sim.world import World
 from tests.sim.roads import road, run_on, worlds
@@ -137,7 +137,7 @@ def test_a_planner_that_is_not_there_is_named(monkeypatch: pytest.MonkeyPatch) -
 
 @given(worlds())
 def test_all_moves_at_once_meet_what_each_alone_does(world: World) -> None:
-    forecast = predict(perceive(world, run_on(world).config), 1)
+    forecast = Forecast.of_truth(world, run_on(world).config, 1)
     for rank, option in enumerate(options_in_order(forecast)):
         end = world.road.moved(world.av, option.move)
         assert (option.reason, option.causes) == forecast.check_step(world.av, end)

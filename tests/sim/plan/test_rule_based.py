@@ -8,15 +8,18 @@ import pytest
 from hypothesis import assume, given
 
 from sim.config import Config
-from sim.forecast import predict
+from sim.decide import decide
+from sim.forecast import Forecast, predict
 from sim.generation import drivable
-from sim.perceive import perceive
+from sim.perceive import perceive_truth
 from sim.plan import Decision
 from sim.plan.rule_based import Leads, RulesPlanner, standing
 from sim.search.passages import locked_in, ways_past
-from sim.state import SimState, decide, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Move, Outcome
 from sim.world import World
+from sim.world.boards import Boards
 from sim.world.grid import board_of
 from tests.sim.roads import road, run_on, worlds
 
@@ -76,7 +79,7 @@ def test_where_it_goes(rows: tuple[str, ...], move: Move) -> None:
 
 def test_a_row_is_not_entered_while_a_mover_comes_between_the_vehicle_and_its_way_on() -> None:
     trap = road("oo.oooo", "...<...", "A......", ".......")
-    told = standing(predict(perceive(trap, Config(columns=7, rows=4)), 1))
+    told = standing(Forecast.of_truth(trap, Config(columns=7, rows=4), 1))
     ahead = told.of(Move.FORWARD)
     assert ahead is not None
     assert (ahead.leads, ahead.columns) == (Leads.CLOSED, 2)
@@ -130,7 +133,7 @@ def test_movers_of_other_rows_change_nothing_but_for_those_locked_in(world: Worl
 def test_a_mirrored_road_is_driven_in_the_mirror_but_for_ties(world: World) -> None:
     decision, other = decided(world), decided(mirrored(world))
     config = Config(columns=world.road.columns, rows=world.road.rows)
-    told = standing(predict(perceive(world, config), 1))
+    told = standing(Forecast.of_truth(world, config, 1))
     mine, across = told.of(decision.move), told.of(MIRRORED.get(decision.move, decision.move))
     if mine != across and (mine is None or across is None or mine[:2] != across[:2]):
         assert other.move is MIRRORED.get(decision.move, decision.move)
@@ -149,11 +152,9 @@ def mirrored(world: World) -> World:
     return replace(
         world,
         avs=tuple(turned(cell) for cell in world.avs),
-        potholes=board(world.potholes),
-        barriers=board(world.barriers),
         right=board(world.left),
         left=board(world.right),
-        pedestrians=board(world.pedestrians),
+        boards=Boards.in_order([board(cells) for cells in world.boards.by_kind]),
         movers={turned(cell): name for cell, name in world.movers.items()},
         hazards={turned(cell): name for cell, name in world.hazards.items()},
     )
@@ -199,7 +200,7 @@ def test_it_is_asked_the_same_again() -> None:
     state = SimState.start(config)
     decisions = []
     for _ in range(20):
-        percept = perceive(state.world, config)
+        percept = perceive_truth(state.world, config)
         decisions.append((percept, planner.decide(predict(percept, 1), config)))
         state = step(state).state
     for percept, decision in reversed(decisions):

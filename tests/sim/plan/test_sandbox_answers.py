@@ -11,10 +11,12 @@ import pytest
 from sim import planner_names
 from sim.config import Config
 from sim.forecast import predict
-from sim.perceive import Percept, perceive
+from sim.perceive import Percept, perceive_truth
+from sim.plan import traits_of
 from sim.plan.conformance import check_apart, claimed, moments
 from sim.plan.decision import Measure
 from sim.plan.priority import PriorityPlanner
+from sim.plan.protocol import UNKNOWN
 from sim.plan.sandbox.answer import FaultError, decision_of, parsed
 from sim.plan.sandbox.codec import asked, percept_of, percept_values, question
 from sim.state import SimState
@@ -26,7 +28,7 @@ COSTS = '"forward": 1, "left": 2.5, "right": null, "forward_left": 4, "forward_r
 
 
 def percept_and(config: Config) -> tuple[Percept, Config]:
-    return perceive(SimState.start(config).world, config), config
+    return perceive_truth(SimState.start(config).world, config), config
 
 
 @pytest.mark.parametrize("config", [Config(seed=3), Config(columns=40, rows=300, pedestrians=9, seed=2**40)])
@@ -88,7 +90,7 @@ def test_the_words_of_a_fault_are_not_the_planners() -> None:
 
 def test_all_but_the_move_and_costs_is_made_here() -> None:
     for state in moments(4):
-        percept = perceive(state.world, state.config)
+        percept = perceive_truth(state.world, state.config)
         config = state.config.with_parts(planner="priority")
         own = PriorityPlanner().decide(predict(percept, 1), config)
         answer = parsed(f'{{"move": "{own.move}", "costs": {{{COSTS}}}}}'.encode())
@@ -140,3 +142,10 @@ def test_names_of_ours_are_not_to_be_had() -> None:
     assert "name is one of Roadtalk's own" in claimed("astar")[0].what
     assert "name is one of Roadtalk's own" in claimed("AStar")[0].what
     assert claimed("never") == []
+
+
+@pytest.mark.usefixtures("installed")
+def test_what_a_package_claims_of_its_planner_is_not_believed() -> None:
+    assert any(getattr(kind, "traits", UNKNOWN).local for kind in HOSTILE.values())
+    assert {traits_of(name) for name in HOSTILE} == {UNKNOWN}
+    assert traits_of("astar") != UNKNOWN  # whoever else asks for the name

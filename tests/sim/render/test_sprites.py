@@ -8,6 +8,7 @@ import pytest
 from sim.render import sprites
 from sim.rules.bodies import SIZES
 from sim.types import Kind
+from sim.world import Thing
 
 SOLID = 128
 """least alpha of what is no shadow"""
@@ -16,23 +17,12 @@ WIDTHS = (26, 41, 64, 90, 160)
 
 def drawn(kind: Kind, px: int) -> list[pygame.Surface]:
     """Looks of one kind."""
-    match kind:
-        case Kind.AV:
-            return [sprites.av_sprite(px)]
-        case Kind.VEHICLE:
-            return [
-                sprites.vehicle_sprite(px, look, heading, broken)
-                for look, heading, broken in ((0, "left", False), (1, "right", False), (2, "left", True))
-            ]
-        case Kind.PEDESTRIAN:
-            return [
-                sprites.pedestrian_sprite(px, look, heading, False)
-                for look, heading in ((0, "left"), (1, "right"))
-            ]
-        case Kind.BARRIER:
-            return [sprites.barrier_sprite(px)]
-        case Kind.POTHOLE:
-            return [sprites.pothole_sprite(px, f"pothole-{number}") for number in range(1, 30)]
+    if kind.moves:
+        looks = ((1, "left", False), (2, "right", False), (3, "left", True))
+        things = [Thing(f"{kind}-{look}", kind, (0, 0), heading, held) for look, heading, held in looks]
+    else:
+        things = [Thing(f"{kind}-{number}", kind, (0, 0)) for number in range(1, 30)]
+    return [sprites.sprite_of(thing, px) for thing in things]
 
 
 @pytest.mark.parametrize("px", WIDTHS)

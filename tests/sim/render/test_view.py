@@ -16,21 +16,23 @@ from PIL import Image
 from sim.config import Config
 from sim.render import MAX_SIDE_PX, VIEWS, eased, encode, render
 from sim.render.camera import camera_on
-from sim.state import SimState, StepResult, step
+from sim.state import SimState, StepResult
+from sim.transition import step
 from sim.types import Outcome
 from tests.sim.roads import road, run_on
 
 BARE = ("........",) * 12
 PROGRAM = """
 from sim.config import Config
-from sim.state import Run, advance
+from sim.state import SimState
+from sim.transition import step
 from sim.render import encode, render
 import hashlib
-run = Run.start(Config(seed=4, potholes=24, pedestrians=12, barriers=8))
+run = SimState.start(Config(seed=4, potholes=24, pedestrians=12, barriers=8))
 for _ in range(9):
     before = run.world
-    tick = advance(run)
-    run = tick.run
+    tick = step(run)
+    run = tick.state
 picture = render("road", run, before=before, decision=tick.decision, phase=0.4)
 print(hashlib.sha256(encode(picture)).hexdigest())
 """
@@ -112,7 +114,7 @@ def test_two_processes_draw_the_same_bytes() -> None:
 def drawn(
     config: Config, ticks: int, phase: float, view: str, size: tuple[int, int] | None
 ) -> pygame.Surface:
-    tick, before = StepResult(SimState.start(config), None, ()), None
+    tick, before = StepResult(SimState.start(config), {}, ()), None
     for _ in range(ticks):
         before = tick.state.world
         tick = step(tick.state)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from sim.render.motion import STEP_FRAMES, poses
 from sim.rules.bodies import SIZES, Path, clearance, first_contact
-from sim.types import Kind, Move, Outcome
+from sim.types import HAZARDS, MOVERS, Kind, Move, Outcome
 from tests.sim.contacts import TABLE, Case, cases, table, worlds, written
 
 DIAGONALS = (Move.FORWARD_LEFT, Move.FORWARD_RIGHT)
@@ -23,7 +23,7 @@ def test_every_contact_is_counted_by_the_rule_and_every_case_of_the_rule_is_a_co
 
 def test_the_cases_are_all_there_are() -> None:
     every = list(cases())
-    assert len(set(every)) == len(every) == 6 * 24 * (3 + 3 + 1 + 1)
+    assert len(set(every)) == len(every) == 6 * 24 * (3 * len(MOVERS) + len(HAZARDS))
     found = {case.words for case in every} - {None}
     assert found == {"same cell", "swap", "met on the diagonal, from behind", "met on the diagonal, ahead"}
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 from hypothesis import given, settings
 
-from sim.rules.traffic import pedestrians_walk
-from sim.state import commit
+from sim.commit import commit
+from sim.rules.traffic import steps_in_tick
 from sim.types import Kind, Move
 from sim.world import World, notation
 from sim.world.grid import bits
@@ -18,7 +18,7 @@ EMPTY = "......."
 def after(*rows: str, tick: int = 0, courtesy: float = 0.0) -> list[str]:
     """The rows one tick later, the vehicle staying where it is."""
     world = road(*rows, tick=tick)
-    return grid(commit(world, Move.STAY, run_on(world, courtesy=courtesy).config))
+    return grid(commit(world, (Move.STAY,), run_on(world, courtesy=courtesy).config))
 
 
 def row_after(row: str, *, tick: int = 0, courtesy: float = 0.0) -> str:
@@ -86,11 +86,11 @@ def test_pedestrians_step_in_odd_ticks_of_the_episode(row: str, tick: int, expec
 
 
 def test_the_beat_counts_from_the_start_of_the_episode() -> None:
-    assert [pedestrians_walk(tick) for tick in range(4)] == [False, True, False, True]
+    assert [steps_in_tick(2, tick) for tick in range(4)] == [False, True, False, True]
     world = road(EMPTY, "..)....", EMPTY, "...A...", tick=0)
     text = "road 7x4 tick 8 episode 2 from 7 running"
     later = notation.read(notation.write(world).replace("road 7x4 tick 0 episode 1 from 0 running", text))
-    assert grid(commit(later, Move.STAY, run_on(later).config))[1] == "...)..."
+    assert grid(commit(later, (Move.STAY,), run_on(later).config))[1] == "...)..."
 
 
 @pytest.mark.parametrize(
@@ -124,8 +124,8 @@ def test_a_courteous_mover_counts_the_vehicle_as_blocking(
     row: str, discourteous: str | None, courteous: str | None
 ) -> None:
     world = road(EMPTY, row, EMPTY, EMPTY)
-    bold = commit(world, Move.STAY, run_on(world).config)
-    polite = commit(world, Move.STAY, run_on(world, courtesy=1.0).config)
+    bold = commit(world, (Move.STAY,), run_on(world).config)
+    polite = commit(world, (Move.STAY,), run_on(world, courtesy=1.0).config)
     if courteous is None:
         assert bold == polite
         return
@@ -142,13 +142,13 @@ def test_courtesy_is_drawn_for_one_mover_and_tick_at_a_time() -> None:
     lone = world.without({"vehicle-2"})
     entered = 0
     for seed in range(400):
-        moved = commit(lone, Move.STAY, run_on(lone, courtesy=0.25, seed=seed).config)
+        moved = commit(lone, (Move.STAY,), run_on(lone, courtesy=0.25, seed=seed).config)
         entered += moved.moving >> moved.av & 1
     assert 0.75 * 400 - 45 < entered < 0.75 * 400 + 45
 
 
 def step(world: World) -> World:
-    return commit(world, Move.STAY, run_on(world).config)
+    return commit(world, (Move.STAY,), run_on(world).config)
 
 
 @settings(max_examples=150, deadline=None)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from sim.commit import commit
 from sim.config import Config
-from sim.forecast import predict
-from sim.perceive import perceive
+from sim.forecast import Forecast
 from sim.rules.behaviour import NOBODY, Behaviour, Reactions, SidewaysTraffic
 from sim.rules.traffic import Motion, shift_table
 from sim.rules.traffic_cache import cached_shift_table, cached_step
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Move
 
 
@@ -18,8 +18,8 @@ def test_what_is_expected_is_what_comes_and_no_second_table_is_made() -> None:
     state = SimState.start(Config(seed=3, pedestrians=4))
     for _ in range(12):
         world = state.world
-        forecast = predict(perceive(world, state.config), 1)
-        after = commit(world, Move.FORWARD, state.config)
+        forecast = Forecast.of_truth(world, state.config, 1)
+        after = commit(world, (Move.FORWARD,), state.config)
         assert after.movers == forecast.slices.movers(0)
         assert after.movers is forecast.slices.movers(0)
         state = step(state).state

@@ -9,7 +9,7 @@ import pytest
 from sim.config import Config
 from sim.oracle import Blocked, Drivable, certify, least_ticks
 from sim.state import SimState
-from sim.transition import transition
+from sim.transition import next_world
 from sim.types import Move, Outcome
 
 REACTIONS = [(courtesy, attentive) for courtesy in (0.0, 0.5, 1.0) for attentive in (0.0, 0.5, 1.0)]
@@ -24,7 +24,7 @@ def slowest(state: SimState, limit: int) -> int | None:
             for move in Move:
                 if world.road.moved(world.av, move) is None:
                     continue
-                there = transition(world, move, state.config)
+                there = next_world(world, (move,), state.config)
                 if there.outcome is Outcome.SUCCESS:
                     return ticks
                 if there.outcome is Outcome.RUNNING:

@@ -14,8 +14,8 @@ from sim.actions import Prefer, RoadType, Scenario, Set, Traffic, WorldAction
 from sim.config import Config, ConfigError
 from sim.session.config_to_actions import UndescribableError, config_to_actions
 from sim.session.errors import EditError
-from sim.session.scenario import configured
-from sim.session.settings import preferring, setting
+from sim.session.scenario import config_of_scenario
+from sim.session.settings import add_preference, change_setting
 
 LANGUAGE = Language.load()
 
@@ -55,11 +55,11 @@ def done(actions: list[WorldAction]) -> Config:
         try:
             match action:
                 case Scenario():
-                    config = configured(config, action)
+                    config = config_of_scenario(config, action)
                 case Prefer():
-                    config = preferring(config, action.preference)
+                    config = add_preference(config, action.preference)
                 case Set():
-                    config = setting(config, action)
+                    config = change_setting(config, action)
         except (EditError, ConfigError):
             continue
     return config

@@ -7,9 +7,9 @@ from typing import Any
 import pytest
 
 from sim.actions import Where
+from sim.session.errors import EditError
 from sim.session.locate import (
     Place,
-    PlaceError,
     cells_away,
     lane_columns,
     nearest_first,
@@ -155,29 +155,28 @@ def test_no_place_is_everywhere_for_finding() -> None:
 
 
 @pytest.mark.parametrize(
-    ("parts", "words"),
+    ("parts", "code", "facts"),
     [
-        ({"lane": 8}, ("lane 8", "7 lanes")),
-        ({"lane": 0}, ("lane 0", "7 lanes")),
-        ({"row": 6}, ("row 6", "0 to 5")),
-        ({"row": -1}, ("row -1", "0 to 5")),
-        ({"cell": (7, 0)}, ("(7, 0)", "0 to 6", "0 to 5")),
-        ({"cell": (0, -1)}, ("(0, -1)",)),
-        ({"side": "ahead", "cells": 5}, ("4 cells ahead",)),
-        ({"side": "ahead", "distance_m": 500.0}, ("4 cells ahead",)),
-        ({"side": "behind", "cells": 2}, ("1 cell behind",)),
-        ({"side": "left", "cells": 4}, ("3 cells to the left",)),
-        ({"lane": "left", "cells": 9}, ("4 cells ahead",)),
+        ({"lane": 8}, "no_such_lane", {"lane": 8, "lanes": 7}),
+        ({"lane": 0}, "no_such_lane", {"lane": 0, "lanes": 7}),
+        ({"row": 6}, "no_such_row", {"row": 6, "last_row": 5}),
+        ({"row": -1}, "no_such_row", {"row": -1, "last_row": 5}),
+        ({"cell": (7, 0)}, "cell_off_road", {"column": 7, "row": 0, "last_column": 6, "last_row": 5}),
+        ({"cell": (0, -1)}, "cell_off_road", {"column": 0, "row": -1, "last_column": 6, "last_row": 5}),
+        ({"side": "ahead", "cells": 5}, "too_far", {"left": 4, "side": "ahead", "away": 5}),
+        ({"side": "ahead", "distance_m": 500.0}, "too_far", {"left": 4, "side": "ahead", "away": 100}),
+        ({"side": "behind", "cells": 2}, "too_far", {"left": 1, "side": "behind", "away": 2}),
+        ({"side": "left", "cells": 4}, "too_far", {"left": 3, "side": "left", "away": 4}),
+        ({"lane": "left", "cells": 9}, "too_far", {"left": 4, "side": "ahead", "away": 9}),
     ],
 )
-def test_what_is_not_on_the_road_is_told_in_a_sentence(parts: dict[str, Any], words: tuple[str, ...]) -> None:
+def test_what_is_not_on_the_road_is_refused_with_its_facts(
+    parts: dict[str, Any], code: str, facts: dict[str, Any]
+) -> None:
     for place in (adding, finding):
-        with pytest.raises(PlaceError) as refused:
+        with pytest.raises(EditError) as refused:
             place(**parts)
-        message = str(refused.value)
-        assert all(word in message for word in words), message
-        assert message[0].isupper()
-        assert message.endswith(".")
+        assert (refused.value.code, refused.value.field, refused.value.facts) == (code, "where", facts)
 
 
 @pytest.mark.parametrize(

@@ -8,14 +8,15 @@ from hypothesis import strategies as st
 
 from sim.actions import Drive, Prefer, SetMode
 from sim.config import Config
-from sim.forecast import StepVerdict
+from sim.forecast import Forecast, StepVerdict
 from sim.perceive import Percept
 from sim.plan import Decision
 from sim.plan.decision import Option
 from sim.plan.safe_planning import hold_position, plan_safely
 from sim.session.move_log import BLOCK, MoveLog
 from sim.session.timeline import Timeline
-from sim.state import SimState, apply_move, step
+from sim.state import FIRST
+from sim.transition import step, transition
 from sim.types import Mode, Move, Outcome
 
 DECISION = Decision(0, "av-1", "priority", Move.LEFT, (Option(Move.LEFT, (0, 0), StepVerdict.FREE, 0.0, ()),))
@@ -28,18 +29,19 @@ def noted(ticks: int) -> MoveLog:
     return track
 
 
-@pytest.mark.parametrize("planner", ["rules", "priority", "astar", "exact", "dijkstra"])
+@pytest.mark.parametrize("planner", ["rules", "priority", "astar", "bfs", "dijkstra"])
 def test_a_state_is_come_to_by_the_move_as_by_the_decision(
     planner: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Also where a person drives, a move is held back, an episode ends, and a planner fails."""
 
-    def failing_at_times(percept: Percept, config: Config) -> Decision:
-        return (
-            hold_position(percept, config, "broke") if percept.tick % 7 == 3 else plan_safely(percept, config)
-        )
+    def failing_at_times(percept: Percept, config: Config) -> tuple[Forecast, Decision]:
+        forecast, decision = plan_safely(percept, config)
+        if percept.tick % 7 == 3:
+            decision = hold_position(percept, config, "broke")
+        return forecast, decision
 
-    monkeypatch.setattr("sim.state.plan_safely", failing_at_times)
+    monkeypatch.setattr("sim.decide.plan_safely", failing_at_times)
     timeline = Timeline(
         Config(columns=5, rows=8, potholes=5, vehicles=8, seed=3, planner=planner, courtesy=0.3)
     )
@@ -56,7 +58,12 @@ def test_a_state_is_come_to_by_the_move_as_by_the_decision(
             continue
         faults += decision.fault is not None
         by_person += decision.asked is not None
-        again = apply_move(state, decision.move, by_person=decision.asked is not None, fault=decision.fault)
+        again = transition(
+            state,
+            {FIRST: decision.move},
+            by_person=() if decision.asked is None else (FIRST,),
+            faults={} if decision.fault is None else {FIRST: decision.fault},
+        ).state
         assert again == tick.state == step(state).state
     assert {state.world.outcome for state in seen} > {Outcome.RUNNING}
     assert faults
@@ -75,10 +82,10 @@ def test_nothing_is_decided_again(monkeypatch: pytest.MonkeyPatch) -> None:
         seen.append(timeline.state)
         timeline.advance()
 
-    def standing_only(state: SimState) -> None:
-        assert state.world.outcome is not Outcome.RUNNING, "while a result stands there is nothing to decide"
+    def refused(*_: object) -> None:
+        raise AssertionError("while a result stands there is nothing to decide, and all else is known")
 
-    monkeypatch.setattr("sim.state.decide", standing_only)
+    monkeypatch.setattr("sim.transition.decide_alone", refused)
     assert [timeline.at(tick) for tick in range(100)] == seen
     timeline.rewind(37)
     assert timeline.state == seen[37]

@@ -6,7 +6,8 @@ import pytest
 
 from sim.actions import RoadType, Scenario, Traffic
 from sim.config import Config, ConfigError
-from sim.session.scenario import ROADS, TRAFFIC, configured
+from sim.session.scenario import ROADS, TRAFFIC, config_of_scenario
+from sim.types import Kind
 
 USED = Config(
     columns=6,
@@ -23,29 +24,34 @@ USED = Config(
 
 
 def test_what_is_not_named_is_at_its_default_but_the_grid_the_clock_and_the_seed_are_kept() -> None:
-    assert configured(USED, Scenario()) == Config(columns=6, rows=20, cell_m=4.0, seed=11)
+    assert config_of_scenario(USED, Scenario()) == Config(columns=6, rows=20, cell_m=4.0, seed=11)
 
 
 def test_numbers_said_are_exact() -> None:
-    config = configured(USED, Scenario(potholes=10, vehicles=0, barriers=1, pedestrians=0))
+    config = config_of_scenario(USED, Scenario(potholes=10, vehicles=0, barriers=1, pedestrians=0))
     assert (config.potholes, config.vehicles, config.barriers, config.pedestrians) == (10, 0, 1, 0)
 
 
 @pytest.mark.parametrize("road", [road for road in ROADS if road is not None])
 def test_a_type_of_road_brings_its_furniture(road: RoadType) -> None:
-    config, preset = configured(Config(), Scenario(road=road)), ROADS[road]
+    config, preset = config_of_scenario(Config(), Scenario(road=road)), ROADS[road]
     assert config.road == road
     assert (config.spawn_probability, config.pothole_probability) == (
         preset.spawn_probability,
         preset.pothole_probability,
     )
-    assert (config.pedestrians, config.barriers) == (preset.pedestrians, preset.barriers)
-    bare = configured(Config(), Scenario(road=road, pedestrians=0, barriers=0))
+    assert (config.pedestrians, config.barriers) == tuple(
+        preset.counts.get(kind, 0) for kind in (Kind.PEDESTRIAN, Kind.BARRIER)
+    )
+    bare = config_of_scenario(Config(), Scenario(road=road, pedestrians=0, barriers=0))
     assert (bare.pedestrians, bare.barriers) == (0, 0)
 
 
 def test_the_presets_differ_as_their_words_do() -> None:
-    assert ROADS["city"].pedestrians > ROADS["rural"].pedestrians > ROADS["highway"].pedestrians == 0
+    city, rural, highway = (
+        ROADS[road].counts.get(Kind.PEDESTRIAN, 0) for road in ("city", "rural", "highway")
+    )
+    assert city > rural > highway == 0
     assert ROADS["rural"].pothole_probability > ROADS["city"].pothole_probability
     assert ROADS["city"].pothole_probability > ROADS["highway"].pothole_probability
     default = Config()
@@ -55,7 +61,9 @@ def test_the_presets_differ_as_their_words_do() -> None:
 
 @pytest.mark.parametrize(("traffic", "probability"), list(TRAFFIC.items()))
 def test_traffic_overrides_what_the_road_brings(traffic: Traffic, probability: float) -> None:
-    assert configured(Config(), Scenario(road="rural", traffic=traffic)).spawn_probability == probability
+    assert (
+        config_of_scenario(Config(), Scenario(road="rural", traffic=traffic)).spawn_probability == probability
+    )
 
 
 def test_traffic_levels_rise() -> None:
@@ -67,5 +75,5 @@ def test_traffic_levels_rise() -> None:
 
 def test_a_scenario_the_road_cannot_hold_is_refused() -> None:
     with pytest.raises(ConfigError) as refused:
-        configured(Config(), Scenario(potholes=300))
+        config_of_scenario(Config(), Scenario(potholes=300))
     assert [problem.field for problem in refused.value.problems] == ["potholes"]

@@ -14,7 +14,8 @@ from sim.config import Config
 from sim.session.edits import apply
 from sim.session.errors import EditError
 from sim.session.serialization import Packer, Unpacker
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Kind, Mode, Move, Outcome
 from tests.sim.roads import run_on, worlds
 
@@ -112,9 +113,7 @@ def test_ends_and_what_stood_before_them() -> None:
 
 
 def test_a_planner_of_another_package_and_what_it_did_instead() -> None:
-    state = SimState(
-        Config(planner="priority"), SimState.start(Config()).world, fault="did not answer within 1 s"
-    )
+    state = SimState.start(Config(planner="priority")).with_ego(fault="did not answer within 1 s")
     same(state, *there_and_back(state))
 
 

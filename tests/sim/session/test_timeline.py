@@ -10,9 +10,11 @@ from hypothesis import strategies as st
 
 from sim.actions import Add, Drive, Remove, Reset, Scenario, SetCount, SetMode, Where, WorldAction
 from sim.config import Config
-from sim.session.edits import EditError
+from sim.decide import decide
+from sim.session.errors import EditError
 from sim.session.timeline import MAX_SNAPSHOTS, RECENT_RUNS, SNAPSHOT_TICKS, Entry, Timeline
-from sim.state import SimState, StepResult, decide, step
+from sim.state import SimState, StepResult
+from sim.transition import step
 from sim.types import Kind, Mode, Move
 
 CONFIG = Config(columns=6, rows=10, seed=21, potholes=4, pedestrians=2)

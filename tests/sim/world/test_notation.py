@@ -9,7 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from sim.config import Config
-from sim.state import SimState, step
+from sim.state import SimState
+from sim.transition import step
 from sim.types import Kind, Outcome
 from sim.world import Cause, World, notation
 from sim.world.notation import NotationError

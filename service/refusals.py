@@ -1,0 +1,97 @@
+"""Refusals in words: a sentence for each code of `sim.codes`, and for what the service itself refuses.
+
+The sentences are data (`prompts/sayings/<language>/refusals.yaml`). Requests that name no language, and
+languages without this file, get English.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import lru_cache
+from typing import Any, Literal
+
+import yaml
+
+from service.resources import DEFAULT_LANGUAGE, prompts_folder
+from sim.config import Problem
+from sim.hazard_advice import NoAdviceError
+from sim.rules.versions import NewerRulesError
+from sim.session.errors import EditError
+
+
+@lru_cache(maxsize=16)
+def refusals(language: str = DEFAULT_LANGUAGE) -> Refusals:
+    """The refusals of a language, read once."""
+    folder = prompts_folder() / "sayings"
+    path = folder / language / "refusals.yaml"
+    if language not in {each.name for each in folder.iterdir()} or not path.is_file():
+        path = folder / DEFAULT_LANGUAGE / "refusals.yaml"
+    return Refusals(yaml.safe_load(path.read_text(encoding="utf-8")))
+
+
+class Refusals:
+    """What is said in one language when something cannot be done."""
+
+    def __init__(self, data: Mapping[str, Any]) -> None:
+        """`data`: what `refusals.yaml` holds."""
+        self._data = data
+
+    def edit(self, error: EditError) -> str:
+        """Why a change of the road cannot be made, as a sentence."""
+        return self._say("edits", error.code, error.facts)
+
+    def problem(self, problem: Problem) -> str:
+        """What is wrong with a field, to follow its name; a sentence for what is not available."""
+        return self._say("problems", problem.code, problem.facts)
+
+    def advice(self, error: NoAdviceError) -> str:
+        """Why there is no advice, as a sentence."""
+        return self._say("advice", error.code, error.facts)
+
+    def newer_rules(self, error: NewerRulesError, what: Literal["recording", "session"]) -> str:
+        """That something was made by a newer version, as a sentence."""
+        return self._say("rules", f"newer_{what}", {"rules": error.rules, "known": error.known})
+
+    def older_rules(self, rules: int) -> str:
+        """That something was made under older rules."""
+        return self._say("rules", "older", {"rules": rules})
+
+    def session(self, code: str, **facts: object) -> str:
+        """What a session cannot do, as a sentence."""
+        return self._say("session", code, facts)
+
+    def pace(self, code: str, facts: Mapping[str, object]) -> str:
+        """Why the clock cannot be set so, as a sentence."""
+        return self._say("pace", code, facts)
+
+    def _say(self, section: str, code: str, facts: Mapping[str, Any]) -> str:
+        return str(self._data[section][code]).format(**self._slots(facts))
+
+    def _slots(self, facts: Mapping[str, Any]) -> dict[str, Any]:
+        """The facts as they are said, and the forms that depend on them."""
+        slots: dict[str, Any] = {name: self._told(name, value) for name, value in facts.items()}
+        if "kind" in facts:
+            slots["things"] = slots["kind"]["one" if facts.get("count") == 1 else "many"]
+        for name, form in self._data["forms"].items():
+            if form["of"] in facts:
+                slots[name] = _form(form, facts[form["of"]]).format(**slots)
+        return slots
+
+    def _told(self, name: str, value: object) -> object:
+        if isinstance(value, Problem):
+            return self.problem(value)
+        if name == "kind":
+            return self._data["things"][value]
+        if isinstance(value, tuple):
+            return ", ".join(map(str, value))
+        if name in ("low", "high") and isinstance(value, float) and value.is_integer():
+            return int(value)
+        return value
+
+
+def _form(form: Mapping[str, str], value: object) -> str:
+    """The words for a value: its own, or those for one or many, or those for any other."""
+    said = form.get(str(value))
+    if said is None and isinstance(value, int):
+        said = form.get("one" if value == 1 else "many")
+    return form["other"] if said is None else said

@@ -1,0 +1,96 @@
+"""Sentences for people stand in `prompts`: the simulator has codes and facts."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+SIM = Path(__file__).parents[2] / "sim"
+WORDS = 4
+"""A literal of so many words, or of two that end like a sentence, is taken to be one."""
+FOR_DEVELOPERS = {
+    "AssertionError",
+    "ConnectionError",
+    "IndexError",
+    "KeyError",
+    "NotationError",
+    "RuntimeError",
+    "SilentError",
+    "TypeError",
+    "ValueError",
+}
+"""Errors that a person who writes code reads."""
+ELSEWHERE = {
+    "env/actions.py": "parts of errors for who writes code",
+    "env/observation.py": "parts of errors for who writes code",
+    "env/options.py": "parts of errors for who writes code",
+    "env/saved_state.py": "parts of errors for who writes code",
+    "fast_replace.py": "source code that is made",
+    "hazard_advice/parameters.py": "what each figure is and where it is from",
+    "plan/conformance.py": "a tool for who writes planners",
+    "plan/safe_planning.py": "what a planner of another package did",
+    "plan/sandbox/answer.py": "what a planner of another package did",
+    "plan/sandbox/client.py": "what a planner of another package did",
+    "plan/sandbox/worker.py": "what a planner of another package did, and the program's log",
+    "planner_names.py": "why the planner of a package is not used, for who wrote it",
+    "render/log_view.py": "drawn in a picture",
+    "render/hud.py": "drawn in a picture",
+    "render/plan_view.py": "drawn in a picture",
+    "render/video.py": "an error for who installs it",
+    "world/notation.py": "patterns of the notation",
+}
+"""Where literals of that length stand, and what they are."""
+
+
+def sentences(source: str) -> Iterator[tuple[int, str]]:
+    """The literals of a module that read like sentences, outside docstrings and errors for developers."""
+    tree = ast.parse(source)
+    skipped: set[ast.AST] = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
+            skipped.add(node.value)
+        if isinstance(node, ast.Raise) and _for_developers(node.exc):
+            skipped.update(ast.walk(node))
+        if isinstance(node, ast.JoinedStr) and node not in skipped:
+            skipped.update(node.values)
+            text = "".join(part.value if isinstance(part, ast.Constant) else "x" for part in node.values)  # type: ignore[misc]
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str) and node not in skipped:
+            text = node.value
+        else:
+            continue
+        words = text.split()
+        if len(words) >= WORDS or (len(words) > 1 and text.rstrip().endswith((".", "!", "?"))):
+            yield node.lineno, text
+
+
+def _for_developers(raised: ast.expr | None) -> bool:
+    return isinstance(raised, ast.Call) and ast.unparse(raised.func).rpartition(".")[2] in FOR_DEVELOPERS
+
+
+MODULES = sorted(path.relative_to(SIM).as_posix() for path in SIM.rglob("*.py"))
+
+
+@pytest.mark.parametrize("module", [module for module in MODULES if module not in ELSEWHERE])
+def test_no_sentence_stands_in_the_simulator(module: str) -> None:
+    assert list(sentences((SIM / module).read_text())) == []
+
+
+@pytest.mark.parametrize("module", ELSEWHERE)
+def test_the_exceptions_are_still_there(module: str) -> None:
+    assert list(sentences((SIM / module).read_text()))
+
+
+def test_what_is_taken_for_a_sentence() -> None:
+    def found(source: str) -> list[str]:
+        return [text for _, text in sentences(source)]
+
+    assert found('"""A module of many words."""\nX = "tick"\nY = "a few words"') == []
+    assert found('raise ValueError(f"{x} is not a lane of it")') == []
+    assert found('raise EditError(f"There is no lane {lane} here.", "where")') == [
+        "There is no lane x here.",
+    ]
+    assert found('X = "Not so."') == ["Not so."]
+    assert found('def f(x):\n    return f"{x} of the {x}"') == ["x of the x"]
