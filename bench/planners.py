@@ -1,7 +1,9 @@
 """What `rules` achieves beside `priority`, through the live engine, with 95 % intervals (Wilson).
 
 python -m bench planners
-python -m bench.planners --seeds 20000 --side 1000 --processes 2
+python -m bench.planners --seeds 20000 --side 500 --processes 2 --write
+
+`--write` replaces the table of PLANNERS.md.
 """
 
 from __future__ import annotations
@@ -14,6 +16,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import partial
 from multiprocessing import Pool
+from pathlib import Path
 from typing import Any
 
 from sim.config import Config
@@ -123,14 +126,20 @@ def rows(seeds: int, side: int) -> Iterator[tuple[str, dict[str, Any], int]]:
             yield name, {"potholes": 20, **parts}, side
 
 
-def main(seeds: int = 2_000, side: int = 500, processes: int = 1) -> None:
-    """Print the table."""
+def main(seeds: int = 2_000, side: int = 500, processes: int = 1, write: bool = False) -> None:
+    """Print the table; `write` also puts it into PLANNERS.md."""
     began = time.perf_counter()
-    print(
+    lines: list[str] = []
+
+    def add(line: str) -> None:
+        lines.append(line)
+        print(line, flush=True)
+
+    add(
         "| road | planner | drivable roads | arrives | crashes | stuck | ticks when it arrives (fewest) "
         f"| {IN_A_ROW} sideways in a row | forward / sideways / diagonal / stays |"
     )
-    print("| --- | --- | --- | --- | --- | --- | --- | --- | --- |")
+    add("| --- | --- | --- | --- | --- | --- | --- | --- | --- |")
     with Pool(processes) as pool:
         for name, parts, count in rows(seeds, side):
             groups = [range(first, min(first + GROUP, count)) for first in range(0, count, GROUP)]
@@ -141,8 +150,12 @@ def main(seeds: int = 2_000, side: int = 500, processes: int = 1) -> None:
                 for planner, tally in part.items():
                     sums[planner].add(tally)
             for planner, tally in sums.items():
-                print(tally.row(name, planner), flush=True)
+                add(tally.row(name, planner))
     print(f"\n{seeds} seeds, {side} of side rows, in {time.perf_counter() - began:.0f} s", file=sys.stderr)
+    if write:
+        page = Path(__file__).with_name("PLANNERS.md")
+        head = page.read_text(encoding="utf-8").partition("<!-- table -->")[0]
+        page.write_text("\n".join([f"{head}<!-- table -->\n", *lines, ""]), encoding="utf-8")
 
 
 def _share(hits: int, tries: int) -> str:
@@ -158,4 +171,5 @@ if __name__ == "__main__":
     parser.add_argument("--seeds", type=int, default=2_000, help="seeds of the default road")
     parser.add_argument("--side", type=int, default=500, help="seeds of the side rows; twice that by density")
     parser.add_argument("--processes", type=int, default=1, help="processes to share the work")
+    parser.add_argument("--write", action="store_true", help="replace the table of PLANNERS.md")
     main(**vars(parser.parse_args()))

@@ -66,7 +66,7 @@ from service.talk.languages import Language, Languages
 from service.talk.listener import Listener
 from service.talk.phrasebook import Phrasebook
 from service.version import VERSION
-from sim.plan.sandbox.client import not_in_this_thread
+from sim.plan.sandbox.client import without_waiting
 
 _DESCRIPTION = """
 A vehicle that drives itself along a road of obstacles and potholes, live; changed and questioned in
@@ -131,7 +131,7 @@ def create_app(
         clock.start()
         sleeper = asyncio.create_task(manager.sleeper().run())
         try:
-            with not_in_this_thread():
+            with without_waiting():
                 yield
         finally:
             sleeper.cancel()

@@ -23,7 +23,7 @@ from sim.rules.limits import max_ticks
 from sim.rules.versions import RULES
 from sim.types import HAZARDS, KINDS, MOVERS, PLACEABLE, Kind
 from sim.world.grid import Road
-from sim.world.layouts import has_barriers, least_room
+from sim.world.layouts import has_barriers, min_free_cells
 
 
 class Problem:
@@ -282,7 +282,7 @@ class Config(Derived):
     def _room_problems(self) -> list[Problem]:
         if has_barriers(self.layout) and self.barriers:
             return [Problem("barriers", "must_not_be_counted", layout=self.layout)]
-        room = least_room(self.layout, self.columns, self.rows)
+        room = min_free_cells(self.layout, self.columns, self.rows)
         counts = {
             COUNTS[kind]: getattr(self, COUNTS[kind]) or 0
             for kind in (*MOVERS, *reversed(HAZARDS))

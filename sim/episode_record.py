@@ -1,8 +1,8 @@
-"""What an episode has come to so far: its beginning, every move, and for whose sake each detour was made.
+"""The record of an episode so far: its first world, every move, and the reason of each detour.
 
-Kept along with the run, so that an end can be summed up without driving the episode again, and so that
-undoing, forking and replaying need no care. Whose sake is read off the worlds before and after, not off
-a planner's own account: it is whoever would have been met straight ahead.
+The record is part of the state, so the end of an episode is summarized without running it again, and undo,
+fork and replay keep it right. The reason of a detour is the thing that the ego would have met straight ahead.
+It is read from the worlds before and after the move, not from what the planner says.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ class DetourReason(StrEnum):
     """Why the ego did not go straight on, where no thing stood there."""
 
     YOU = "you"
-    """a person asked for it, or drives and asked for nothing"""
+    """a person asked for the move, or drives by hand and asked for none"""
     PLANNER = "planner"
-    """the planner did not answer, and the vehicle stayed"""
+    """the planner gave no valid answer, and the ego stayed"""
     BETTER = "better"
-    """straight on was free, and the planner held something else to be better"""
+    """straight on was free, and the planner preferred another move"""
 
 
 Sake = Kind | DetourReason
@@ -36,26 +36,26 @@ _REASONS: Final = frozenset(DetourReason)
 
 @dataclass(frozen=True, slots=True)
 class EpisodeRecord:
-    """An episode so far. A value, never changed."""
+    """The record of an episode so far (immutable)."""
 
     start: World | None = None
-    """the world in which the first move was made; None before that"""
+    """the world in which the first move was made; None before it"""
     edits: int = 0
-    """changes the session had seen when the course was last in step with the road"""
+    """number of edits of the session at the latest move"""
     changed: bool = False
-    """whether a person changed the road meanwhile"""
+    """whether the road was edited after the first move"""
     certain: bool = True
-    """whether nothing was left to who gives way"""
+    """whether no random draw decided who gives way"""
     moves: str = ""
-    """every move, as its place in `Move`"""
+    """every move, as the digit of its place in `Move`"""
     sakes: tuple[tuple[Sake, int], ...] = ()
-    """how many detours were made for whose sake, in the order they first came"""
+    """number of detours per reason, in the order of their first occurrence"""
     last: World | None = None
     """the world before the move that ended the episode"""
 
     @property
     def detours(self) -> int:
-        """Moves that were not straight on."""
+        """The number of moves that were not straight on."""
         return sum(count for _, count in self.sakes)
 
     def after(
@@ -70,12 +70,15 @@ class EpisodeRecord:
         ended: bool,
         number: int = 0,
     ) -> EpisodeRecord:
-        """With one more move made by ego `number`. To stay after it has arrived is no detour."""
+        """Returns the record with one more move of ego `number`, which leads from `before` to `after`.
+
+        To stay after it has arrived is no detour.
+        """
         sakes = self.sakes
         if move is not Move.FORWARD and (len(before.avs) == 1 or before.avs[number] >= before.road.columns):
-            reason, _ = sake(before, after, by_person=by_person, faulty=faulty, number=number)
-            sakes = _counted(sakes, reason)
-        return _gone_on(
+            reason, _ = detour_reason(before, after, by_person=by_person, faulty=faulty, number=number)
+            sakes = _count_reason(sakes, reason)
+        return _extend(
             before if self.start is None else self.start,
             edits,
             self.changed or (self.start is not None and edits != self.edits),
@@ -85,23 +88,23 @@ class EpisodeRecord:
             before if ended else None,
         )
 
-    def made(self) -> tuple[Move, ...]:
-        """Every move, in order."""
+    def move_list(self) -> tuple[Move, ...]:
+        """Lists every move, in order."""
         return tuple(MOVES[int(sign)] for sign in self.moves)
 
 
-_gone_on = fast_constructor(EpisodeRecord, "start", "edits", "changed", "certain", "moves", "sakes", "last")
+_extend = fast_constructor(EpisodeRecord, "start", "edits", "changed", "certain", "moves", "sakes", "last")
 
 
 def sake_of(word: str) -> Sake:
-    """The sake that was written as this word. Raises `ValueError`."""
+    """Returns the reason that is written as this word. Raises `ValueError`."""
     return DetourReason(word) if word in _REASONS else Kind(word)
 
 
-def sake(
+def detour_reason(
     before: World, after: World, *, by_person: bool, faulty: bool, number: int = 0
 ) -> tuple[Sake, tuple[str, ...]]:
-    """For whose sake a move of ego `number` was not straight on, and who would have been met there."""
+    """Returns why a move of ego `number` was not straight on, and the ids of what it would have met there."""
     if by_person or faulty:
         return (DetourReason.YOU if by_person else DetourReason.PLANNER), ()
     ahead = before.avs[number] - before.road.columns
@@ -109,7 +112,7 @@ def sake(
     return (kind_of(met[0]), met) if met else (DetourReason.BETTER, ())
 
 
-def _counted(sakes: tuple[tuple[Sake, int], ...], one: Sake) -> tuple[tuple[Sake, int], ...]:
+def _count_reason(sakes: tuple[tuple[Sake, int], ...], one: Sake) -> tuple[tuple[Sake, int], ...]:
     for place, (other, count) in enumerate(sakes):
         if other is one:
             return (*sakes[:place], (one, count + 1), *sakes[place + 1 :])

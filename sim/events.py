@@ -1,4 +1,4 @@
-"""What happened, in data: for the log, the stream, the metrics and the store alike. No words."""
+"""Events of a tick, as data without sentences: for log, stream, metrics and store."""
 
 from __future__ import annotations
 
@@ -9,29 +9,29 @@ from sim.types import Cell, Move
 
 
 class EventType(StrEnum):
-    """What kind of thing happened."""
+    """The type of an event."""
 
     EPISODE_STARTED = "episode_started"
     ROAD_KEPT = "road_kept"
-    """no next road that can be driven was found, so the present one begins again"""
+    """no drivable next road was found, so the present one begins again"""
     ARRIVED = "arrived"
     CRASHED = "crashed"
     STUCK = "stuck"
     HELD_BACK = "held_back"
-    """a person's move was not taken because its cell would not be free"""
+    """a person's move was not made because its cell would not be free"""
     PLANNER_FAILED = "planner_failed"
-    """the planner did something else than answer, and the vehicle stays"""
+    """the planner gave no valid answer, and the ego stays"""
     NO_WAY = "no_way"
-    """it is proved that no way leads to the goal in time; `ids` are things without which there is one"""
+    """proof that no way leads to the goal in time; without the things in `ids` there is one"""
     WAY_OPEN = "way_open"
-    """a change has opened a road without a way"""
+    """an edit has opened a way on a road that had none"""
     DISABLED = "disabled"
-    """a pothole was put under a mover, which stays in it"""
+    """a pothole was placed under a mover, which cannot leave it"""
 
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """Something worth a line in the log, at the tick of the world in which it is so."""
+    """An event; `tick` is that of the first world in which it is visible."""
 
     tick: int
     type: EventType
@@ -40,8 +40,7 @@ class Event:
     cell: Cell | None = None
     move: Move | None = None
     how: str | None = None
-    """for a crash `hit`, `swap` or `cross`, for a move held back what it would have met (`Verdict`),
-    for a planner that failed what it did, for STUCK `limit` or `repetition`, for NO_WAY `late` where too few
-    ticks are left"""
+    """CRASHED: `hit`, `swap` or `cross`; HELD_BACK: what blocks the move (`StepVerdict`); PLANNER_FAILED: the
+    fault; STUCK: `limit` or `repetition`; NO_WAY: `late` if too few ticks are left"""
     ego: str = "av-1"
-    """the ego that it happened to; the first where it concerns all of them"""
+    """the ego it happened to; the first ego if it concerns all of them"""

@@ -1,12 +1,12 @@
-"""A road from a configuration, a seed and the number of an episode.
+"""Generates a road from a configuration (with its seed) and the number of an episode.
 
-Every kind draws from a stream of its own, so that asking for another number of potholes leaves
-the cars where they were. An exact number takes the free cells of lowest random rank: one more
-adds one and moves none. Where roads must be drivable, the same is drawn again, from streams numbered
-by the attempt, until one is; a road of a layout must always be.
+Every kind draws from its own random stream, so another number of potholes leaves the cars where they were. An
+exact number takes the free cells of lowest random rank: one more adds a thing and moves none. Where roads
+must be drivable, the road is drawn again, from streams numbered by the attempt, until one is drivable; roads
+with a layout always must be.
 
-With a layout (`sim.world.layouts`) its barriers come first. What is drawn beside them keeps to the cells
-that the layout names; an exact number takes the others last.
+The barriers of a layout (`sim.world.layouts`) come first. Other things prefer the cells that the layout
+names; an exact number uses the remaining cells last.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ from sim.types import HAZARDS, KINDS, MOVERS, Kind
 from sim.world import World
 from sim.world.boards import BOARDED, Boards
 from sim.world.grid import Board, Road, bits, board_of, cells_of, union
-from sim.world.layouts import crossing, lay_out
+from sim.world.layouts import crossing_vehicles, lay_out
 
 MAX_ATTEMPTS = 200
-"""Draws until it is given up that a road be drivable."""
+"""Most draws for a drivable road."""
 
 IN_ORDER = (*MOVERS, *reversed(HAZARDS))
 """The order in which a road is furnished: each kind takes cells that those before it have left."""
@@ -33,7 +33,7 @@ _PRESENCE, _COLUMN = 0, 1
 
 
 class GenerationError(ConfigError):
-    """No road that can be driven was found among `MAX_ATTEMPTS` draws."""
+    """No drivable road was found in `MAX_ATTEMPTS` draws."""
 
     def __init__(self) -> None:
         super().__init__((Problem("solvable", "no_drivable_road", draws=MAX_ATTEMPTS),))
@@ -42,27 +42,27 @@ class GenerationError(ConfigError):
 def generate(
     config: Config, episode: int, *, tick: int = 0, numbered: Mapping[Kind, int] | None = None
 ) -> World:
-    """The world in which an episode begins, at `tick`; ids go on from `numbered`.
+    """Generates the first world of an episode, at `tick`; ids continue after `numbered`.
 
-    Raises `GenerationError` where the road must be drivable and none is found.
+    Raises `GenerationError` if the road must be drivable and no such road is found.
     """
     if not (config.solvable or config.layout):
-        return _drawn(config, episode, (), tick, numbered)
+        return _draw_road(config, episode, (), tick, numbered)
     for attempt in range(MAX_ATTEMPTS):
-        world = _drawn(config, episode, (attempt,) if attempt else (), tick, numbered)
+        world = _draw_road(config, episode, (attempt,) if attempt else (), tick, numbered)
         if drivable(world, config):
             return world
     raise GenerationError
 
 
 def drivable(world: World, config: Config) -> bool:
-    """Whether row 0 can be reached in time, assuming that nobody gives way after the first tick."""
+    """Whether row 0 can be reached in time if no mover gives way after the first tick."""
     limit = steps_left(config, world.episode_tick)
     forecast = Forecast.of_truth(world, config, limit)
     return reachability(forecast, 1 << world.av, limit).ticks is not None
 
 
-def _drawn(
+def _draw_road(
     config: Config, episode: int, attempt: tuple[int, ...], tick: int, numbered: Mapping[Kind, int] | None
 ) -> World:
     road = config.geometry
@@ -81,12 +81,12 @@ def _drawn(
         free = road.between & ~taken
         best = free & first
         if count is not None:
-            chosen = _exactly(best, count, stream)
-            chosen |= _exactly(free & ~first, count - chosen.bit_count(), stream)
+            chosen = _exact_number(best, count, stream)
+            chosen |= _exact_number(free & ~first, count - chosen.bit_count(), stream)
         elif kind is Kind.VEHICLE and config.layout == "crossing":
-            chosen = _several_a_row(road, best, probability, stream)
+            chosen = _several_per_row(road, best, probability, stream)
         else:
-            chosen = _one_a_row(road, best, probability, stream)
+            chosen = _one_per_row(road, best, probability, stream)
         taken |= chosen
         return chosen
 
@@ -120,7 +120,7 @@ def _ids(kinds: Iterable[Kind], placed: Mapping[Kind, Board], last: dict[Kind, i
 
 
 def assign_ids(kind: Kind, cells: Iterable[int], last: dict[Kind, int]) -> dict[int, str]:
-    """New ids for these cells; `last` remembers the highest number given."""
+    """Gives new ids to these cells and updates `last`, the highest number of each kind."""
     table = {}
     for cell in cells:
         last[kind] = last.get(kind, 0) + 1
@@ -129,35 +129,38 @@ def assign_ids(kind: Kind, cells: Iterable[int], last: dict[Kind, int]) -> dict[
 
 
 def lowest_ranked(free: Board, count: int, stream: Stream) -> list[int]:
-    """`count` cells of a board, at random: those of lowest rank in the stream."""
+    """Draws `count` cells of a board: those of lowest rank in the stream."""
     if not count:
-        return []  # as on most roads: nobody has to be ranked for that
+        return []  # most roads: skips the ranking
     ranks = stream.words(free.bit_length())
     return sorted(cells_of(free), key=ranks.__getitem__)[:count]
 
 
-def _exactly(free: Board, count: int, stream: Stream) -> Board:
+def _exact_number(free: Board, count: int, stream: Stream) -> Board:
     return board_of(lowest_ranked(free, count, stream))
 
 
-def _several_a_row(road: Road, free_cells: Board, probability: float, stream: Stream) -> Board:
-    """Several things in each row that has free cells, in those of lowest random rank."""
+def _several_per_row(road: Road, free_cells: Board, probability: float, stream: Stream) -> Board:
+    """Draws several cells in each row that has free cells: those of lowest random rank."""
     board, columns = 0, road.columns
     for row in range(1, road.rows - 1):
         start = row * columns
         free = free_cells >> start & (1 << columns) - 1
         if free:
             draws = stream.narrow(row)
-            board |= _exactly(free, crossing(columns, probability, draws), draws.narrow(_COLUMN)) << start
+            board |= (
+                _exact_number(free, crossing_vehicles(columns, probability, draws), draws.narrow(_COLUMN))
+                << start
+            )
     return board
 
 
-def _one_a_row(road: Road, free: Board, probability: float, stream: Stream) -> Board:
-    """One thing in each row with that probability, in a free cell of the row."""
+def _one_per_row(road: Road, free: Board, probability: float, stream: Stream) -> Board:
+    """Draws a free cell in each row with that probability."""
     board, columns = 0, road.columns
     whole = (1 << columns) - 1
     for row in range(1, road.rows - 1):
-        # The row's own stream (`narrow`), by its key alone: there are many rows in a tick that begins a road.
+        # The row's own stream (`narrow`), by its key alone, since a new road has many rows.
         key = word_at(stream.key, row)
         if fraction(word_at(key, _PRESENCE)) < probability:
             start = row * columns

@@ -1,4 +1,4 @@
-"""Counts over a session's episodes."""
+"""Metrics: counts over the episodes of a session."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _DIAGONAL = frozenset((Move.FORWARD_LEFT, Move.FORWARD_RIGHT))
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Metrics:
-    """What a session's vehicle has done so far; an episode counts once it has ended."""
+    """Counts of outcomes and moves so far; an episode counts when it has ended."""
 
     successes: int = 0
     crashes: int = 0
@@ -25,25 +25,25 @@ class Metrics:
     distance_m: float = 0.0
     """length of the path driven, from cell centre to cell centre"""
     last_episode_ticks: int | None = None
-    """ticks the latest episode that ended took"""
+    """length in ticks of the latest episode that has ended"""
 
     @property
     def episodes(self) -> int:
-        """Episodes that have ended."""
+        """The number of episodes that have ended."""
         return self.successes + self.crashes + self.stuck
 
     @property
     def steps(self) -> int:
-        """Decisions taken."""
+        """The number of decisions taken."""
         return self.forward + self.lateral + self.diagonal + self.stay
 
     @property
     def success_rate(self) -> float | None:
-        """Successes per ended episode; None before the first has ended."""
+        """Successes per ended episode; None before the first end."""
         return self.successes / self.episodes if self.episodes else None
 
     def after_move(self, move: Move, cell_m: float) -> Metrics:
-        """With one more decision taken."""
+        """Returns the metrics with one more move counted."""
         if move is Move.FORWARD:
             return _forward(self, self.forward + 1, self.distance_m + cell_m)
         if move in _LATERAL:
@@ -53,7 +53,7 @@ class Metrics:
         return _stay(self, self.stay + 1)
 
     def after_end(self, outcome: Outcome, ticks: int) -> Metrics:
-        """With one more episode ended."""
+        """Returns the metrics with one more ended episode, which lasted `ticks`."""
         return replace(
             self,
             successes=self.successes + (outcome is Outcome.SUCCESS),

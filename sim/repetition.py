@@ -1,10 +1,9 @@
-"""Notices that a vehicle is in a cycle: a situation repeats, and so everything after it repeats as well.
+"""Detects cycles: once a situation repeats, everything after it repeats as well.
 
-This holds where the future is certain and the planner decides from what the vehicle's own row and the one
-ahead hold, besides what never moves (`local` in `sim.plan.protocol.Traits`). Movers keep to their rows and
-the vehicle never goes back, so while it stays in its row nothing else has a part in what happens. A situation
-is compared with one kept from before, which is renewed after 1, 2, 4, ... ticks, so that a cycle is found
-within three times its length.
+This holds where the future is certain and the planner decides from the ego's row, the row ahead and things
+that never move (`local` in `sim.plan.protocol.Traits`). Movers keep to their rows and the ego never moves
+backwards, so nothing else matters while the ego stays in its row. Each situation is compared with a stored
+one, which is renewed after 1, 2, 4, ... ticks, so a cycle is detected within three times its length.
 Source: Brent, "An improved Monte Carlo factorization algorithm" (BIT, 1980), section 2.
 """
 
@@ -19,7 +18,7 @@ from sim.world.grid import Board
 
 
 class Situation(NamedTuple):
-    """What decides how it goes on: the boards hold the vehicle's row and the one ahead."""
+    """Everything that decides the future of a cycle: the boards hold the ego's row and the row ahead."""
 
     cell: int
     beat: int
@@ -31,11 +30,11 @@ class Situation(NamedTuple):
 
 
 class Watch(NamedTuple):
-    """A situation kept from before, and when it is renewed."""
+    """A stored situation, and when it is renewed."""
 
     kept: Situation | None = None
     ticks: int = 0
-    """since it was kept"""
+    """ticks since it was stored"""
     span: int = 1
     """ticks after which it is renewed"""
 
@@ -45,7 +44,7 @@ _NONE_MARKED = (0,) * len(MARKED)
 
 
 def situation(world: World) -> Situation:
-    """The situation of the first vehicle."""
+    """Returns the situation of the first ego."""
     columns, cell = world.road.columns, world.avs[0]
     first = max(0, cell // columns - 1) * columns
     rows = (1 << 2 * columns) - 1
@@ -60,7 +59,7 @@ def situation(world: World) -> Situation:
 
 
 def update_watch(watch: Watch, world: World) -> Watch | None:
-    """The watch with one more tick seen, at the end of which the world is this one; None if it repeats."""
+    """Returns the watch after a tick that ended in `world`; None if its situation is a repetition."""
     kept, ticks, span = watch
     now = situation(world)
     if kept is None:

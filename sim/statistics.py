@@ -1,4 +1,4 @@
-"""Confidence intervals of what was counted or measured."""
+"""Confidence intervals of shares and means."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Z: Final = 1.959964
 
 
 def wilson(hits: int, tries: int) -> tuple[float, float]:
-    """The 95 % interval of a share that held `hits` times in `tries` (at least one).
+    """Computes the 95 % confidence interval of the share `hits` / `tries`; `tries` is at least 1.
 
     Source: Wilson, "Probable inference, the law of succession, and statistical inference", Journal of the
     American Statistical Association, 1927.
@@ -24,6 +24,6 @@ def wilson(hits: int, tries: int) -> tuple[float, float]:
 
 
 def mean(values: Sequence[float]) -> tuple[float, float]:
-    """A mean and half its 95 % interval (normal); the half is 0 for fewer than two values."""
+    """Computes a mean and half its 95 % interval (normal); the half is 0 for fewer than two values."""
     half = Z * stdev(values) / sqrt(len(values)) if len(values) > 1 else 0.0
     return fmean(values), half

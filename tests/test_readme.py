@@ -56,7 +56,7 @@ def test_every_command_named_is_a_target_of_make() -> None:
 
 def readmes() -> list[Path]:
     """Every README of the project, and none of what was set up beside it."""
-    folders = ("", "bench", "prompts", "service", "sim", "web")
+    folders = ("", "bench", "docs", "prompts", "service", "sim", "web")
     found = {path for folder in folders[1:] for path in (ROOT / folder).rglob("README.md")}
     return [ROOT / "README.md", *sorted(found)]
 
@@ -72,7 +72,13 @@ def headings(path: Path) -> set[str]:
     return {re.sub(r"[^\w -]", "", heading).strip().lower().replace(" ", "-") for heading in found}
 
 
-@pytest.mark.parametrize("path", readmes(), ids=named)
+def pages() -> list[Path]:
+    """Every README, the rules, the measurements and everything in docs."""
+    more = (*(ROOT / "docs").rglob("*.md"), *(ROOT / "bench").glob("*.md"), ROOT / "sim" / "RULES.md")
+    return sorted({*readmes(), *more})
+
+
+@pytest.mark.parametrize("path", pages(), ids=named)
 def test_every_link_leads_to_a_file_and_its_heading(path: Path) -> None:
     for link in re.findall(r"\]\(([^):]+)\)", path.read_text(encoding="utf-8")):
         file, _, heading = link.partition("#")
@@ -81,13 +87,18 @@ def test_every_link_leads_to_a_file_and_its_heading(path: Path) -> None:
         assert not heading or heading in headings(target), link
 
 
+def tables_of_files(text: str) -> str:
+    """The rows of the first table, and of every later one headed `file` or `folder`."""
+    tables = re.findall(r"(?:^\|.*\n)+", text, re.MULTILINE)
+    return "".join(tables[:1] + [table for table in tables[1:] if re.match(r"\| (file|folder) \|", table)])
+
+
 @pytest.mark.parametrize("name", ["service", "service/language", "service/llm", "sim", "bench"])
 def test_every_file_in_a_table_of_files_is_there(name: str) -> None:
     """The first column names files and folders; after `sessions/draft`, `history` is in `sessions`, too."""
     text = (ROOT / name / "README.md").read_text(encoding="utf-8")
-    table = text[text.index("\n| ") :].split("\n\n")[0]
     missing = []
-    for row in re.findall(r"^\| (`[^|]*`) \|", table, re.MULTILINE):
+    for row in re.findall(r"^\| (`[^|]*`) \|", tables_of_files(text), re.MULTILINE):
         folder = ROOT / name
         for file in re.findall(r"`([^`]+)`", row):
             if "/" in file.rstrip("/"):
@@ -96,6 +107,19 @@ def test_every_file_in_a_table_of_files_is_there(name: str) -> None:
             if not (place.is_dir() or place.with_suffix(".py").is_file()):
                 missing.append(file)
     assert missing == []
+
+
+def test_the_index_of_decisions_names_each_once_in_order() -> None:
+    folder = ROOT / "docs" / "decisions"
+    index = re.findall(
+        r"^\| \[(\d{4})\]\((.*?)\) \| (.*) \| (\S+) \|$",
+        (folder / "README.md").read_text("utf-8"),
+        re.MULTILINE,
+    )
+    assert [file for _, file, _, _ in index] == sorted(path.name for path in folder.glob("[0-9]*.md"))
+    assert [int(number) for number, _, _, _ in index] == list(range(1, len(index) + 1))
+    for number, file, title, date in index:
+        assert (folder / file).read_text("utf-8").startswith(f"# {number}. {title}\n\nDate: {date}\n"), file
 
 
 def test_every_module_of_the_page_that_is_named_is_there() -> None:

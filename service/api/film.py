@@ -20,7 +20,7 @@ from service.api.errors import documented, invalid
 from service.api.frames import View
 from service.api.respond import StrictRoute, etag
 from service.problems import FieldProblem, Invalid, NotAvailable, NotRestorable, ProblemError, UnknownSession
-from sim.render.video import FPS, VideoMissingError, frames_in, has_video, render_video
+from sim.render.video import FPS, VideoMissingError, frame_count, has_video, render_video
 from sim.state import SimState
 
 router = APIRouter(tags=["watching"], route_class=StrictRoute)
@@ -97,7 +97,7 @@ async def moving(
         _check_frames(runs, form, fps, side, most)
         try:
             return render_video(
-                view, runs, form, fps=fps, size=(side, side), turn=turn, decided=timeline.decided
+                view, runs, form, fps=fps, size=(side, side), turn=turn, decision_of=timeline.decided
             )
         except _GoneError:
             return None
@@ -155,7 +155,7 @@ def _check(now: int, start: int, end: int, form: Format, fps: int, most: int) ->
 def _check_frames(runs: list[SimState], form: Format, fps: int, side: int, most: int) -> None:
     if form == "gif":
         most = min(most, GIF_PIXELS // side**2)
-    frames = frames_in(runs, fps)
+    frames = frame_count(runs, fps)
     if frames > most:
         message = (
             f"makes {frames} frames; at most {most} are made at this size: ask for fewer, or fewer ticks"

@@ -10,7 +10,7 @@ import typer
 
 from service.commands.terminal import plain
 from sim import planner_names
-from sim.plan.conformance import MAX_TOLD, Defect, Report, check, check_apart, claimed, found
+from sim.plan.conformance import MAX_TOLD, Defect, Report, check, check_apart, find_planner, name_conflicts
 
 DEFECTS, UNTRIED = 1, 2
 """Exit statuses."""
@@ -31,8 +31,8 @@ def check_planner(
 
     Example: roadtalk check-planner astar
     """
-    wrong = claimed(name)
-    planner = found(name)
+    wrong = name_conflicts(name)
+    planner = find_planner(name)
     if planner is None and name not in planner_names.installed():
         _tell(wrong)
         if not wrong:

@@ -256,7 +256,7 @@ class Draft:
             raise unknown(name, self.history.saved, f"actions.{position}.name")
         before, log = self.timeline.state, self.timeline.entries
         self.timeline = moment.timeline.copy()
-        return self._went(before, log.alike(self.timeline.entries), name)
+        return self._went(before, log.common_prefix_length(self.timeline.entries), name)
 
     def _went(self, before: SimState, kept: int, name: str | None = None) -> Went:
         self._open.kept = min(self._open.kept, kept)

@@ -16,7 +16,7 @@ from anyio import to_thread
 
 from service.actions import Action
 from sim.plan.safe_planning import is_foreign
-from sim.plan.sandbox.client import within
+from sim.plan.sandbox.client import time_limit
 from sim.planner_names import installed
 from sim.session.timeline import Timeline
 
@@ -45,7 +45,7 @@ def patiently(seconds: float, work: Callable[[], Result]) -> Callable[[], Result
     """The work, with foreign planners waited for so long in all."""
 
     def done() -> Result:
-        with within(seconds):
+        with time_limit(seconds):
             return work()
 
     return done

@@ -12,7 +12,7 @@ from service.window.exchange import Exchange, told
 from service.window.line import Line
 from service.window.panels import PANELS, TITLES, Panels
 from sim.render import theme
-from sim.render.text import cut, width_of, wrapped, written
+from sim.render.text import render_text, text_width, truncate, wrap_text
 
 FIELD_PX: Final = 38
 BAR_PX: Final = 24
@@ -119,20 +119,20 @@ def _draw_field(picture: pygame.Surface, console: Console, *, busy: bool, now_s:
     )
     room = pygame.Rect(x0, 4, max(1, width - x0 - 40), box.height - 8)
     if not line.text and not line.composing and not console.focused:
-        hint = written(cut(PROMPT, px, room.width), px, theme.TEXT_QUIET)
+        hint = render_text(truncate(PROMPT, px, room.width), px, theme.TEXT_QUIET)
         picture.blit(hint, hint.get_rect(midleft=(x0, box.centery + 1)))
     before = line.text[: line.cursor] + line.composing
-    caret = width_of(before, px)
+    caret = text_width(before, px)
     shift = max(0, caret - room.width + 4)
     clip = picture.get_clip()
     picture.set_clip(room)
     whole = before + line.text[line.cursor :]
     if whole:
-        sign = written(whole, px, theme.TEXT)
+        sign = render_text(whole, px, theme.TEXT)
         spot = sign.get_rect(midleft=(x0 - shift, box.centery + 1))
         picture.blit(sign, spot)
         if line.composing:
-            start = x0 - shift + width_of(line.text[: line.cursor], px)
+            start = x0 - shift + text_width(line.text[: line.cursor], px)
             pygame.draw.line(picture, look.ACCENT, (start, spot.bottom), (x0 - shift + caret, spot.bottom), 2)
     if console.focused and int(now_s * 2) % 2 == 0:
         picture.fill(look.ACCENT, (x0 - shift + caret, box.centery - 11, 2, 22))
@@ -153,13 +153,13 @@ def _draw_reply(area: pygame.Surface, console: Console, corner: tuple[int, int])
     said = "" if exchange.said is None else f"“{exchange.said}”"
     y = 2
     if said:
-        _words(area, cut(said, look.SMALL_PX, width - 8), 4, y, theme.TEXT_QUIET, look.SMALL_PX)
+        _words(area, truncate(said, look.SMALL_PX, width - 8), 4, y, theme.TEXT_QUIET, look.SMALL_PX)
         y += 19
     below = 28 if exchange.changes or exchange.offers else 0
     room = height - y - below
     # A long reply is written smaller before it has to be scrolled.
-    px = next((px for px in SIZES if len(wrapped(exchange.reply, px, width - 12)) * px <= room), SIZES[-1])
-    lines, line_px = wrapped(exchange.reply, px, width - 12), px
+    px = next((px for px in SIZES if len(wrap_text(exchange.reply, px, width - 12)) * px <= room), SIZES[-1])
+    lines, line_px = wrap_text(exchange.reply, px, width - 12), px
     fits = max(1, room // line_px)
     console.scroll = max(0, min(console.scroll, len(lines) - fits))
     ink = theme.TEXT if exchange.done else theme.LINES["held_back"] if exchange.asks else theme.REFUSED
@@ -197,7 +197,9 @@ def _draw_offers(
     numbered: bool = False,
 ) -> None:
     for number, offer in enumerate(offers):
-        label = cut(f"{number + 1}  {offer}" if numbered else offer, look.SMALL_PX, area.get_width() - 40)
+        label = truncate(
+            f"{number + 1}  {offer}" if numbered else offer, look.SMALL_PX, area.get_width() - 40
+        )
         here = number == console.picked
         shape = look.chip(label, look.ACCENT if here else look.CAP, theme.TEXT)
         if x + shape.get_width() > area.get_width() and x > wrap_x:
@@ -223,7 +225,7 @@ def _draw_bar(picture: pygame.Surface, console: Console, panels: Panels) -> None
     for number, name in enumerate(PANELS):
         on = name in panels.visible
         cap = look.key_cap(f"F{number + 1}")
-        label = written(TITLES[name], look.SMALL_PX, theme.TEXT if on else theme.TEXT_QUIET)
+        label = render_text(TITLES[name], look.SMALL_PX, theme.TEXT if on else theme.TEXT_QUIET)
         room = cap.get_width() + (label.get_width() + 6 if roomy else 0)
         spot = pygame.Rect(x, y, room, BAR_PX)
         if spot.right > width - 70:
@@ -235,7 +237,7 @@ def _draw_bar(picture: pygame.Surface, console: Console, panels: Panels) -> None
             picture.fill(look.ACCENT, (x, spot.bottom - 2, room, 2))
         console.spots.append((spot, ("toggle", name)))
         x = spot.right + 14
-    label = written("help", look.SMALL_PX, theme.TEXT_QUIET)
+    label = render_text("help", look.SMALL_PX, theme.TEXT_QUIET)
     cap = look.key_cap("?")
     spot = pygame.Rect(width - label.get_width() - cap.get_width() - 6, y, 0, BAR_PX)
     spot.width = width - spot.x
@@ -253,6 +255,6 @@ def _words(
     colour: tuple[int, int, int],
     px: int = look.TEXT_PX,
 ) -> int:
-    sign = written(text, px, colour)
+    sign = render_text(text, px, colour)
     area.blit(sign, (x, y))
     return x + sign.get_width()

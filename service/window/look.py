@@ -8,7 +8,7 @@ from typing import Final
 import pygame
 
 from sim.render import theme
-from sim.render.text import cut, width_of, written
+from sim.render.text import render_text, text_width, truncate
 from sim.render.theme import Colour
 
 GROUND: Final[Colour] = (13, 15, 18)
@@ -34,9 +34,9 @@ def title_bar(width: int, title: str, key: str, status: str, *, large: bool, hei
     bar.fill(HEAD)
     bar.fill(ACCENT if large else EDGE, (0, height - 1, width, 1))
     px, start = TITLE_PX, 10 if width > 140 else 6
-    while px > LEAST_TITLE_PX and width_of(title, px) > width - HIDE_ROOM - start:
+    while px > LEAST_TITLE_PX and text_width(title, px) > width - HIDE_ROOM - start:
         px -= 1
-    left = _put(bar, cut(title, px, max(8, width - HIDE_ROOM - start)), px, theme.TEXT, start, height)
+    left = _put(bar, truncate(title, px, max(8, width - HIDE_ROOM - start)), px, theme.TEXT, start, height)
     cross = pygame.Rect(0, 0, 8, 8)
     cross.center = (width - 13, height // 2)
     for corner, other in ((cross.topleft, cross.bottomright), (cross.bottomleft, cross.topright)):
@@ -46,16 +46,16 @@ def title_bar(width: int, title: str, key: str, status: str, *, large: bool, hei
     if x > left + 4:
         bar.blit(cap, (x, (height - cap.get_height()) // 2))
         room = x - left - 28
-        if status and width_of(status, SMALL_PX) <= room:
+        if status and text_width(status, SMALL_PX) <= room:
             told = status
-            _put(bar, told, SMALL_PX, theme.TEXT_QUIET, x - 12 - width_of(told, SMALL_PX), height)
+            _put(bar, told, SMALL_PX, theme.TEXT_QUIET, x - 12 - text_width(told, SMALL_PX), height)
     return bar
 
 
 @lru_cache(maxsize=64)
 def key_cap(key: str, px: int = 16) -> pygame.Surface:
     """A key as it looks on a keyboard."""
-    sign = written(key, px, theme.TEXT)
+    sign = render_text(key, px, theme.TEXT)
     cap = pygame.Surface((sign.get_width() + 12, px + 2), pygame.SRCALPHA)
     pygame.draw.rect(cap, CAP, cap.get_rect(), border_radius=4)
     pygame.draw.rect(cap, EDGE, cap.get_rect(), 1, border_radius=4)
@@ -65,7 +65,7 @@ def key_cap(key: str, px: int = 16) -> pygame.Surface:
 
 def chip(text: str, paper: Colour, ink: Colour, px: int = SMALL_PX) -> pygame.Surface:
     """A few words on a rounded ground."""
-    sign = written(text, px, ink)
+    sign = render_text(text, px, ink)
     shape = pygame.Surface((sign.get_width() + 16, px + 5), pygame.SRCALPHA)
     pygame.draw.rect(shape, paper, shape.get_rect(), border_radius=(px + 5) // 2)
     shape.blit(sign, sign.get_rect(center=(shape.get_width() // 2, shape.get_height() // 2 + 1)))
@@ -82,6 +82,6 @@ def card(size: tuple[int, int], edge: Colour = EDGE) -> pygame.Surface:
 
 def _put(picture: pygame.Surface, text: str, px: int, colour: Colour, x: int, height: int) -> int:
     """A word in the middle of a bar; where it ends."""
-    sign = written(text, px, colour)
+    sign = render_text(text, px, colour)
     picture.blit(sign, (x, (height - sign.get_height()) // 2 + 1))
     return x + sign.get_width()

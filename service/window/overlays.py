@@ -9,7 +9,7 @@ import pygame
 from service.window import look
 from service.window.keys import EXAMPLES, KEYS
 from sim.render import theme
-from sim.render.text import cut, width_of, written
+from sim.render.text import render_text, text_width, truncate
 
 ROW_PX: Final = 25
 SMALL_ROW_PX: Final = 20
@@ -32,7 +32,7 @@ def draw_help(size: tuple[int, int]) -> tuple[pygame.Surface, Spots]:
     right = len(blocks[2][1]) + 2 + len(EXAMPLES) + 2
     height = min(size[1] - 24, 58 + max(left, right) * row + PAD)
     shape = look.card((width, height))
-    title = written("Keys, and what can be said", 30 if not small else 25, theme.TEXT)
+    title = render_text("Keys, and what can be said", 30 if not small else 25, theme.TEXT)
     shape.blit(title, (PAD, 18))
     close = look.key_cap("Esc")
     shape.blit(close, (width - PAD - close.get_width(), 20))
@@ -45,7 +45,7 @@ def draw_help(size: tuple[int, int]) -> tuple[pygame.Surface, Spots]:
     y = _head(shape, "Sentences to try", x, y, row, px)
     spots: Spots = []
     for example in EXAMPLES:
-        sign = written(cut(example, px, column), px, theme.LINES["changed"])
+        sign = render_text(truncate(example, px, column), px, theme.LINES["changed"])
         spot = shape.blit(sign, (x, y + (row - sign.get_height()) // 2))
         spots.append(
             (pygame.Rect(x, y, column, row).move(corner).clip(spot.move(corner)), ("write", example))
@@ -55,7 +55,7 @@ def draw_help(size: tuple[int, int]) -> tuple[pygame.Surface, Spots]:
 
 
 def _head(shape: pygame.Surface, name: str, x: int, y: int, row: int, px: int) -> int:
-    sign = written(name, px + 2, look.ACCENT)
+    sign = render_text(name, px + 2, look.ACCENT)
     shape.blit(sign, (x, y + row // 4))
     return y + row + row // 4
 
@@ -75,7 +75,7 @@ def _group(
     for key, what in keys:
         cap = look.key_cap(key, px - 3)
         shape.blit(cap, (x, y + (row - cap.get_height()) // 2))
-        sign = written(cut(what, px, width - caps), px, theme.TEXT)
+        sign = render_text(truncate(what, px, width - caps), px, theme.TEXT)
         shape.blit(sign, (x + caps, y + (row - sign.get_height()) // 2 + 1))
         y += row
     return y + row // 2
@@ -85,18 +85,18 @@ def draw_quit(size: tuple[int, int]) -> tuple[pygame.Surface, Spots]:
     """Whether to leave."""
     width, height = min(420, size[0] - 16), 132
     shape = look.card((width, height), look.ACCENT)
-    title = written("Quit Roadtalk?", 30, theme.TEXT)
+    title = render_text("Quit Roadtalk?", 30, theme.TEXT)
     shape.blit(title, title.get_rect(midtop=(width // 2, 24)))
     corner = ((size[0] - width) // 2, (size[1] - height) // 2)
     spots: Spots = []
-    room = sum(look.key_cap(key, 20).get_width() + width_of(word, 21) for key, word, _ in _ANSWERS) + 44
+    room = sum(look.key_cap(key, 20).get_width() + text_width(word, 21) for key, word, _ in _ANSWERS) + 44
     x = (width - room) // 2
     for key, word, spot in _ANSWERS:
         cap = look.key_cap(key, 20)
         start = x
         shape.blit(cap, (x, 80))
         x += cap.get_width() + 8
-        sign = written(word, 21, theme.TEXT)
+        sign = render_text(word, 21, theme.TEXT)
         shape.blit(sign, (x, 84))
         x += sign.get_width()
         spots.append((pygame.Rect(start, 74, x - start, 34).move(corner), (spot, "")))

@@ -11,7 +11,7 @@ from service.refusals import refusals
 from service.window import look
 from sim.config import Config, ConfigError
 from sim.render import render, theme
-from sim.render.text import cut, wrapped, written
+from sim.render.text import render_text, truncate, wrap_text
 from sim.render.theme import MAX_SIDE_PX
 from sim.state import SimState, StepResult
 from sim.transition import step
@@ -114,16 +114,16 @@ class Start:
     def _card(self, now_s: float) -> pygame.Surface:
         card = look.card(CARD)
         width = CARD[0]
-        card.blit(written("Roadtalk", 62, theme.TEXT), (32, 30))
+        card.blit(render_text("Roadtalk", 62, theme.TEXT), (32, 30))
         about = "An autonomous vehicle on a road of obstacles and potholes. Talk to it, and ask it why."
-        for number, line in enumerate(wrapped(about, 22, width - 64)):
-            card.blit(written(line, 22, theme.TEXT_QUIET), (32, 84 + number * 22))
-        card.blit(written("How many potholes?", 27, theme.TEXT), (32, 152))
+        for number, line in enumerate(wrap_text(about, 22, width - 64)):
+            card.blit(render_text(line, 22, theme.TEXT_QUIET), (32, 84 + number * 22))
+        card.blit(render_text("How many potholes?", 27, theme.TEXT), (32, 152))
         box = pygame.Rect(32, 180, 132, 58)
         pygame.draw.rect(card, look.FIELD, box, border_radius=8)
         edge = theme.REFUSED if self.message else look.ACCENT
         pygame.draw.rect(card, edge, box, 2, border_radius=8)
-        number_sign = written(self.text, 46, theme.TEXT_QUIET if self._fresh else theme.TEXT)
+        number_sign = render_text(self.text, 46, theme.TEXT_QUIET if self._fresh else theme.TEXT)
         spot = card.blit(number_sign, number_sign.get_rect(midleft=(48, box.centery + 2)))
         if int(now_s * 2) % 2 == 0:
             x = (spot.right if self.text else 48) + 3
@@ -132,24 +132,24 @@ class Start:
         ready = self.potholes is not None
         pygame.draw.rect(card, look.ACCENT if ready else look.CAP, button, border_radius=8)
         label = "one moment" + "." * (int(now_s * 3) % 4) if self.waiting else "Drive"
-        sign = written(label, 32, theme.TEXT)
+        sign = render_text(label, 32, theme.TEXT)
         cap = look.key_cap("Enter", 19)
         wide = sign.get_width() + (0 if self.waiting else cap.get_width() + 12)
         spot = card.blit(sign, sign.get_rect(midleft=(button.centerx - wide // 2, button.centery + 2)))
         if not self.waiting:
             card.blit(cap, cap.get_rect(midleft=(spot.right + 12, button.centery)))
         if self.message:
-            card.blit(written(cut(self.message, 20, width - 64), 20, theme.REFUSED), (32, 248))
+            card.blit(render_text(truncate(self.message, 20, width - 64), 20, theme.REFUSED), (32, 248))
         else:
             card.blit(
-                written(ADVICE, 20, theme.TEXT_QUIET),
+                render_text(ADVICE, 20, theme.TEXT_QUIET),
                 (32, 248),
             )
         pygame.draw.line(card, look.EDGE, (32, 282), (width - 32, 282))
         for row, (key, what) in enumerate(HINTS):
             keys = look.key_cap(key, 18)
             card.blit(keys, (32, 298 + row * 30))
-            card.blit(written(what, 20, theme.TEXT_QUIET), (86, 301 + row * 30))
+            card.blit(render_text(what, 20, theme.TEXT_QUIET), (86, 301 + row * 30))
         return card
 
     def button(self, screen: pygame.Surface) -> pygame.Rect:

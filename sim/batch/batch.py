@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.batch.backward_dp import weighted_moves
-from sim.batch.lanes import STATE, UNKNOWN, After, Lanes, listed, not_known
+from sim.batch.lanes import STATE, After, Lanes, check_kinds, listed
 from sim.batch.layout import (
     ASKED,
     ENDS,
@@ -43,7 +43,7 @@ from sim.batch.layout import (
 from sim.batch.reachability import exact_moves
 from sim.batch.roads import begin_all, renew
 from sim.batch.tick import END_FIELD, MAX_TICKS_A_CALL, MOVE_FIELD, ticks_kernel
-from sim.config import COUNTS, Config
+from sim.config import Config
 from sim.generation import GenerationError
 from sim.planner_names import Alias, canonical
 from sim.rules.behaviour import DEFAULT_BEHAVIOUR
@@ -83,9 +83,7 @@ class Batch(Lanes):
         if len(sizes) != 1:
             raise ValueError(f"a batch has roads of one size, not of {len(sizes)}")
         _check_rules(configs)
-        for kind in UNKNOWN:
-            if kind in COUNTS and any(getattr(config, COUNTS[kind]) for config in configs):
-                raise ValueError(not_known(kind))
+        check_kinds(configs)
         if any(config.layout for config in configs):
             raise ValueError('roads of a layout: make them with Batch.of, and after="stop" or "restart"')
         super().__init__(configs, after)

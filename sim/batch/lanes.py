@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import astuple, dataclass, replace
-from typing import Any, Final, Literal
+from typing import Any, Final, Literal, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,7 +57,7 @@ from sim.batch.layout import (
     Words,
 )
 from sim.batch.observe import observe
-from sim.config import Config
+from sim.config import COUNTS, Config
 from sim.generation import assign_ids
 from sim.randomness import Stream
 from sim.repetition import Watch
@@ -74,7 +74,7 @@ or nothing."""
 
 _KINDS: Final = (Kind.POTHOLE, Kind.BARRIER, Kind.VEHICLE, Kind.PEDESTRIAN)
 """The kinds that the kernels know."""
-UNKNOWN: Final = tuple(kind for kind in PLACEABLE if kind not in _KINDS)
+_UNKNOWN: Final = tuple(kind for kind in PLACEABLE if kind not in _KINDS)
 """The kinds that a batch refuses."""
 _OUTCOMES: Final = tuple(Outcome)
 STATE: Final = ("_state", "_lanes", "_wholes", "_ticks", "_counts")
@@ -255,9 +255,9 @@ class Lanes:
     def _place(self, lane: int, run: SimState) -> None:
         """Put a moment of a run into a lane."""
         world = run.world
-        for kind in UNKNOWN:
+        for kind in _UNKNOWN:
             if world.count(kind):
-                raise ValueError(not_known(kind))
+                _refuse_kind(kind)
         block, inner = divmod(lane, LANES)
         boards = self._state[block].reshape(self.layout.words, PLANES, LANES)
         planes = (world.right, world.left, world.fixed, world.potholes, world.pedestrians)
@@ -318,7 +318,16 @@ def listed(names: Sequence[str]) -> str:
     return f"{', '.join(names[:-1])} or {names[-1]}"
 
 
-def not_known(kind: Kind) -> str:
-    """What is said of things of a kind that the kernels do not know."""
+def check_kinds(configs: Sequence[Config]) -> None:
+    """Raises `ValueError` for roads with things of a kind that the kernels do not know."""
+    for kind in _UNKNOWN:
+        if kind in COUNTS and any(getattr(config, COUNTS[kind]) for config in configs):
+            _refuse_kind(kind)
+
+
+def _refuse_kind(kind: Kind) -> NoReturn:
+    """Raises `ValueError`: the kernels do not know things of this kind."""
     known = listed([KINDS[each].plural for each in _KINDS])
-    return f"a batch has {known} on its roads, and no {KINDS[kind].plural}; run such roads one by one"
+    raise ValueError(
+        f"a batch has {known} on its roads, and no {KINDS[kind].plural}; run such roads one by one"
+    )

@@ -20,7 +20,7 @@ from gymnasium import spaces
 from numpy.typing import NDArray
 
 from sim.config import Config
-from sim.env.options import one_of, whole
+from sim.env.options import one_of, whole_number
 from sim.perceive.observe import (
     BARRIERS,
     LEFT,
@@ -52,8 +52,8 @@ MIN_IMAGE_PX: Final = 36
 MAX_WINDOW: Final = 512
 
 
-def of_batch(planes: Planes) -> Planes:
-    """The planes of `Batch.observe` with those of the kinds that a batch does not know, which are empty."""
+def batch_planes(planes: Planes) -> Planes:
+    """Returns the planes of `Batch.observe` and, empty, those of the kinds that a batch does not know."""
     if planes.shape[1] == PLANES:
         return planes
     whole = np.zeros((planes.shape[0], PLANES, *planes.shape[2:]), np.uint8)
@@ -76,7 +76,10 @@ class Window:
             raise ValueError(f"window is (rows ahead, rows behind, columns on either side), not {parts!r}")
         names = ("rows ahead", "rows behind", "columns on either side")
         return Window(
-            *(whole(f"window: {name}", part, 0, MAX_WINDOW) for name, part in zip(names, parts, strict=True))
+            *(
+                whole_number(f"window: {name}", part, 0, MAX_WINDOW)
+                for name, part in zip(names, parts, strict=True)
+            )
         )
 
     @property

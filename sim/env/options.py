@@ -1,4 +1,4 @@
-"""Keyword arguments of the environments, checked: what is not known or cannot be is an error that says so."""
+"""Validates the keyword arguments of the environments; each error names the argument and what is allowed."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from sim.config import Config, ConfigError, Problem
 
 
 def refuse_unknown(maker: str, unknown: Iterable[str], known: Iterable[str]) -> None:
-    """Raise `TypeError` if there are unknown arguments; it names the first, and what may have been meant."""
+    """Raises `TypeError` if there are unknown arguments; it names the first, with a suggestion."""
     allowed = sorted(known)
     for name in sorted(unknown):
         near = get_close_matches(name, allowed, n=1)
@@ -26,7 +26,10 @@ def refuse_unknown(maker: str, unknown: Iterable[str], known: Iterable[str]) -> 
 
 
 def road_config(parts: Mapping[str, Any] | None) -> Config:
-    """The configuration with these parts. Raises `ConfigError`, also for a seed, and `TypeError`."""
+    """Returns the configuration with these settings.
+
+    Raises `ConfigError` for invalid settings and for a seed, `TypeError` for anything but a mapping.
+    """
     if parts is not None and not isinstance(parts, Mapping):
         raise TypeError(f"config is a mapping of settings to values, not {parts!r}")
     if parts is not None and "seed" in parts:
@@ -35,7 +38,7 @@ def road_config(parts: Mapping[str, Any] | None) -> Config:
 
 
 def number(name: str, value: object, low: float = 0.0, high: float = float("inf")) -> float:
-    """A finite number from `low` to `high`. Raises `ValueError`."""
+    """Returns a finite number from `low` to `high` as a float. Raises `ValueError` for other values."""
     if isinstance(value, bool) or not isinstance(value, Real) or not isfinite(value):
         raise ValueError(f"{name} must be a finite number, not {value!r}")
     found = float(value)
@@ -45,8 +48,8 @@ def number(name: str, value: object, low: float = 0.0, high: float = float("inf"
     return found
 
 
-def whole(name: str, value: object, low: int, high: int | None = None) -> int:
-    """A whole number from `low` to `high`. Raises `ValueError`."""
+def whole_number(name: str, value: object, low: int, high: int | None = None) -> int:
+    """Returns an integer from `low` to `high`. Raises `ValueError` for other values."""
     if isinstance(value, bool) or not isinstance(value, Integral):
         raise ValueError(f"{name} must be a whole number, not {value!r}")
     found = int(value)
@@ -56,15 +59,15 @@ def whole(name: str, value: object, low: int, high: int | None = None) -> int:
     return found
 
 
-def switch(name: str, value: object) -> bool:
-    """True or false. Raises `ValueError`."""
+def boolean(name: str, value: object) -> bool:
+    """Returns True or False. Raises `ValueError` for other values."""
     if not isinstance(value, bool):
         raise ValueError(f"{name} must be True or False, not {value!r}")
     return value
 
 
 def one_of(name: str, value: object, choices: Iterable[str]) -> str:
-    """One of some words. Raises `ValueError` that names the nearest."""
+    """Returns one of the words in `choices`. Raises `ValueError` for others, with a suggestion."""
     allowed = list(choices)
     if isinstance(value, str) and value in allowed:
         return value
@@ -74,7 +77,7 @@ def one_of(name: str, value: object, choices: Iterable[str]) -> str:
 
 
 def reset_options(options: Mapping[str, Any] | None, known: Iterable[str] = ()) -> Mapping[str, Any]:
-    """The options of a reset. Raises `ValueError` for one that there is not."""
+    """Returns the options of a reset. Raises `ValueError` for unknown ones."""
     given = options or {}
     allowed = sorted(known)
     for name in given:

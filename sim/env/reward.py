@@ -1,16 +1,16 @@
-"""What a tick is worth, the same for one world and for many.
+"""The reward of a tick, the same for the single and the vector environment.
 
-A tick is worth
+The reward of a tick is
 
     goal_reward · arrived − crash_penalty · crashed − step_cost + discount · Φ(after) − Φ(before)
 
 where the potential Φ of a state is `progress_reward` times the share of the rows that have been driven, and 0
-once the vehicle has arrived or crashed. This is the potential-based shaping of Ng, Harada & Russell ("Policy
-invariance under reward transformations", ICML 1999): which policy is best for a learner of this discount is
-the same with any `progress_reward`, since what was paid for rows is taken back when the episode terminates. A
-truncated episode keeps it: its last state is one that a learner bootstraps from.
+after arrival or crash. This is the potential-based shaping of Ng, Harada & Russell ("Policy invariance under
+reward transformations", ICML 1999): with the learner's `discount`, every `progress_reward` has the same best
+policy, because the potential is taken back when an episode terminates. A truncated episode keeps its
+potential, since a learner bootstraps from its last state.
 
-By default waiting until the time is up costs 2, twice a crash, so that standing still is never the best.
+By default waiting until the time is up costs 2, twice a crash, so standing still is never the best policy.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from sim.env.options import number
 
 @dataclass(frozen=True, slots=True)
 class Rewards:
-    """The parts of the reward; all are 0 or more, a penalty or a cost is subtracted."""
+    """The parameters of the reward, each 0 or more; penalties and costs are subtracted."""
 
     goal_reward: float
     crash_penalty: float
@@ -45,7 +45,7 @@ class Rewards:
         progress_reward: float,
         discount: float,
     ) -> Rewards:
-        """The rewards on a road; `step_cost` None: two over the longest episode. Raises `ValueError`."""
+        """Returns the rewards for a road; `step_cost` None means 2 / `max_ticks`. Raises `ValueError`."""
         return Rewards(
             number("goal_reward", goal_reward),
             number("crash_penalty", crash_penalty),
@@ -55,14 +55,17 @@ class Rewards:
             config.rows,
         )
 
-    def paid(
+    def step_reward(
         self,
         before: NDArray[np.int64],
         after: NDArray[np.int64],
         arrived: NDArray[np.bool_],
         crashed: NDArray[np.bool_],
     ) -> NDArray[np.float64]:
-        """What a tick is worth (shape of all: worlds); `before` and `after` are rows, 0 is the goal."""
+        """Computes the reward of a tick. Shape of arguments and result: worlds.
+
+        `before` and `after` are the rows of the ego (0 is the goal).
+        """
         kept = np.where(arrived | crashed, 0.0, self._potential(after))
         paid: NDArray[np.float64] = (
             self.goal_reward * arrived

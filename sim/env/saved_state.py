@@ -1,8 +1,8 @@
-"""States of environments as JSON values and back, exactly: the same continuation, action for action.
+"""Saves the state of an environment as a JSON value and restores it exactly.
 
-What is saved: the worlds, how far their streams are, and the environment's own random generator, which draws
-seeds that nobody gave. What is not: the action space's generator, and how worlds are shown and paid. A state
-is taken by an environment of the same form (one or many), number and configuration, and by no other.
+Saved are the worlds, the positions of their random streams, and the environment's own generator, which draws
+seeds that are not given. Not saved are the generator of the action space, the observation and the reward. A
+state fits an environment of the same class, number of lanes and configuration.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from sim.batch import Batch
 from sim.config import Config
-from sim.env.seeds import read, written
+from sim.env.seeds import dump_generator, load_generator
 from sim.session.serialization import Packer, Unpacker
 from sim.state import SimState
 
@@ -28,32 +28,32 @@ MANY: Final = "roadtalk vector env 1"
 
 
 class Seeded(Protocol):
-    """What both environments have."""
+    """The attributes that both environments share."""
 
     config: Config
     _np_random_seed: int | None
 
     @property
     def np_random(self) -> np.random.Generator:
-        """Draws the seeds that nobody gave."""
+        """The generator that draws seeds that are not given."""
 
     @np_random.setter
     def np_random(self, value: np.random.Generator) -> None: ...
 
 
-def of_run(state: SimState, env: Seeded) -> dict[str, Any]:
-    """The state of one world."""
+def save_single(state: SimState, env: Seeded) -> dict[str, Any]:
+    """Saves the state of a single environment."""
     packer = Packer()
     number = packer.run(state)
-    return {"format": ONE, "run": number, **_plain(packer), **_random_of(env)}
+    return {"format": ONE, "run": number, **_json_parts(packer), **_generator_parts(env)}
 
 
-def to_run(saved: Mapping[str, Any], env: Seeded) -> SimState:
-    """The run of such a state; the environment's generator is set. Raises `ValueError`."""
+def load_single(saved: Mapping[str, Any], env: Seeded) -> SimState:
+    """Returns a saved single environment's state and sets the generator of `env`. Raises `ValueError`."""
     _check_format(saved, ONE)
     try:
         state: SimState = Unpacker(saved).runs[saved["run"]]
-        random, seed = read(saved["random"]), int(saved["random_seed"])
+        random, seed = load_generator(saved["random"]), int(saved["random_seed"])
     except (TypeError, LookupError, ValueError) as error:
         raise _unreadable(error) from error
     _check_config(state.config, env.config)
@@ -61,28 +61,28 @@ def to_run(saved: Mapping[str, Any], env: Seeded) -> SimState:
     return state
 
 
-def of_batch(batch: Batch, env: Seeded) -> dict[str, Any]:
-    """The state of many worlds."""
+def save_vector(batch: Batch, env: Seeded) -> dict[str, Any]:
+    """Saves the state of a vector environment."""
     packer = Packer()
     packer.config(env.config)
     arrays = batch.saved()
     return {
         "format": MANY,
         "lanes": len(batch),
-        "configs": _plain(packer)["configs"],
-        "arrays": {name: _packed(array) for name, array in arrays.items()},
+        "configs": _json_parts(packer)["configs"],
+        "arrays": {name: _pack_array(array) for name, array in arrays.items()},
         "digest": _digest(arrays),
-        **_random_of(env),
+        **_generator_parts(env),
     }
 
 
-def to_batch(state: Mapping[str, Any], env: Seeded, lanes: int) -> Batch:
-    """The batch of such a state; the environment's generator is set. Raises `ValueError`."""
+def load_vector(state: Mapping[str, Any], env: Seeded, lanes: int) -> Batch:
+    """Returns a saved vector environment's batch and sets the generator of `env`. Raises `ValueError`."""
     _check_format(state, MANY)
     try:
         (config,) = Unpacker({**Packer().packed(), "configs": state["configs"]}).configs
-        arrays = {name: _unpacked(array) for name, array in state["arrays"].items()}
-        random, seed, count = read(state["random"]), int(state["random_seed"]), state["lanes"]
+        arrays = {name: _unpack_array(array) for name, array in state["arrays"].items()}
+        random, seed, count = load_generator(state["random"]), int(state["random_seed"]), state["lanes"]
         if _digest(arrays) != state["digest"]:
             raise ValueError("the worlds are not those that were written")
     except (TypeError, LookupError, ValueError, zlib.error) as error:
@@ -96,8 +96,8 @@ def to_batch(state: Mapping[str, Any], env: Seeded, lanes: int) -> Batch:
     return batch
 
 
-def _plain(packer: Packer) -> dict[str, Any]:
-    """What was packed, with the lists that a JSON reader makes of tuples."""
+def _json_parts(packer: Packer) -> dict[str, Any]:
+    """Returns the packed parts with lists in place of tuples, as a JSON reader would."""
     packed = packer.packed()
     configs = [
         {name: list(value) if isinstance(value, tuple) else value for name, value in config.items()}
@@ -117,7 +117,7 @@ def _check_format(state: Mapping[str, Any], form: str) -> None:
 
 
 def _check_config(theirs: Config, mine: Config) -> None:
-    """Raise `ValueError` that names every setting that differs, the seed aside."""
+    """Raises `ValueError` if a setting other than the seed differs; it names all of them."""
     differing = [
         f"{field.name} is {getattr(theirs, field.name)!r} there and {getattr(mine, field.name)!r} here"
         for field in fields(Config)
@@ -131,18 +131,18 @@ def _unreadable(error: Exception) -> ValueError:
     return ValueError(f"the state cannot be read: {error}")
 
 
-def _random_of(env: Seeded) -> dict[str, Any]:
+def _generator_parts(env: Seeded) -> dict[str, Any]:
     random = env.np_random
-    return {"random": written(random), "random_seed": str(env._np_random_seed)}
+    return {"random": dump_generator(random), "random_seed": str(env._np_random_seed)}
 
 
-def _packed(array: NDArray[Any]) -> dict[str, Any]:
+def _pack_array(array: NDArray[Any]) -> dict[str, Any]:
     little = array.astype(array.dtype.newbyteorder("<"))
     data = base64.b64encode(zlib.compress(little.tobytes(), 1)).decode()
     return {"type": little.dtype.str, "shape": list(array.shape), "data": data}
 
 
-def _unpacked(parts: Mapping[str, Any]) -> NDArray[Any]:
+def _unpack_array(parts: Mapping[str, Any]) -> NDArray[Any]:
     data = zlib.decompress(base64.b64decode(parts["data"], validate=True))
     stored = np.frombuffer(data, np.dtype(parts["type"]).newbyteorder("<")).reshape(parts["shape"])
     return stored.astype(stored.dtype.newbyteorder("="))

@@ -1,4 +1,4 @@
-"""One world as a Gymnasium environment."""
+"""The single environment: one road as a Gymnasium `Env`."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from sim.decide import sense
 from sim.env import saved_state as saving
 from sim.env.actions import STAY, action_mask, checked_action
 from sim.env.observation import Observer
-from sim.env.options import one_of, refuse_unknown, reset_options, road_config, switch
+from sim.env.options import boolean, one_of, refuse_unknown, reset_options, road_config
 from sim.env.reward import Rewards
-from sim.env.seeds import DRAWN_BELOW, checked_seed, folded
+from sim.env.seeds import DRAWN_BELOW, check_seed, fold_seed
 from sim.perceive.observe import observe
 from sim.state import FIRST, SimState, next_episode
 from sim.transition import transition
@@ -39,15 +39,16 @@ ARGUMENTS: Final = (
     "progress_reward",
     "discount",
 )
-"""What both environments take."""
+"""Keyword arguments of both environments."""
 
 
 class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
-    """Drive the vehicle to row 0. Actions are the six moves in the order of `Move`.
+    """An environment in which the agent drives the ego to row 0.
 
-    A move off the road is a wait; nothing else is held back. `reset(seed=…)` begins that seed's first
-    episode, a reset without a seed the one that follows. Episodes terminate on arrival and crash, and are
-    truncated when the time is up. The parts are described in `sim/env/README.md`.
+    Actions are the six moves in the order of `Move`. A move off the road becomes `stay`; every other move is
+    executed. `reset(seed=…)` begins the first episode of that seed, a reset without a seed the next episode.
+    Episodes terminate on arrival and crash, and are truncated when the time is up. Spaces, rewards and `info`
+    are described in `sim/env/README.md`.
     """
 
     metadata = {"render_modes": list(RENDER_MODES), "render_fps": RENDER_FPS}  # noqa: RUF012 - Gymnasium's form
@@ -67,11 +68,11 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
         discount: float = 1.0,
         **unknown: Any,
     ) -> None:
-        """A road of `config`, any part of `sim.config.Config` but the seed.
+        """Makes an environment. `config` holds settings of `sim.config.Config` except the seed.
 
-        `observation`, `window`: `sim.env.observation`; `action_mask`: whether `info` has one; the others:
-        `sim.env.reward`. Raises `TypeError` for an unknown argument, `ConfigError` for a configuration and
-        `ValueError` for any other value that cannot be.
+        `observation` and `window` are described in `sim.env.observation`, the reward options in
+        `sim.env.reward`; `action_mask` says whether `info` has one. Raises `TypeError` for an unknown
+        argument, `ConfigError` for an invalid configuration and `ValueError` for any other invalid value.
         """
         refuse_unknown("RoadEnv", unknown, ARGUMENTS)
         self.render_mode = None if render_mode is None else one_of("render mode", render_mode, RENDER_MODES)
@@ -85,7 +86,7 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
             discount=discount,
         )
         self._observer = Observer.of(self.config, observation, window)
-        self._masked = switch("action_mask", action_mask)
+        self._masked = boolean("action_mask", action_mask)
         self.observation_space = self._observer.space
         self.action_space = spaces.Discrete(len(MOVES))
         self._run: SimState | None = None
@@ -93,24 +94,24 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[NDArray[np.uint8], dict[str, Any]]:
-        """The beginning of an episode. Raises `TypeError` or `ValueError` for a seed or option that is none.
+        """Begins an episode. Raises `TypeError` or `ValueError` for an invalid seed or option.
 
-        Raises `GenerationError` where the road must be drivable and none is found.
+        Raises `GenerationError` if the road must be drivable and no such road is found.
         """
         reset_options(options)
-        given = None if seed is None else checked_seed(seed)
+        given = None if seed is None else check_seed(seed)
         super().reset(seed=given, options=options)
         if self._run is not None and given is None:
             self._run = next_episode(self._run)[0]
         else:
-            drawn = int(self.np_random.integers(DRAWN_BELOW)) if given is None else folded(given)
+            drawn = int(self.np_random.integers(DRAWN_BELOW)) if given is None else fold_seed(given)
             self._run = SimState.start(self.config.with_parts(seed=drawn))
         return self._observation(), self._info()
 
     def step(self, action: np.int64 | int) -> tuple[NDArray[np.uint8], float, bool, bool, dict[str, Any]]:
-        """One tick. Raises `ValueError` for an action that is none.
+        """Runs one tick. Raises `ValueError` for an invalid action.
 
-        Raises `RuntimeError` before `reset`, and once the episode has ended.
+        Raises `RuntimeError` before `reset` and after the end of the episode.
         """
         state, number = self._begun(), checked_action(action)
         before = state.world
@@ -118,12 +119,12 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
             raise RuntimeError("the episode has ended; call reset")
         if state.config.ego_dynamics(before.road).target(before.av, MOVES[number]) is None:
             number = STAY
-        # As a person's move: what repeats then proves nothing about a planner.
+        # Counts as a person's move, so that a repeated situation does not end the episode.
         self._run = transition(state, {FIRST: MOVES[number]}, by_person=(FIRST,)).state
         after = self._run.world
         arrived, crashed = after.outcome is Outcome.SUCCESS, after.outcome is Outcome.CRASH
         columns = before.road.columns
-        paid = self.rewards.paid(
+        paid = self.rewards.step_reward(
             np.array([before.av // columns]),
             np.array([after.av // columns]),
             np.array([arrived]),
@@ -133,29 +134,28 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
         return self._observation(), float(paid[0]), arrived or crashed, truncated, self._info()
 
     def action_masks(self) -> NDArray[np.bool_]:
-        """Which moves can be taken now (shape: 6), as `sb3_contrib.MaskablePPO` asks for it."""
+        """Which moves can be taken now (shape: 6), in the form `sb3_contrib.MaskablePPO` expects."""
         return action_mask(self._begun().world, self.config_of_episode)
 
     def render(self) -> Any:
-        """The road as text (`ansi`) or as pixels (`rgb_array`, shape: height, width, 3)."""
+        """Renders the road as text (`ansi`) or pixels (`rgb_array`, shape: height, width, 3)."""
         return frame(self._begun(), self.render_mode)
 
     def get_state(self) -> dict[str, Any]:
-        """All that the continuation hangs on, as a JSON value. Raises `RuntimeError` before `reset`."""
-        return saving.of_run(self._begun(), self)
+        """Returns the complete state as a JSON value. Raises `RuntimeError` before `reset`."""
+        return saving.save_single(self._begun(), self)
 
     def set_state(self, state: Mapping[str, Any]) -> tuple[NDArray[np.uint8], dict[str, Any]]:
-        """Go on from a state of an environment of the same configuration: its observation and info.
+        """Restores a state of an environment with the same configuration; returns its observation and info.
 
-        Raises `ValueError` for a state of another configuration, and for what is no such state; nothing is
-        changed then.
+        Raises `ValueError` for an invalid state or another configuration, and then changes nothing.
         """
-        self._run = saving.to_run(state, self)
+        self._run = saving.load_single(state, self)
         return self._observation(), self._info()
 
     @property
     def config_of_episode(self) -> Config:
-        """The configuration with the seed of the present episode. Raises `RuntimeError` before `reset`."""
+        """The configuration with the current seed. Raises `RuntimeError` before `reset`."""
         return self._begun().config
 
     def _begun(self) -> SimState:
@@ -185,7 +185,7 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
 
 
 def frame(state: SimState, render_mode: str | None) -> Any:
-    """One world's frame in a render mode; None without one."""
+    """Renders a state in a render mode; returns None without one."""
     if render_mode == "ansi":
         return notation.write(state.world)
     if render_mode == "rgb_array":

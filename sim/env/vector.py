@@ -1,4 +1,4 @@
-"""Thousands of worlds as one Gymnasium vector environment, without a Python loop over them."""
+"""The vector environment: thousands of roads as one Gymnasium `VectorEnv`, without a Python loop."""
 
 from __future__ import annotations
 
@@ -14,29 +14,29 @@ from numpy.typing import NDArray
 from sim.batch import Batch
 from sim.env import saved_state as saving
 from sim.env.actions import action_masks, checked_actions
-from sim.env.observation import Observer, of_batch
-from sim.env.options import one_of, refuse_unknown, reset_options, road_config, switch, whole
+from sim.env.observation import Observer, batch_planes
+from sim.env.options import boolean, one_of, refuse_unknown, reset_options, road_config, whole_number
 from sim.env.reward import Rewards
-from sim.env.seeds import DRAWN_BELOW, checked_seed, folded
+from sim.env.seeds import DRAWN_BELOW, check_seed, fold_seed
 from sim.env.single import ARGUMENTS, RENDER_FPS, RENDER_MODES, frame
 from sim.metrics import Metrics
 from sim.state import SimState
 from sim.types import MOVES, Outcome
 
 RUNNING, SUCCESS, CRASH, STUCK = range(len(Outcome))
-"""As `Batch.outcomes` has them: numbers in the order of `Outcome`."""
+"""Values of `Batch.outcomes`: integers in the order of `Outcome`."""
 
 _NAMES: Final = np.array([str(outcome) for outcome in Outcome], object)
 
 Observations = NDArray[np.uint8]
-Chosen = NDArray[np.bool_]
+LaneMask = NDArray[np.bool_]
 
 
 class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
-    """As `RoadEnv`, many times, and to the same figures as Gymnasium's own loop over as many of them.
+    """Many `RoadEnv`, with the same results as Gymnasium's own loop over them. A *lane* is one of them.
 
-    What follows the end of an episode is Gymnasium's `autoreset_mode`. `NEXT_STEP`: the lane's next step
-    ignores the action and begins the next episode. `SAME_STEP`: the next episode begins at once, the end is
+    Gymnasium's `autoreset_mode` decides what follows the end of an episode. `NEXT_STEP`: the lane's next step
+    ignores the action and begins the next episode. `SAME_STEP`: the next episode begins at once; the end is
     in `info["final_obs"]` and `info["final_info"]`. `DISABLED`: `reset(options={"reset_mask": …})` begins it.
     """
 
@@ -64,10 +64,10 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
         threads: int = 1,
         **unknown: Any,
     ) -> None:
-        """As `RoadEnv`; `threads`: how many work on a step. Raises as it does."""
+        """Makes an environment of `num_envs` lanes; `threads` work on a step. Otherwise as `RoadEnv`."""
         refuse_unknown("RoadVectorEnv", unknown, (*ARGUMENTS, "num_envs", "autoreset_mode", "threads"))
-        self.num_envs = whole("num_envs", num_envs, 1)
-        self.threads = whole("threads", threads, 1)
+        self.num_envs = whole_number("num_envs", num_envs, 1)
+        self.threads = whole_number("threads", threads, 1)
         self.render_mode = None if render_mode is None else one_of("render mode", render_mode, RENDER_MODES)
         if not isinstance(autoreset_mode, AutoresetMode):
             named = one_of("autoreset mode", autoreset_mode, (mode.value for mode in AutoresetMode))
@@ -84,7 +84,7 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
             discount=discount,
         )
         self._observer = Observer.of(self.config, observation, window)
-        self._masked = switch("action_mask", action_mask)
+        self._masked = boolean("action_mask", action_mask)
         self.single_observation_space = self._observer.space
         self.single_action_space = spaces.Discrete(len(MOVES))
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
@@ -94,17 +94,17 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
     def reset(
         self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Observations, dict[str, Any]]:
-        """Lanes at the beginning of an episode; lane i of an integer seed has seed + i.
+        """Begins episodes. With an integer seed, lane i has seed + i; a sequence gives each lane its own.
 
-        A sequence gives every lane its own. A lane with a seed begins that seed's first episode, one without
-        the episode that follows. `options["reset_mask"]` (bool, shape: lanes) chooses lanes; the others, and
-        their places in `info`, are left alone. Raises `TypeError` or `ValueError` for what is none of this,
-        `GenerationError` where a road must be drivable and none is found.
+        A lane with a seed begins the first episode of that seed, a lane without one its next episode.
+        `options["reset_mask"]` (bool, shape: lanes) selects lanes; the others, and their entries in `info`,
+        stay unchanged. Raises `TypeError` or `ValueError` for invalid arguments, and `GenerationError` if a
+        road must be drivable and no such road is found.
         """
-        chosen = self._chosen(reset_options(options, ["reset_mask"]))
+        chosen = self._lanes_to_reset(reset_options(options, ["reset_mask"]))
         seeds = self._seeds(seed)
-        if not _of_each(seed):
-            super().reset(seed=None if seed is None else checked_seed(seed))
+        if not _is_per_lane(seed):
+            super().reset(seed=None if seed is None else check_seed(seed))
         batch = self._batch
         if batch is None and not chosen.all():
             raise RuntimeError("call reset first, without a reset_mask")
@@ -116,7 +116,7 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
                     seeds[lane] = int(value)
             batch = Batch([self.config.with_parts(seed=each) for each in seeds], after="stop")
         else:
-            batch = batch.copy()  # so that nothing is changed where a road cannot be found
+            batch = batch.copy()  # nothing changes if no drivable road is found
             batch.renew(chosen, seeds)
         self._batch = batch
         return self._observations(batch), self._info(batch, chosen)
@@ -124,11 +124,12 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
     def step(
         self, actions: NDArray[np.int64]
     ) -> tuple[Observations, NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
-        """One tick of every lane. Raises `ValueError` for actions that are none.
+        """Runs one tick of every lane. Raises `ValueError` for invalid actions.
 
-        Raises `RuntimeError` before the first `reset`, and with autoreset disabled once an episode has ended.
+        Raises `RuntimeError` before the first `reset` and, with autoreset disabled, after the end of an
+        episode.
         """
-        batch, moves = self._begun(), checked_actions(actions, self.num_envs)
+        batch, moves = self._require_batch(), checked_actions(actions, self.num_envs)
         live = batch.outcomes == RUNNING
         if self.autoreset_mode is AutoresetMode.DISABLED and not live.all():
             ended = ", ".join(map(str, np.flatnonzero(~live)[:8]))
@@ -138,7 +139,7 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
         after, outcomes = batch.vehicles // self.config.columns, batch.outcomes
         arrived, crashed = live & (outcomes == SUCCESS), live & (outcomes == CRASH)
         stuck = live & (outcomes == STUCK)
-        paid = np.where(live, self.rewards.paid(before, after, arrived, crashed), 0.0)
+        paid = np.where(live, self.rewards.step_reward(before, after, arrived, crashed), 0.0)
         final: dict[str, Any] = {}
         if self.autoreset_mode is AutoresetMode.SAME_STEP:
             ended = arrived | crashed | stuck
@@ -152,53 +153,52 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
         return self._observations(batch), paid, arrived | crashed, stuck, info
 
     def action_masks(self) -> NDArray[np.bool_]:
-        """Which moves can be taken now in every lane (shape: lanes, 6)."""
-        return action_masks(self._begun(), threads=self.threads)
+        """Which moves can be taken now (shape: lanes, 6)."""
+        return action_masks(self._require_batch(), threads=self.threads)
 
     def render(self) -> tuple[Any, ...] | None:
-        """A frame of every lane, as `RoadEnv.render` makes them; None without a render mode."""
-        batch = self._begun()
+        """Renders a frame of every lane, as `RoadEnv.render` does; None without a render mode."""
+        batch = self._require_batch()
         if self.render_mode is None:
             return None
         return tuple(frame(self._run(batch, lane), self.render_mode) for lane in range(self.num_envs))
 
     def get_state(self) -> dict[str, Any]:
-        """All that the continuation hangs on, as a JSON value. Raises `RuntimeError` before `reset`."""
-        return saving.of_batch(self._begun(), self)
+        """Returns the complete state as a JSON value. Raises `RuntimeError` before `reset`."""
+        return saving.save_vector(self._require_batch(), self)
 
     def set_state(self, state: Mapping[str, Any]) -> tuple[Observations, dict[str, Any]]:
-        """Go on from a state of as many environments of the same configuration: observations and info.
+        """Restores a state with the same configuration and number of lanes; returns observations and info.
 
-        Raises `ValueError` for a state of another configuration or number, and for what is no such state;
-        nothing is changed then.
+        Raises `ValueError` for an invalid state, another configuration or number, and then changes nothing.
         """
-        self._batch = batch = saving.to_batch(state, self, self.num_envs)
+        self._batch = batch = saving.load_vector(state, self, self.num_envs)
         return self._observations(batch), self._info(batch, np.ones(self.num_envs, np.bool_))
 
     def close_extras(self, **kwargs: Any) -> None:
-        """Let the worlds go."""
+        """Releases the worlds."""
         del kwargs
         self._batch = None
 
-    def _begun(self) -> Batch:
+    def _require_batch(self) -> Batch:
         if self._batch is None:
             raise RuntimeError("call reset first")
         return self._batch
 
     def _seeds(self, seed: int | Sequence[int | None] | None) -> list[int | None]:
-        """The configuration's seed of every lane."""
+        """Returns the seed of each lane's configuration; None for the lane's next episode."""
         if seed is None:
             return [None] * self.num_envs
-        if not _of_each(seed):
-            first = checked_seed(seed)
-            return [folded(first + lane) for lane in range(self.num_envs)]
+        if not _is_per_lane(seed):
+            first = check_seed(seed)
+            return [fold_seed(first + lane) for lane in range(self.num_envs)]
         given = list(cast(Iterable[int | None], seed))
         if len(given) != self.num_envs:
             raise ValueError(f"{self.num_envs} seeds are wanted, one for each environment, not {len(given)}")
-        return [None if each is None else folded(checked_seed(each)) for each in given]
+        return [None if each is None else fold_seed(check_seed(each)) for each in given]
 
-    def _chosen(self, options: Mapping[str, Any]) -> Chosen:
-        """The lanes that are to be reset."""
+    def _lanes_to_reset(self, options: Mapping[str, Any]) -> LaneMask:
+        """Returns the lanes to reset (shape: lanes)."""
         if "reset_mask" not in options:
             return np.ones(self.num_envs, np.bool_)
         mask = options["reset_mask"]
@@ -209,10 +209,10 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
         return mask.copy()
 
     def _observations(self, batch: Batch) -> Observations:
-        return self._observer.of_planes(of_batch(batch.observe()), batch.vehicles)
+        return self._observer.of_planes(batch_planes(batch.observe()), batch.vehicles)
 
-    def _info(self, batch: Batch, lanes: Chosen) -> dict[str, Any]:
-        """As `RoadEnv` tells it, of these lanes; nothing (0 or None) for the others, as `_…` says."""
+    def _info(self, batch: Batch, lanes: LaneMask) -> dict[str, Any]:
+        """Returns `info` of these lanes; the others have 0 or None, and False in the masks `_…`."""
         outcomes = batch.outcomes
         told: dict[str, Any] = {
             "outcome": _NAMES[outcomes],
@@ -230,8 +230,8 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
             info[key], info[f"_{key}"] = values, lanes.copy()
         return info
 
-    def _final(self, batch: Batch, ended: Chosen) -> dict[str, Any]:
-        """What the ended lanes have come to, in Gymnasium's form."""
+    def _final(self, batch: Batch, ended: LaneMask) -> dict[str, Any]:
+        """Returns the last observations and infos of the ended lanes, in Gymnasium's form."""
         last = np.full(self.num_envs, None, object)
         seen = self._observations(batch)
         for lane in np.flatnonzero(ended):
@@ -245,7 +245,7 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
         }
 
     def _run(self, batch: Batch, lane: int) -> SimState:
-        """One lane as a run, with what its picture shows."""
+        """Returns the state of one lane, as far as its picture shows it."""
         totals = batch.totals()
         counted = Metrics(
             successes=int(totals.successes[lane]),
@@ -255,6 +255,6 @@ class RoadVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
         return SimState(batch.configs[lane], batch.world(lane)).with_ego(metrics=counted)
 
 
-def _of_each(seed: object) -> bool:
-    """Whether these are seeds, one for each lane, and not one for all."""
+def _is_per_lane(seed: object) -> bool:
+    """Whether `seed` holds one seed per lane rather than one for all."""
     return isinstance(seed, Iterable) and not isinstance(seed, str | bytes)

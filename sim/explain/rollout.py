@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final
 
-from sim.episode_record import Sake, sake
+from sim.episode_record import Sake, detour_reason
 from sim.plan import Decision, traits_of
 from sim.state import FIRST, SimState, StepResult
 from sim.transition import step
@@ -179,7 +179,7 @@ def find_detour(before: SimState, tick: StepResult) -> list[Detour]:
     if decision is None or decision.move is Move.FORWARD:
         return []
     by_person, faulty = decision.asked is not None, decision.fault is not None
-    whose, ids = sake(before.world, tick.state.world, by_person=by_person, faulty=faulty)
+    whose, ids = detour_reason(before.world, tick.state.world, by_person=by_person, faulty=faulty)
     return [Detour(decision.tick, decision.move, whose, ids)]
 
 

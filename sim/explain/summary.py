@@ -136,7 +136,7 @@ def _open_until(state: SimState, course: EpisodeRecord) -> int | None:
     world = _at_first(state, course).world
     road, limit = world.road, steps_left(state.config, 0)
     forecast = Forecast.of_truth(world, state.config, limit)
-    cells = _cells(world.av, course.made(), state.config.ego_dynamics(road))
+    cells = _cells(world.av, course.move_list(), state.config.ego_dynamics(road))
     goal = road.row(0)
     reaching = goal
     for tick in range(limit - 1, -1, -1):
@@ -153,7 +153,7 @@ def _open_until_reacting(state: SimState, course: EpisodeRecord) -> int | None:
     Raises `ImpatientError`.
     """
     worlds = [_at_first(state, course).world]
-    for move in course.made():
+    for move in course.move_list():
         worlds.append(next_world(worlds[-1], moves_with(worlds[-1], move), state.config, state.parked))
     worlds.pop()  # nothing was decided in it
     first_closed = bisect_left(

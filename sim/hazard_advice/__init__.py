@@ -1,10 +1,10 @@
-"""What to do about a hazard ahead: brake, steer or keep, and how sure that is.
+"""Advice about a hazard ahead: brake, steer or keep on, with the chance of coming away unharmed.
 
-The motion is the textbook's (`physics`); what nobody knows exactly (reaction, grip, the distance itself)
-is drawn from published distributions (`parameters`), always the same draws (`samples`); an option's
-chance is the share of draws in which it comes away unharmed (`chances`), and the best chance is advised
-(`advise`). Left out: movement of the hazard, traffic behind and beside, slopes, the build-up of brake
-pressure, and braking while steering. Words come elsewhere.
+`physics` has the textbook formulas. Uncertain quantities (reaction time, friction, the distance itself)
+follow published distributions (`parameters`) and are sampled once (`samples`). The chance of a choice is the
+share of samples without harm (`chances`); the choice with the best chance is advised (`advise`). Not
+modelled: motion of the hazard, traffic behind and beside, slopes, the build-up of brake pressure, and braking
+while steering. Sentences are made elsewhere.
 """
 
 from sim.hazard_advice.advise import advise

@@ -1,4 +1,4 @@
-"""The advice: of all choices the one with the best chance, and among equals the gentlest."""
+"""Chooses the advice: the choice with the best chance; among equal chances the gentlest."""
 
 from __future__ import annotations
 
@@ -12,13 +12,16 @@ from sim.hazard_advice.samples import SAMPLES
 from sim.types import Kind
 
 EVEN_CHANCE: Final = 0.05
-"""Chances that differ by less are as good as each other: what is beside and behind is not known."""
+"""Chances that differ by less count as equal, since traffic beside and behind is not known."""
 EVEN_HARM_KMH: Final = 2.0
-"""Harm is even, too, if on average it is done at so little more speed."""
+"""Choices whose mean speed of harm (km/h) differs by no more count as equally harmful."""
 
 
 def advise(hazard: Kind, distance_m: float, speed_kmh: float, weather: Weather = "clear") -> Advice:
-    """What to do about a hazard straight ahead. Raises `NoAdviceError` where nothing can be said."""
+    """Advises about a hazard straight ahead, `distance_m` metres away, at `speed_kmh` km/h.
+
+    Raises `NoAdviceError` for a distance or speed out of range (`DISTANCES_M`, `SPEEDS_KMH`).
+    """
     for field, value, (low, high), code in (
         ("distance_m", distance_m, DISTANCES_M, "distance_out_of_range"),
         ("speed_kmh", speed_kmh, SPEEDS_KMH, "speed_out_of_range"),
@@ -40,7 +43,7 @@ def advise(hazard: Kind, distance_m: float, speed_kmh: float, weather: Weather =
 
 
 def _best(hazard: Kind, found: tuple[Prospect, ...]) -> Prospect:
-    """The best chance; then the least speed at which harm is done; then the least effort."""
+    """Orders by the best chance, then the least speed of harm, then the least effort."""
     open_ = [each for each in found if each.choice is not Choice.KEEP or hazard is Kind.POTHOLE]
     most = max(each.chance for each in open_)
     even = [each for each in open_ if each.chance > most - EVEN_CHANCE]

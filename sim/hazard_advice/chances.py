@@ -1,7 +1,7 @@
-"""The chance of each choice: the share of samples in which it comes away unharmed.
+"""Computes the chance of each choice: the share of samples without harm.
 
-*Unharmed* is the same for every choice: the hazard is never reached, or is met no faster than it does harm.
-Only a pothole can be met so; anything else does harm at any speed.
+*Unharmed* means the same for every choice: the hazard is not reached, or it is met at a speed that does no
+harm. Only a pothole can be met without harm; any other hazard does harm at any speed.
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ from sim.hazard_advice.parameters import (
 from sim.types import Kind
 
 _Z = 1.96
-"""A standard normal is between ±1.96 in 95 % of cases."""
+"""Standard errors on either side of a 95 % interval."""
 
 
 def figures(hazard: Kind, distance_m: float, speed_kmh: float, weather: Weather) -> Figures:
-    """The physics, with every quantity in the middle of its range."""
+    """Computes the figures with every quantity at its median or mean."""
     speed, reaction, friction = speed_kmh / 3.6, REACTION.middle, FRICTION[weather].middle
     lateral = float(physics.lateral_acceleration(speed, friction, LATERAL.middle))
     offset = _offset(hazard, width_of(hazard).middle)
@@ -60,7 +60,7 @@ def figures(hazard: Kind, distance_m: float, speed_kmh: float, weather: Weather)
 def prospects(
     hazard: Kind, distance_m: float, speed_kmh: float, weather: Weather, middle: Figures
 ) -> tuple[Prospect, ...]:
-    """What each choice leads to, in the order of `Choice`; `middle` is what `figures` found."""
+    """Computes the outcome of each choice, in the order of `Choice`; `middle` is the result of `figures`."""
     speed = middle.speed_ms * samples.speed_ratio()
     distance = distance_m * samples.distance_ratio(weather)
     reaction, friction = samples.reaction(), samples.friction(weather)
@@ -101,16 +101,16 @@ def prospects(
 
 
 def interval(share: float, count: int) -> tuple[float, float]:
-    """Where a share lies with 95 % (Wilson, 1927): honest also at 0 and 1."""
+    """Computes the 95 % confidence interval of a share (Wilson, 1927), which holds at 0 and 1 as well."""
     square = _Z * _Z / count
     middle = (share + square / 2) / (1 + square)
     half = _Z * sqrt(share * (1 - share) / count + square / (4 * count)) / (1 + square)
-    # At 0 and 1 the bound is the share itself, but for the last digit of a float.
+    # At 0 and 1 the bound equals the share; rounding must not move it beyond.
     return max(0.0, min(share, middle - half)), min(1.0, max(share, middle + half))
 
 
 def _offset(hazard: Kind, width: physics.Number) -> physics.Number:
-    """How far aside the car must be: what is to pass was heading for the hazard's middle."""
+    """Computes the sideways distance (m) that clears the hazard, if the car heads for its middle."""
     return (clearing_of(hazard) + width) / 2 + MARGIN_M
 
 

@@ -1,4 +1,4 @@
-"""What advice consists of: the choice, what each choice leads to, and the figures behind it."""
+"""The parts of an advice: the choice, the outcome of each choice, and the figures behind it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from sim.types import Kind
 
 
 class Choice(StrEnum):
-    """What can be done, the least effort first."""
+    """The choices, the one of least effort first."""
 
     KEEP = "keep"
     BRAKE = "brake"
@@ -20,40 +20,40 @@ class Choice(StrEnum):
 
 
 class Ending(StrEnum):
-    """What a choice leads to when everything is in the middle of its range."""
+    """The outcome of a choice with every quantity at its median or mean."""
 
     STOPS = "stops"
     CLEARS = "clears"
     CROSSES = "crosses"
-    """over the hazard, too slowly to be harmed"""
+    """drives over the hazard, too slowly for harm"""
     HITS = "hits"
 
 
 @dataclass(frozen=True, slots=True)
 class Prospect:
-    """What one choice leads to."""
+    """The outcome of one choice."""
 
     choice: Choice
     chance: float
-    """the share of samples that come away unharmed: never at the hazard, or too slow there for harm"""
+    """share of samples without harm: the hazard is not reached, or met too slowly for harm"""
     interval: tuple[float, float]
-    """95 % interval of that chance, for the number of samples"""
+    """95 % confidence interval of `chance`, for the number of samples"""
     ending: Ending
     needs_m: float
-    """the distance in which it avoids the hazard; 0 for keeping on"""
+    """distance (m) that this choice needs to avoid the hazard; 0 for keeping on"""
     meets_kmh: float
-    """speed at the hazard, 0 where it is not reached"""
+    """speed (km/h) at the hazard; 0 if it is not reached"""
     harm_kmh: float
-    """mean over the samples of the speed at which harm is done, 0 where none is"""
+    """mean over the samples of the speed (km/h) at which harm is done; 0 in samples without harm"""
 
 
 @dataclass(frozen=True, slots=True)
 class Figures:
-    """The physics, with every quantity in the middle of its range."""
+    """The physics with every quantity at its median or mean. Units: s, m, m/s, m/s²; `_kmh` km/h."""
 
     speed_ms: float
     time_s: float
-    """until the hazard is reached if nothing is done"""
+    """time until the hazard is reached if nothing is done"""
     reaction_s: float
     friction: float
     deceleration_ms2: float
@@ -61,20 +61,20 @@ class Figures:
     braking_m: float
     stopping_m: float
     stopping_most_m: float
-    """enough to stop in 95 % of the samples"""
+    """stopping distance at the 95th percentile of the samples"""
     offset_m: float
-    """how far to move aside"""
+    """sideways distance that clears the hazard"""
     lateral_ms2: float
     steering_s: float
     steering_m: float
-    """reaction included"""
+    """distance needed to steer clear, reaction included"""
     unharmed_kmh: float
-    """up to this speed the hazard can be driven over"""
+    """highest speed at which the hazard does no harm"""
 
 
 @dataclass(frozen=True, slots=True)
 class Advice:
-    """What to do, and why."""
+    """What to do about a hazard, and why."""
 
     hazard: Kind
     distance_m: float
@@ -82,27 +82,27 @@ class Advice:
     weather: Weather
     choice: Choice
     prospects: tuple[Prospect, ...]
-    """one for each choice, in the order of `Choice`"""
+    """one per choice, in the order of `Choice`"""
     figures: Figures
     samples: int
 
     @property
     def chosen(self) -> Prospect:
-        """What the advised choice leads to."""
+        """The outcome of the advised choice."""
         return self.prospect(self.choice)
 
     @property
     def confidence(self) -> float:
-        """The chance of coming away unharmed by doing as advised."""
+        """The chance of no harm if the advice is followed."""
         return self.chosen.chance
 
     def prospect(self, choice: Choice) -> Prospect:
-        """What a choice leads to."""
+        """The outcome of a choice."""
         return next(prospect for prospect in self.prospects if prospect.choice is choice)
 
 
 class NoAdviceError(ValueError):
-    """A question about no hazard at all, as a code and facts (`sim.codes.ADVICE`); `field` is the trouble."""
+    """The question has a value out of range, as a code and facts (`sim.codes.ADVICE`); `field` names it."""
 
     def __init__(self, code: str, field: str, **facts: float) -> None:
         check_facts(code, facts, ADVICE.get(code))

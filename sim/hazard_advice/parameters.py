@@ -1,7 +1,7 @@
-"""Every number that advice rests on: its middle, its spread, its unit and where it is from.
+"""The parameters of the advice: middle, spread, unit and source of each.
 
-A *lognormal* quantity has its median and the standard deviation of its logarithm; a *normal* one its mean
-and standard deviation; a *fixed* one no spread. What no source gives is marked "assumed".
+A *lognormal* quantity has its median and the standard deviation of its logarithm, a *normal* one its mean
+and standard deviation, a *fixed* one no spread. A value without a source is marked "assumed".
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ GRAVITY: Final = 9.81
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """One uncertain number."""
+    """One uncertain quantity."""
 
     name: str
     law: Literal["lognormal", "normal", "fixed"]
@@ -103,7 +103,7 @@ LATERAL: Final = Quantity(
     "50 mph: 0.44 g in the mean, 0.14 g standard deviation; over a dry friction of 0.70.",
 )
 LATERAL_RANGE: Final = (0.10, 1.0)
-"""No driver uses more than there is; one who steers less than this does not steer."""
+"""The share is clipped to this range: nobody uses more than all the friction, and less is no steering."""
 TURNING_RADIUS: Final = Quantity(
     "least turning radius", "fixed", 5.5, 0.0, "m", "assumed: a car's turning circle of 11 m."
 )
@@ -128,9 +128,9 @@ CLEARING: Final[dict[Kind, float]] = {
     Kind.VEHICLE: 1.8,
     Kind.AV: 1.8,
 }
-"""Metres: the width of what must pass beside the hazard, a tyre beside a hole, else the car."""
+"""Width (m) of what passes beside the hazard: a tyre beside a pothole, otherwise the car."""
 MARGIN_M: Final = 0.3
-"""Room left beside the hazard (assumed)."""
+"""Room (m) left beside the hazard (assumed)."""
 HARM: Final = Quantity(
     "speed up to which a pothole does no harm",
     "lognormal",
@@ -144,7 +144,7 @@ HARM: Final = Quantity(
 
 SPEEDS_KMH: Final = (1.0, 300.0)
 DISTANCES_M: Final = (0.1, 1000.0)
-"""What can be asked about: beyond, there is either nothing to do or no road car."""
+"""Range of questions. Beyond it there is nothing to do, or the vehicle is no road car."""
 
 
 def width_of(hazard: Kind) -> Quantity:
@@ -158,7 +158,7 @@ def clearing_of(hazard: Kind) -> float:
 
 
 def parameters(hazard: Kind, weather: Weather) -> tuple[Quantity, ...]:
-    """The quantities that advice about a hazard rests on."""
+    """Lists the quantities used for a hazard in this weather."""
     always = (
         REACTION,
         FRICTION[weather],

@@ -1,7 +1,7 @@
-"""The draws: one fixed table for all questions.
+"""Samples of the uncertain quantities: one fixed table for all questions.
 
-Every question is asked of the same drivers on the same roads, so that the same question has the same
-answer, and a metre more never lowers a chance by the luck of the draw.
+Common random numbers: all questions use the same samples. So the same question has the same answer, and
+sampling noise never lowers a chance when the distance grows by a metre.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from sim.types import Kind
 Column = NDArray[np.float64]
 
 SAMPLES: Final = 40_000
-"""The standard error of a share is at most 0.25 %."""
+"""Number of samples; the standard error of a share is at most 0.25 %."""
 SEED: Final = 0
 
 _PURPOSES: Final = ("reaction", "friction", "distance", "speed", "lateral", "width", "harm")
@@ -39,63 +39,63 @@ _PURPOSES: Final = ("reaction", "friction", "distance", "speed", "lateral", "wid
 
 @lru_cache(maxsize=1)
 def reaction() -> Column:
-    """Seconds."""
-    return _drawn(REACTION, "reaction")
+    """Reaction times in seconds (shape: `SAMPLES`, as everywhere here)."""
+    return _draw_column(REACTION, "reaction")
 
 
 @lru_cache(maxsize=len(FRICTION))
 def friction(weather: Weather) -> Column:
     """Friction coefficients."""
-    return _drawn(FRICTION[weather], "friction")
+    return _draw_column(FRICTION[weather], "friction")
 
 
 @lru_cache(maxsize=len(DISTANCE))
 def distance_ratio(weather: Weather) -> Column:
-    """True distance over the one told."""
-    return _drawn(DISTANCE[weather], "distance")
+    """Ratios of the true distance to the stated one."""
+    return _draw_column(DISTANCE[weather], "distance")
 
 
 @lru_cache(maxsize=1)
 def speed_ratio() -> Column:
-    """True speed over the one told."""
-    return _drawn(SPEED, "speed")
+    """Ratios of the true speed to the stated one."""
+    return _draw_column(SPEED, "speed")
 
 
 @lru_cache(maxsize=1)
 def lateral_share() -> Column:
-    """Share of the friction used in steering."""
-    return np.clip(_drawn(LATERAL, "lateral"), *LATERAL_RANGE)
+    """Shares of the friction used in steering."""
+    return np.clip(_draw_column(LATERAL, "lateral"), *LATERAL_RANGE)
 
 
 @lru_cache(maxsize=len(WIDTH))
 def width(hazard: Kind) -> Column:
-    """Metres."""
-    return _drawn(width_of(hazard), "width")
+    """Widths of the hazard in metres."""
+    return _draw_column(width_of(hazard), "width")
 
 
 @lru_cache(maxsize=1)
 def pothole_harm() -> Column:
-    """Metres per second up to which a pothole does no harm."""
-    return _drawn(HARM, "harm") / 3.6
+    """Highest speeds (m/s) at which a pothole does no harm."""
+    return _draw_column(HARM, "harm") / 3.6
 
 
-def _drawn(quantity: Quantity, purpose: str) -> Column:
+def _draw_column(quantity: Quantity, purpose: str) -> Column:
     noise = quantity.spread * _normals(_PURPOSES.index(purpose))
     lognormal = quantity.law == "lognormal"
     drawn: Column = quantity.middle * np.exp(noise) if lognormal else quantity.middle + noise
-    drawn.setflags(write=False)  # shared by all questions
+    drawn.setflags(write=False)  # cached and shared by all questions
     return drawn
 
 
 def _normals(column: int) -> Column:
-    """Standard normal draws (Box & Muller, 1958)."""
+    """Draws from a standard normal distribution (Box & Muller, 1958)."""
     first, second = (_uniforms(column, half) for half in (0, 1))
     normals: Column = np.sqrt(-2 * np.log1p(-first)) * np.cos(2 * np.pi * second)
     return normals
 
 
 def _uniforms(column: int, half: int) -> Column:
-    """Numbers in [0, 1): the project's random words, of which an array can be had at once."""
+    """Draws from [0, 1), by the project's random streams on a whole array."""
     index: Any = np.arange(SAMPLES, dtype=np.uint64)
     drawn: Any = fraction(word_at(Stream.of(SEED, "advice", column, half).key, index))
     uniforms: Column = drawn

@@ -1,13 +1,12 @@
-"""Anybody's planner, put through its paces: every promise a planner makes, tried on many roads.
+"""Conformance check of a planner: tries every promise of a planner on many roads and lists all defects.
 
-What is checked: its answers are legal decisions, in time; what it says of each move's cell is what the
-forecast says, and the name on it is its own; it does not drive into what it knows while something is free;
-the same question has the same answer, at once, after other questions and in another process; it changes
-nothing it is given; it reads no further than the horizon it asked for. All defects are listed, not the first.
-It is given a forecast of a percept and nothing else, so that there is no world for it to look at.
+Checked: answers are legal decisions, in time; verdicts on moves agree with the forecast, and the name is the
+planner's own; it does not drive into known things while another move is free; the same question has the same
+answer, at once, after other questions and in another process; it changes nothing it is given; it reads no
+further than its horizon. It receives a forecast of a percept and never a world.
 
-A planner of another package runs in a process of its own, as it does in a session (`worker`); what is true is
-found out here, where it has no say.
+A planner of another package runs in its own process, as in a session (`worker`). The comparison runs here,
+where the planner cannot interfere.
 """
 
 from __future__ import annotations
@@ -33,10 +32,10 @@ from sim.plan.sandbox.answer import (
     answer_of,
     decision_of,
     fault_of,
-    loaded,
-    quoted,
+    load_json,
+    quote,
 )
-from sim.plan.sandbox.codec import asked, question
+from sim.plan.sandbox.codec import parse_question, question
 from sim.planner_names import installed, refused
 from sim.state import SimState
 from sim.transition import step
@@ -44,9 +43,9 @@ from sim.types import Move, Outcome
 
 MAX_TOLD = 20
 GIVE_UP: Final = 3
-"""After so many questions in a row without an answer no more are asked."""
+"""The check stops after this many questions in a row without an answer."""
 ASKED_ANEW: Final = 5
-"""Questions that another process is asked."""
+"""Number of questions that are repeated in another process."""
 
 _LEGAL = frozenset(
     ("no-decision", "no-move", "elsewhere", "off-road", "no-verdicts", "no-number", "not-finite", "too-large")
@@ -56,16 +55,16 @@ _GRAVE = frozenset(
 )
 
 Witness = tuple[Answer, dict[str, Any]]
-"""An answer, and what the decision claims beside it."""
+"""An answer, and what the decision claims besides it."""
 Ask = Callable[[Percept, Config], Witness]
-"""Asks a planner. Raises `FaultError`, and `TimeoutError` where it does not answer in time."""
+"""Asks a planner. Raises `FaultError`, and `TimeoutError` if there is no answer in time."""
 Tell = Callable[[str], None]
-"""Told what is being done now."""
+"""Receives progress messages."""
 
 
 @dataclass(frozen=True, slots=True)
 class Defect:
-    """A promise that was not kept, and where."""
+    """A broken promise, and where it was broken."""
 
     promise: str
     """`legal`, `honest`, `itself`, `careful`, `deterministic`, `harmless`, `bounded`, `prompt`, `answers`"""
@@ -76,17 +75,17 @@ class Defect:
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """What was tried and found."""
+    """The result of a check."""
 
     planner: str
     decisions: int
     defects: tuple[Defect, ...]
     untried: str | None = None
-    """why nothing, or not all, was tried"""
+    """why nothing, or not everything, was checked"""
 
 
 def moments(roads: int = 20, ticks: int = 12) -> Iterator[SimState]:
-    """Moments on roads of several sizes and densities, driven by the default planner."""
+    """Yields states on roads of several sizes and densities, driven by the default planner."""
     for seed in range(roads):
         columns, rows = ((8, 30), (3, 12), (12, 20), (5, 8))[seed % 4]
         config = Config(
@@ -106,20 +105,20 @@ def moments(roads: int = 20, ticks: int = 12) -> Iterator[SimState]:
 
 
 def check(planner: Planner, runs: Iterable[SimState] | None = None, tell: Tell | None = None) -> Report:
-    """Try a planner on many moments. It is called in this process: hanging is for `check_apart`."""
-    trial = _Trial(planner.name, _in_here(planner), tell=tell)
-    trial.tried(moments() if runs is None else runs)
+    """Checks a planner in this process; use `check_apart` for one that may hang."""
+    trial = _Trial(planner.name, _ask_in_process(planner), tell=tell)
+    trial.run(moments() if runs is None else runs)
     return trial.report()
 
 
 def check_apart(
     name: str, seconds: float = 60.0, runs: Iterable[SimState] | None = None, tell: Tell | None = None
 ) -> Report:
-    """Try the installed planner of that name in a process of its own, for so long at most.
+    """Checks the installed planner of that name in a process of its own, for at most `seconds`.
 
-    Whatever it does, this ends, with what was found.
+    Always ends and returns a report, whatever the planner does.
     """
-    from sim.plan.sandbox.worker import SilentError, Worker
+    from sim.plan.sandbox.worker import NoAnswerError, Worker
 
     until = time.monotonic() + seconds
     worker = Worker(name, installed()[name].value, memory=None)
@@ -127,26 +126,26 @@ def check_apart(
     def ask(percept: Percept, config: Config) -> Witness:
         try:
             return worker.ask_in_full(percept, config).result(max(0.0, until - time.monotonic()))
-        except SilentError as silence:
+        except NoAnswerError as silence:
             raise TimeoutError(str(silence)) from silence
 
     trial = _Trial(name, ask, until, tell)
     try:
-        if trial.tried(moments() if runs is None else runs):
+        if trial.run(moments() if runs is None else runs):
             worker.stop()
-            trial.asked_anew()
+            trial.ask_new_process()
     finally:
         worker.stop()
     return trial.report()
 
 
-def found(name: str) -> Planner | None:
-    """The planner of this program that has that name."""
+def find_planner(name: str) -> Planner | None:
+    """Finds a planner of this program by name; None for planners of other packages."""
     return planner_named(name)
 
 
-def claimed(name: str) -> list[Defect]:
-    """What is wrong with the name itself: other packages that would have it, or a name that none may have."""
+def name_conflicts(name: str) -> list[Defect]:
+    """Lists defects of the name: other packages that claim it, or a reserved or invalid name."""
     return [
         Defect("itself", 0, 0, f"{where} asks for the name {other}, and is not used: {why}")
         for other, where, why in refused()
@@ -156,7 +155,7 @@ def claimed(name: str) -> list[Defect]:
 
 @dataclass
 class _Trial:
-    """One planner being tried."""
+    """The check of one planner, in progress."""
 
     name: str
     ask: Ask
@@ -168,101 +167,103 @@ class _Trial:
     unanswered: int = 0
     untried: str | None = None
 
-    def tried(self, runs: Iterable[SimState]) -> bool:
-        """Try all moments, then ask again what was asked; whether it came to an end."""
+    def run(self, runs: Iterable[SimState]) -> bool:
+        """Checks all states, then repeats all questions; returns whether it was completed."""
         for state in runs:
-            if self._over():
+            if self._is_over():
                 return False
-            self._say(f"road {state.config.seed + 1}, tick {state.world.tick}")
-            self._moment(sense(state)[0], state.config)
+            self._report_progress(f"road {state.config.seed + 1}, tick {state.world.tick}")
+            self._check_moment(sense(state)[0], state.config)
         for number, (percept, config, before) in enumerate(reversed(self.answers), start=1):
-            if self._over():
+            if self._is_over():
                 return False
-            self._say(f"asking again, {number} of {len(self.answers)}")
-            self._again(percept, config, before, "after others")
+            self._report_progress(f"asking again, {number} of {len(self.answers)}")
+            self._ask_again(percept, config, before, "after others")
         return True
 
-    def asked_anew(self) -> None:
-        """Ask some of it again, of what is another process by now."""
+    def ask_new_process(self) -> None:
+        """Repeats some questions in another process."""
         for percept, config, before in self.answers[:ASKED_ANEW]:
-            if self._over():
+            if self._is_over():
                 return
-            self._say("asking another process")
-            self._again(percept, config, before, "by another process")
+            self._report_progress("asking another process")
+            self._ask_again(percept, config, before, "by another process")
 
     def report(self) -> Report:
-        """What was found."""
+        """Returns the report."""
         return Report(self.name, self.decisions, tuple(self.defects), self.untried)
 
-    def _over(self) -> bool:
+    def _is_over(self) -> bool:
         if self.untried is None and time.monotonic() >= self.until:
             self.untried = "the time is over"
         if self.untried is None and self.unanswered >= GIVE_UP:
             self.untried = f"it gave no answer {GIVE_UP} times in a row"
         return self.untried is not None
 
-    def _say(self, doing: str) -> None:
+    def _report_progress(self, doing: str) -> None:
         if self.tell is not None:
             self.tell(f"{doing}: {self.decisions} decisions, {len(self.defects)} defects")
 
-    def _moment(self, percept: Percept, config: Config) -> None:
+    def _check_moment(self, percept: Percept, config: Config) -> None:
         self.decisions += 1
-        witness = self._asked(percept, config)
+        witness = self._ask(percept, config)
         if witness is None:
             return
         answer, claims = witness
         try:
             decision = decision_of(answer, percept, config)
         except FaultError as fault:
-            self._note("legal", percept, config, str(fault))
+            self._add_defect("legal", percept, config, str(fault))
             return
-        for promise, what in _untrue(self.name, claims, percept):
-            self._note(promise, percept, config, what)
+        for promise, what in _false_claims(self.name, claims, percept):
+            self._add_defect(promise, percept, config, what)
         if decision.chosen.reason.blocks and any(not option.reason.blocks for option in decision.options):
             what = f"{answer.move} is known to be blocked while another move is free"
-            self._note("careful", percept, config, what)
+            self._add_defect("careful", percept, config, what)
         if claims.get("changed") is not False:
-            self._note("harmless", percept, config, "what it was given was changed")
-        self._again(percept, config, witness, "at once")
+            self._add_defect("harmless", percept, config, "what it was given was changed")
+        self._ask_again(percept, config, witness, "at once")
         self.answers.append((percept, config, witness))
 
-    def _again(self, percept: Percept, config: Config, before: Witness, when: str) -> None:
-        witness = self._asked(percept, config)
+    def _ask_again(self, percept: Percept, config: Config, before: Witness, when: str) -> None:
+        witness = self._ask(percept, config)
         if witness is not None and witness != before:
             what = f"the same question was answered differently {when}"
-            self._note("deterministic", percept, config, what)
+            self._add_defect("deterministic", percept, config, what)
 
-    def _asked(self, percept: Percept, config: Config) -> Witness | None:
+    def _ask(self, percept: Percept, config: Config) -> Witness | None:
         try:
             witness = self.ask(percept, config)
         except TimeoutError as late:
             if time.monotonic() < self.until:
                 self.unanswered += 1
-                self._note("prompt", percept, config, str(late))
+                self._add_defect("prompt", percept, config, str(late))
             return None
         except FaultError as fault:
             code = fault.code if isinstance(fault, CodedError) else ""
             self.unanswered = self.unanswered + 1 if code in _GRAVE else 0
             promise = "bounded" if code == "too-far" else "legal" if code in _LEGAL else "answers"
-            self._note(promise, percept, config, f"{fault}: {fault.detail}" if fault.detail else str(fault))
+            self._add_defect(
+                promise, percept, config, f"{fault}: {fault.detail}" if fault.detail else str(fault)
+            )
             if code == "unloadable":
                 self.untried = "it could not be loaded"
             return None
         self.unanswered = 0
         return witness
 
-    def _note(self, promise: str, percept: Percept, config: Config, what: str) -> None:
+    def _add_defect(self, promise: str, percept: Percept, config: Config, what: str) -> None:
         self.defects.append(Defect(promise, config.seed, percept.tick, what))
 
 
-def _in_here(planner: Planner) -> Ask:
-    """Asks as its own process would, without one."""
-    from sim.plan.sandbox.worker_main import fault_met, witnessed
+def _ask_in_process(planner: Planner) -> Ask:
+    """Returns a function that asks a planner in this process, through the same codec."""
+    from sim.plan.sandbox.worker_main import answer_with_claims, run_or_fault
 
     def ask(percept: Percept, config: Config) -> Witness:
-        shown, its_config = asked(question(percept, config))  # its own, to do with as it likes
-        values = fault_met(lambda: witnessed(planner, shown, its_config))
-        values = loaded(json.dumps(values).encode())
+        shown, its_config = parse_question(question(percept, config))  # copies that it may change
+        values = run_or_fault(lambda: answer_with_claims(planner, shown, its_config))
+        values = load_json(json.dumps(values).encode())
         if values.get("fault") in FAULTS:
             raise fault_of(values)
         return answer_of(values["answer"]), values
@@ -270,14 +271,14 @@ def _in_here(planner: Planner) -> Ask:
     return ask
 
 
-def _untrue(name: str, witness: dict[str, Any], percept: Percept) -> Iterator[tuple[str, str]]:
-    """What a decision says that is not so, each with the promise it breaks."""
+def _false_claims(name: str, witness: dict[str, Any], percept: Percept) -> Iterator[tuple[str, str]]:
+    """Yields each false claim of a decision, as (broken promise, description)."""
     claims = witness.get("claims")
     if not isinstance(claims, dict) or not isinstance(claims.get("options"), dict):
         yield "honest", "what its decision says cannot be read"
         return
     for key, who in (("name", "it calls itself"), ("planner", "its decision says that it is by")):
-        if claims.get(key) != quoted(name):
+        if claims.get(key) != quote(name):
             yield "itself", f"{who} {_short(claims.get(key))}, and not {name}"
     forecast = predict(percept, 1)
     for move in Move:
@@ -288,7 +289,7 @@ def _untrue(name: str, witness: dict[str, Any], percept: Percept) -> Iterator[tu
         if not isinstance(said, list) or len(said) != 4:
             yield "honest", f"what it says of {move} cannot be read"
             continue
-        so = [quoted(reason.value), quoted(cell), quoted(tuple(sorted(causes)))]
+        so = [quote(reason.value), quote(cell), quote(tuple(sorted(causes)))]
         for what, claim, truth in zip(("", "to lead to ", "to be blocked by "), said, so, strict=False):
             if claim != truth:
                 yield (

@@ -19,7 +19,7 @@ next thing that never moves, as if it were alone. A way that a mover keeps close
 STUCK. Left comes before right only among equals.
 Source: the order of the pygame study this project grew from (`priority`), changed where that runs into
 livelocks and dead ends. A diagonal that leads on comes before a step aside because it gains a row: fewer
-vehicles get stuck (measured, see `sim/README.md`).
+vehicles get stuck (measured, see `bench/PLANNERS.md`).
 """
 
 from __future__ import annotations

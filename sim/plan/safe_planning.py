@@ -41,19 +41,19 @@ def plan_safely(percept: Percept, config: Config) -> tuple[Forecast, Decision]:
     if planner is not None:
         forecast = predict(percept, planner.horizon(config))
         return forecast, planner.decide(forecast, config)
-    from sim.plan.sandbox.client import answered
+    from sim.plan.sandbox.client import wait_for_answer
 
-    return predict(percept, 1), plan_answered(lambda: answered(percept, config), percept, config)
+    return predict(percept, 1), plan_answered(lambda: wait_for_answer(percept, config), percept, config)
 
 
 def plan_answered(answered: Callable[[], Answer], percept: Percept, config: Config) -> Decision:
     """What an answer of another package's planner comes to, or that there is none."""
     from sim.plan.sandbox.answer import FaultError, decision_of
-    from sim.plan.sandbox.worker import SilentError
+    from sim.plan.sandbox.worker import NoAnswerError
 
     try:
         return decision_of(answered(), percept, config)
-    except SilentError as silence:
+    except NoAnswerError as silence:
         return hold_position(percept, config, str(silence), timed_out=True)
     except FaultError as fault:
         return hold_position(percept, config, str(fault))
@@ -72,9 +72,9 @@ def hold_position(
 def recorded_decision(percept: Percept, config: Config, move: Move) -> Decision:
     """What a planner of another package once decided: its move, and the costs if they are remembered."""
     from sim.plan.sandbox.answer import Answer, decision_of
-    from sim.plan.sandbox.client import remembered
+    from sim.plan.sandbox.client import cached_answer
 
-    found = remembered(percept, config)
+    found = cached_answer(percept, config)
     if isinstance(found, Answer) and found.move is move:
         return decision_of(found, percept, config)
     options = (replace(option, cost=None) for option in options_in_order(predict(percept, 1)))
@@ -85,9 +85,9 @@ def recorded_decision(percept: Percept, config: Config, move: Move) -> Decision:
 def failed_decision(percept: Percept, config: Config) -> Decision:
     """What was done when a planner of another package once failed: the vehicle stayed."""
     from sim.plan.sandbox.answer import Answer, FaultError, decision_of
-    from sim.plan.sandbox.client import remembered
+    from sim.plan.sandbox.client import cached_answer
 
-    found = remembered(percept, config)
+    found = cached_answer(percept, config)
     if isinstance(found, Answer):
         try:
             decision_of(found, percept, config)

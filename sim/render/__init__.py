@@ -1,7 +1,7 @@
-"""Pictures of a world, with pygame: the only place that imports it. No window is needed.
+"""Draws pictures of a world with pygame. Only this package imports pygame, and no window is needed.
 
-`render` draws, `encode` makes bytes of it. Drawing knows the world and nothing of where its
-pictures go. Importing this package does not import pygame; drawing does.
+`render` draws a picture, `encode` turns it into a file's bytes. Drawing knows nothing of where pictures go.
+Importing this package does not import pygame; drawing does.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 from os import environ
 from typing import TYPE_CHECKING
 
-from sim.render.motion import STEP_FRAMES, eased
+from sim.render.motion import STEP_FRAMES, smoothstep
 from sim.render.theme import MAX_SIDE_PX
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 VIEWS = ("road", "schematic")
 FORMATS = ("png", "jpeg", "webp")
 MIN_SIDE_PX = 64
-"""The least room for a picture."""
+"""Shortest side of a picture, in pixels."""
 
 __all__ = [
     "FORMATS",
@@ -32,10 +32,10 @@ __all__ = [
     "MIN_SIDE_PX",
     "STEP_FRAMES",
     "VIEWS",
-    "eased",
     "encode",
     "pixels",
     "render",
+    "smoothstep",
 ]
 
 
@@ -48,12 +48,11 @@ def render(
     phase: float = 1.0,
     size: tuple[int, int] | None = None,
 ) -> pygame.Surface:
-    """A picture of a run.
+    """Draws a state in one of the `VIEWS`.
 
-    `before` is the world one tick earlier, from which things glide as `phase` goes from 0 to 1;
-    `decision` is what led from it to the present. `size` is the room for it in pixels (the
-    picture keeps its shape within). Raises `ValueError` for a view there is none of and for
-    a size that is too small or too large.
+    `before` is the world one tick earlier: things glide from it to the present as `phase` goes from 0 to 1.
+    `decision` is the decision taken in `before`. `size` is the largest (width, height) in pixels; the picture
+    keeps its aspect ratio. Raises `ValueError` for an unknown view and for a size out of range.
     """
     environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     from sim.render.road_view import draw_road
@@ -69,18 +68,18 @@ def render(
 
 
 def encode(picture: pygame.Surface, form: str = "png") -> bytes:
-    """A picture as the bytes of a file. Raises `ValueError` for a format that is not offered."""
-    from sim.render.files import encoded
+    """Encodes a picture as PNG, JPEG or WebP. Raises `ValueError` for any other format."""
+    from sim.render.files import encode_image
 
     if form not in FORMATS:
         raise ValueError(
             f"pictures can be had as {', '.join(FORMATS[:-1])} and {FORMATS[-1]}, not as {form!r}"
         )
-    return encoded(picture, form)
+    return encode_image(picture, form)
 
 
 def pixels(picture: pygame.Surface) -> NDArray[np.uint8]:
-    """A picture as an array (shape: height, width, 3)."""
+    """Returns a picture as an array of RGB values (shape: height, width, 3)."""
     import numpy as np
     import pygame
 

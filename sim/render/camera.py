@@ -1,4 +1,4 @@
-"""Which rows are on screen, and where a cell is on it."""
+"""The camera: which rows are on screen, and where a cell is drawn."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from sim.config import Config
 from sim.render.theme import CELL_PX, MAX_SIDE_PX
 
 AHEAD_SHARE = 0.7
-"""the vehicle is kept so far down the screen, that more is seen of what is ahead than behind"""
+"""Vertical position of the ego on screen (0 is the top), so that more of the road ahead is seen."""
 
 
 @dataclass(frozen=True, slots=True)
 class Camera:
-    """A window of `rows` rows that begins at row `top` (a fraction while it glides), in pixels."""
+    """A view of `rows` rows from row `top` on (a fraction while it glides); sizes in pixels."""
 
     cell_px: int
     verge_px: int
@@ -27,17 +27,17 @@ class Camera:
         return self.columns * self.cell_px + 2 * self.verge_px, self.rows * self.cell_px
 
     def centre(self, column: float, row: float) -> tuple[int, int]:
-        """The middle of a cell on screen."""
+        """The centre of a cell on screen (x, y), in pixels."""
         x = self.verge_px + (column + 0.5) * self.cell_px
         return round(x), round((row + 0.5 - self.top) * self.cell_px)
 
     def sees(self, row: float) -> bool:
-        """Whether anything of a row is on screen."""
+        """Whether any part of a row is on screen."""
         return self.top - 1.0 < row < self.top + self.rows
 
 
 def camera_on(config: Config, row: float, size: tuple[int, int] | None) -> Camera:
-    """The camera that follows a vehicle in a row, within `size` pixels; it stops at both ends of the road."""
+    """The camera that follows an ego in `row`, within `size` pixels; it stops at both ends of the road."""
     rows = min(config.visible_rows, config.rows)
     width, height = size or (MAX_SIDE_PX, MAX_SIDE_PX)
     fitting = min(int(width / (config.columns + 0.5)), height // rows)

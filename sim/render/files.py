@@ -1,7 +1,6 @@
-"""Pictures as files, in memory.
+"""Encodes pictures as files in memory, with Pillow.
 
-Encoded by Pillow: pygame's own writer of files in memory keeps every file it has written for as long as the
-process lives (2.5.8 and 2.6.1), which is a megabyte a second for one who watches.
+pygame's own in-memory writer leaks every file it writes (2.5.8 and 2.6.1): a megabyte a second per viewer.
 """
 
 from __future__ import annotations
@@ -12,19 +11,19 @@ from typing import Any, Final
 import pygame
 from PIL import Image
 
-_HOW: Final[dict[str, dict[str, Any]]] = {
+_ENCODER_OPTIONS: Final[dict[str, dict[str, Any]]] = {
     "png": {"compress_level": 3},
     "jpeg": {"quality": 85},
     "webp": {"quality": 80, "method": 0},
 }
-"""By format; with as little effort as may be, since a picture of a stream is looked at for 16 ms."""
+"""Encoder options by format; fast rather than small, since a picture of a stream is shown for 16 ms."""
 
 
-def encoded(picture: pygame.Surface, form: str) -> bytes:
-    """The bytes of a PNG, JPEG or WebP file."""
+def encode_image(picture: pygame.Surface, form: str) -> bytes:
+    """Returns the bytes of a PNG, JPEG or WebP file."""
     file = BytesIO()
     pixels = pygame.image.tobytes(picture, "RGB")
     Image.frombuffer("RGB", picture.get_size(), pixels, "raw", "RGB", 0, 1).save(
-        file, form.upper(), **_HOW[form]
+        file, form.upper(), **_ENCODER_OPTIONS[form]
     )
     return file.getvalue()

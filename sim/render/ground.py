@@ -1,6 +1,6 @@
-"""The empty road under everything: verges, asphalt, lines, start and finish.
+"""Draws the empty road: verges, asphalt, lines, start and finish.
 
-A few rows are drawn once for each size and repeated, so that a long road costs no more than a short one.
+A tile of a few rows is drawn once per size and repeated, so a long road costs no more than a short one.
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ TILE_ROWS = 4
 _TILES = 8
 
 
-def lay_ground(picture: pygame.Surface, camera: Camera, rows: int) -> None:
-    """Draw the stretch of a road of `rows` rows that the camera sees."""
+def draw_ground(picture: pygame.Surface, camera: Camera, rows: int) -> None:
+    """Draws the part of a road of `rows` rows that the camera sees."""
     tile = _tile(camera.cell_px, camera.verge_px, camera.columns)
     top = round(camera.top * camera.cell_px)
     for y in range(-(top % tile.get_height()), picture.get_height(), tile.get_height()):
@@ -33,7 +33,7 @@ def lay_ground(picture: pygame.Surface, camera: Camera, rows: int) -> None:
 
 @lru_cache(maxsize=_TILES)
 def _tile(cell_px: int, verge_px: int, columns: int) -> pygame.Surface:
-    """Some rows of road between start and finish, to be laid end to end."""
+    """Draws a tile: some rows of road between start and finish, to be repeated."""
     size = (columns * cell_px + 2 * verge_px, TILE_ROWS * cell_px)
     picture = pygame.Surface(size)
     picture.fill(theme.VERGE)

@@ -1,4 +1,4 @@
-"""Figures over the road, and the verdict when an episode has ended."""
+"""Draws the figures above the road, and the outcome when an episode has ended."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ from functools import lru_cache
 import pygame
 
 from sim.render import theme
-from sim.render.text import width_of, written
+from sim.render.text import render_text, text_width
 from sim.state import SimState
 from sim.types import Outcome
 
 LEAST_PX = 24
 MOST_PX = 42
-"""Height of the strip of figures; where it is too narrow for all of them, the last are left out."""
+"""Height range (px) of the strip of figures; the last figures are left out where the strip is too narrow."""
 
 
 def draw_figures(picture: pygame.Surface, state: SimState, unit_px: int) -> None:
-    """Tick, time, way to go and success rate along the upper edge."""
+    """Draws tick, time, distance to the goal, episode and success rate along the upper edge."""
     world, rate = state.world, state.metrics.success_rate
     row = world.road.cell(world.av)[1]
     figures = [
@@ -37,13 +37,13 @@ def _strip(shown: tuple[tuple[str, str], ...], width: int, unit_px: int) -> pyga
     strip.fill(theme.PANEL)
     name_px, figure_px = int(height * 0.55), int(height * 0.68)
     room = height // 5 + 2 * height // 5
-    needs = [width_of(name, name_px) + width_of(figure, figure_px) + room for name, figure in figures]
+    needs = [text_width(name, name_px) + text_width(figure, figure_px) + room for name, figure in figures]
     while len(figures) > 1 and max(needs[: len(figures)]) * len(figures) > width:
         figures.pop()
     share = width // len(figures)
     for n, (label, value) in enumerate(figures):
-        name = written(label, name_px, theme.TEXT_QUIET)
-        figure = written(value, figure_px, theme.TEXT)
+        name = render_text(label, name_px, theme.TEXT_QUIET)
+        figure = render_text(value, figure_px, theme.TEXT)
         x = n * share + (share - name.get_width() - figure.get_width() - height // 5) // 2
         strip.blit(name, (x, (height - name.get_height()) // 2 + 1))
         strip.blit(figure, (x + name.get_width() + height // 5, (height - figure.get_height()) // 2))
@@ -51,7 +51,7 @@ def _strip(shown: tuple[tuple[str, str], ...], width: int, unit_px: int) -> pyga
 
 
 def draw_verdict(picture: pygame.Surface, state: SimState, unit_px: int) -> None:
-    """CRASH, SUCCESS or STUCK across the middle, with what was hit; nothing while the road is driven."""
+    """Draws CRASH, SUCCESS or STUCK across the middle, with details; nothing while the episode runs."""
     world = state.world
     if world.outcome is Outcome.RUNNING:
         return
@@ -60,14 +60,14 @@ def draw_verdict(picture: pygame.Surface, state: SimState, unit_px: int) -> None
     band = pygame.Surface((width, int(unit_px * 1.5)), pygame.SRCALPHA)
     band.fill(theme.PANEL)
     band.fill(colour, (0, 0, width, max(2, unit_px // 24)))
-    title = written(world.outcome.upper(), int(unit_px * 0.95), colour)
-    told = written(_told(state), int(unit_px * 0.36), theme.TEXT)
+    title = render_text(world.outcome.upper(), int(unit_px * 0.95), colour)
+    told = render_text(_outcome_details(state), int(unit_px * 0.36), theme.TEXT)
     band.blit(title, ((width - title.get_width()) // 2, int(unit_px * 0.26)))
     band.blit(told, ((width - told.get_width()) // 2, int(unit_px * 1.0)))
     picture.blit(band, (0, (height - band.get_height()) // 2))
 
 
-def _told(state: SimState) -> str:
+def _outcome_details(state: SimState) -> str:
     world = state.world
     if world.cause is not None:
         verb = {"swap": "through", "cross": "cut off by"}.get(world.cause.how, "into")

@@ -1,4 +1,4 @@
-"""The occupancy matrix: 0 where the road is free and 1 where something is, coloured by its kind."""
+"""Draws the occupancy grid: 0 for a free cell, 1 for an occupied one, coloured by kind."""
 
 from __future__ import annotations
 
@@ -7,18 +7,18 @@ from functools import lru_cache
 import pygame
 
 from sim.render import theme
-from sim.render.text import written
+from sim.render.text import render_text
 from sim.render.theme import MAX_SIDE_PX
 from sim.state import SimState
 from sim.types import Kind
 
 CELL_PX = 24
-LEAST_WRITTEN_PX = 8
-"""Digits in smaller cells could not be read, and are left out."""
+MIN_DIGIT_PX = 8
+"""Smaller cells have no digits, since they could not be read."""
 
 
 def draw_occupancy(state: SimState, size: tuple[int, int] | None = None) -> pygame.Surface:
-    """A cell for each of the road; `size` is the room for it in pixels."""
+    """Draws every cell of the road; `size` is the largest (width, height) in pixels."""
     road = state.world.road
     width, height = size or (MAX_SIDE_PX, MAX_SIDE_PX)
     fitting = max(1, min(width // road.columns, height // road.rows))
@@ -56,6 +56,6 @@ def _digit(
     gap = 1 if px >= 6 else 0
     box = pygame.Rect(cell[0] * px, cell[1] * px, px - gap, px - gap)
     picture.fill(paper, box)
-    if px >= LEAST_WRITTEN_PX:
-        sign = written(digit, max(10, px * 4 // 5), ink)
+    if px >= MIN_DIGIT_PX:
+        sign = render_text(digit, max(10, px * 4 // 5), ink)
         picture.blit(sign, sign.get_rect(center=(box.centerx, box.centery + 1)))

@@ -1,8 +1,7 @@
-"""The planning view: the nine by nine cells around the vehicle, and what it made of them.
+"""Draws the planning view: the nine by nine cells around the ego, and its decision.
 
-The intended move is a green arrow; where movers are expected next is outlined, with an arrow from where
-they are; the moves that were not taken are listed with their reasons, and marked on the road where they
-cannot be had. Leaves out how it was decided: all of that stands in the decision.
+A green arrow shows the chosen move. Outlines with arrows show where movers are expected next. A list has
+every move with its reason, and crosses on the road mark blocked moves. All of it is read from the decision.
 """
 
 from __future__ import annotations
@@ -18,13 +17,13 @@ from sim.forecast import predict
 from sim.plan import Decision, Measure, Option
 from sim.render import theme
 from sim.render.sprites import av_sprite, sprite_of
-from sim.render.text import cut, width_of, wrapped, written
+from sim.render.text import render_text, text_width, truncate, wrap_text
 from sim.render.theme import Colour
 from sim.state import SimState
 from sim.types import HAZARDS, MARKED, MOVERS, Cell, Kind, Move
 
 ACROSS: Final = 9
-"""Cells along each side; the vehicle is in the middle."""
+"""Cells along each side; the ego is in the middle."""
 LIST_ROWS: Final = 6
 LEAST_ROW_PX: Final = 18
 MOST_ROW_PX: Final = 26
@@ -35,7 +34,7 @@ _HALF: Final = ACROSS // 2
 def draw_plan(
     state: SimState, decision: Decision | None, size: tuple[int, int], narration: str | None = None
 ) -> pygame.Surface:
-    """What is planned in the state of `run`; None is a standing result. `size` is filled."""
+    """Draws the decision taken in `state` (None while a result is shown); the picture has `size` pixels."""
     width, height = size
     picture = pygame.Surface(size)
     picture.fill(theme.BODY)
@@ -52,7 +51,7 @@ def draw_plan(
     picture.blit(_grid(state, decision, px), corner)
     y = room.top if decision is None else _list(picture, decision, room, row_px)
     if narration:
-        y = _tell(picture, narration, pygame.Rect(room.x, y + 8, room.width, room.bottom - y - 8))
+        y = _draw_text(picture, narration, pygame.Rect(room.x, y + 8, room.width, room.bottom - y - 8))
     _legend(picture, pygame.Rect(room.x, y, room.width, room.bottom - y))
     return picture
 
@@ -88,7 +87,7 @@ def _grid(state: SimState, decision: Decision | None, px: int) -> pygame.Surface
         for thing in things:
             end = going.get(thing.id)
             if end is not None and near(end):
-                _expected(picture, box(thing.cell), box(end), theme.colour_of(thing.kind))
+                _draw_expected_step(picture, box(thing.cell), box(end), theme.colour_of(thing.kind))
         for option in decision.options:
             if option.cell is not None and option.move is not decision.move and option.cost is None:
                 _cross(picture, box(option.cell))
@@ -97,7 +96,7 @@ def _grid(state: SimState, decision: Decision | None, px: int) -> pygame.Surface
     if decision is not None:
         end = decision.chosen.cell or own
         if decision.move is Move.STAY:
-            ring = _taken(decision.chosen)
+            ring = _move_colour(decision.chosen)
             pygame.draw.circle(picture, ring, box(own).center, px * 11 // 20, max(2, px // 12))
         else:
             _arrow(picture, theme.MOVE, box(own).center, box(end).center, px)
@@ -106,7 +105,7 @@ def _grid(state: SimState, decision: Decision | None, px: int) -> pygame.Surface
 
 @lru_cache(maxsize=8)
 def _blank(px: int) -> pygame.Surface:
-    """Off the road everywhere: stripes, as on a map of what is not there."""
+    """Draws the background off the road: stripes."""
     side = px * ACROSS
     picture = pygame.Surface((side, side))
     picture.fill(theme.OFF_ROAD)
@@ -118,7 +117,7 @@ def _blank(px: int) -> pygame.Surface:
 
 @lru_cache(maxsize=8)
 def _cells(px: int) -> pygame.Surface:
-    """Road everywhere."""
+    """Draws empty road cells."""
     side = px * ACROSS
     picture = pygame.Surface((side, side))
     picture.fill(theme.SCHEMATIC_GRID)
@@ -129,7 +128,7 @@ def _cells(px: int) -> pygame.Surface:
 
 
 def _symbol(px: int) -> int:
-    """How large a cell the things in one of `px` are drawn for: the plan shows cells, not bodies."""
+    """Size of a symbol in a cell of `px` pixels: larger than a body, since the plan shows cells."""
     return px * 4 // 3
 
 
@@ -140,8 +139,10 @@ def _faint(colour: Colour) -> Colour:
     return r, g, b
 
 
-def _expected(picture: pygame.Surface, start: pygame.Rect, end: pygame.Rect, colour: Colour) -> None:
-    """The outline of a cell that a mover is expected in, and an arrow there."""
+def _draw_expected_step(
+    picture: pygame.Surface, start: pygame.Rect, end: pygame.Rect, colour: Colour
+) -> None:
+    """Outlines the cell a mover is expected in, with an arrow to it."""
     width = max(1, start.width // 16)
     frame = end.inflate(-max(2, start.width // 7), -max(2, start.width // 7))
     arm = max(2, frame.width // 4)
@@ -182,36 +183,36 @@ def _cross(picture: pygame.Surface, box: pygame.Rect) -> None:
 
 
 def _list(picture: pygame.Surface, decision: Decision, room: pygame.Rect, row_px: int) -> int:
-    """All moves, the most preferred first; the row after the last."""
+    """Lists all moves, the most preferred first. Returns the y coordinate below the last."""
     y, text_px = room.top, row_px - 3
-    names = max(width_of(name, text_px) for name in theme.MOVES.values()) + row_px + 12
+    names = max(text_width(name, text_px) for name in theme.MOVES.values()) + row_px + 12
     for option in decision.options:
         if y + row_px > room.bottom:
             break
         taken = option.move is decision.move
         row = pygame.Rect(room.left, y, room.width, row_px)
         if taken:
-            pygame.draw.rect(picture, _faint(_taken(option)), row, border_radius=4)
+            pygame.draw.rect(picture, _faint(_move_colour(option)), row, border_radius=4)
         _mark(picture, option, taken, pygame.Rect(row.left + 2, row.top, row_px, row_px))
-        ink = _taken(option) if taken else theme.TEXT
-        name = written(theme.MOVES[option.move], text_px, ink)
+        ink = _move_colour(option) if taken else theme.TEXT
+        name = render_text(theme.MOVES[option.move], text_px, ink)
         middle = row.centery + 1
         picture.blit(name, name.get_rect(midleft=(row.left + row_px + 4, middle)))
         quiet = theme.TEXT if taken else theme.TEXT_QUIET
-        told = cut(reason_of(option, decision), text_px, max(10, row.width - names - 4))
-        reason = written(told, text_px, quiet)
+        told = truncate(reason_of(option, decision), text_px, max(10, row.width - names - 4))
+        reason = render_text(told, text_px, quiet)
         picture.blit(reason, reason.get_rect(midleft=(row.left + names, middle)))
         y += row_px
     return y
 
 
-def _taken(option: Option) -> Colour:
-    """Green for the move that is made; amber where it is made though something is met."""
+def _move_colour(option: Option) -> Colour:
+    """Green for a chosen move that is free, amber for one that is blocked."""
     return theme.OUTCOMES["stuck"] if option.reason.blocks else theme.MOVE
 
 
 def reason_of(option: Option, decision: Decision) -> str:
-    """Why a move was taken or not, in a few words."""
+    """Says in a few words why a move was chosen or not."""
     if option.reason.blocks:
         words = theme.REASONS[option.reason]
         movers = [name for name in option.causes if name.rpartition("-")[0] in MOVERS]
@@ -237,7 +238,7 @@ def _mark(picture: pygame.Surface, option: Option, taken: bool, box: pygame.Rect
     thick = max(2, box.width // 9)
     if taken:
         points = [(x - unit, y), (x - unit * 0.2, y + unit * 0.8), (x + unit * 1.2, y - unit)]
-        pygame.draw.lines(picture, _taken(option), False, points, thick)
+        pygame.draw.lines(picture, _move_colour(option), False, points, thick)
     elif option.cost is None:
         for dy in (-1, 1):
             start, end = (x - unit * 0.8, y - dy * unit * 0.8), (x + unit * 0.8, y + dy * unit * 0.8)
@@ -246,23 +247,23 @@ def _mark(picture: pygame.Surface, option: Option, taken: bool, box: pygame.Rect
         pygame.draw.circle(picture, theme.TEXT_QUIET, (x, y), max(2, unit * 0.6), max(1, thick - 1))
 
 
-def _tell(picture: pygame.Surface, text: str, room: pygame.Rect) -> int:
-    """Some lines of writing; the row after the last."""
+def _draw_text(picture: pygame.Surface, text: str, room: pygame.Rect) -> int:
+    """Draws wrapped text. Returns the y coordinate below the last line."""
     wide = max(20, room.width - 6)
-    text_px = next((px for px in (20, 18, 16) if len(wrapped(text, px, wide)) * px <= room.height), 16)
-    lines, fits = wrapped(text, text_px, wide), room.height // text_px
+    text_px = next((px for px in (20, 18, 16) if len(wrap_text(text, px, wide)) * px <= room.height), 16)
+    lines, fits = wrap_text(text, text_px, wide), room.height // text_px
     if fits < len(lines):
-        lines = (*lines[: fits - 1], cut(" ".join(lines[fits - 1 :]), text_px, wide)) if fits > 0 else ()
+        lines = (*lines[: fits - 1], truncate(" ".join(lines[fits - 1 :]), text_px, wide)) if fits > 0 else ()
     for number, line in enumerate(lines):
-        picture.blit(written(line, text_px, theme.TEXT), (room.left + 3, room.top + number * text_px))
+        picture.blit(render_text(line, text_px, theme.TEXT), (room.left + 3, room.top + number * text_px))
     return room.top + len(lines) * text_px
 
 
 def _legend(picture: pygame.Surface, room: pygame.Rect) -> None:
-    """What the colours are of, at the lower edge, where there is room for all of it."""
+    """Draws the legend of colours at the lower edge, if all of it fits."""
     px, row_px = 18, 20
     entries = [(word, theme.colour_of(kind)) for kind, word in LEGEND.items()]
-    widths = [width_of(name, px) + 34 for name, _ in entries]
+    widths = [text_width(name, px) + 34 for name, _ in entries]
     rows, x = 1, 0
     for width in widths:
         if x and x + width > room.width:
@@ -275,5 +276,5 @@ def _legend(picture: pygame.Surface, room: pygame.Rect) -> None:
         if x > room.left + 3 and x + width > room.right:
             x, y = room.left + 3, y + row_px
         pygame.draw.rect(picture, colour, (x, y + 4, 10, 10), border_radius=3)
-        picture.blit(written(name, px, theme.TEXT_QUIET), (x + 16, y + 3))
+        picture.blit(render_text(name, px, theme.TEXT_QUIET), (x + 16, y + 3))
         x += width

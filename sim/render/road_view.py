@@ -1,4 +1,4 @@
-"""The road view: what is around the vehicle, gliding between two ticks."""
+"""Draws the road view: the surroundings of the ego, interpolated between two ticks."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ import pygame
 from sim.plan import Decision
 from sim.render import theme
 from sim.render.camera import Camera, camera_on
-from sim.render.ground import lay_ground
+from sim.render.ground import draw_ground
 from sim.render.hud import draw_figures, draw_verdict
-from sim.render.motion import Pose, leading, poses
+from sim.render.motion import Pose, glide_start, poses
 from sim.render.sprites import av_sprite, sprite_of
 from sim.rules.bodies import SIZES
 from sim.state import SimState
@@ -19,7 +19,7 @@ from sim.types import Outcome
 from sim.world import World
 
 BOX_FROM_PX = 48
-"""side of a cell from which on boxes are drawn"""
+"""Bounding boxes are drawn from this cell size on (pixels)."""
 
 
 def draw_road(
@@ -31,11 +31,11 @@ def draw_road(
 ) -> pygame.Surface:
     """See `sim.render.render`."""
     world = state.world
-    start, gone = leading(state, before, phase)
+    start, gone = glide_start(state, before, phase)
     seen = poses(start, world, gone)
     camera = camera_on(state.config, seen.av.row, size)
     picture = pygame.Surface(camera.size)
-    lay_ground(picture, camera, state.config.rows)
+    draw_ground(picture, camera, state.config.rows)
     shown = (pose for pose in seen.things if camera.sees(pose.row))
     if seen.touch is not None:
         _draw_impact(picture, camera, seen.touch)
@@ -58,7 +58,7 @@ def _draw_thing(picture: pygame.Surface, camera: Camera, pose: Pose) -> None:
 
 
 def _draw_box(picture: pygame.Surface, camera: Camera, pose: Pose, colour: theme.Colour) -> None:
-    """The corners of a body's box, as a detector would draw it, where they do not hide what is in it."""
+    """Draws the corners of a body's bounding box, as a detector would, if cells are large enough."""
     if camera.cell_px < BOX_FROM_PX:
         return
     across, along = (float(side) * camera.cell_px / 2 for side in SIZES[pose.thing.kind])
@@ -72,7 +72,7 @@ def _draw_box(picture: pygame.Surface, camera: Camera, pose: Pose, colour: theme
 
 
 def _draw_impact(picture: pygame.Surface, camera: Camera, touch: tuple[float, float]) -> None:
-    """A burst where two bodies first touched, under them, so that they stay to be seen."""
+    """Draws a burst at the first contact, under the bodies."""
     x, y = camera.centre(*touch)
     for share, colour in zip((1.0, 0.74, 0.48), theme.IMPACT, strict=True):
         points = []
@@ -85,7 +85,7 @@ def _draw_impact(picture: pygame.Surface, camera: Camera, touch: tuple[float, fl
 def _draw_move(
     picture: pygame.Surface, camera: Camera, before: World, decision: Decision, share: float
 ) -> None:
-    """An arrow from where the decision was taken to where it leads, fading as the way is gone."""
+    """Draws an arrow along the chosen move, which fades as the move is done."""
     columns, rows = decision.move.offset
     if (columns, rows) == (0, 0) or share >= 1.0:
         return

@@ -1,4 +1,4 @@
-"""The schematic: the whole road at a glance, one small square a cell."""
+"""Draws the schematic: the whole road, one small square per cell."""
 
 from __future__ import annotations
 

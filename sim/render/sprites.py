@@ -1,8 +1,8 @@
-"""Things seen from above, drawn once for each size and look, and kept.
+"""Sprites of things from above, drawn once per size and look, and cached.
 
-Every sprite fills the box that its kind has in `sim.rules.bodies`, and nothing but a soft shadow lies
-outside it. Sprites are drawn at four times their size and smoothed down, since pygame's shapes have hard
-edges. A pothole's rim and cracks follow from its id alone.
+Every sprite fills the box that its kind has in `sim.rules.bodies`; only a soft shadow lies outside it.
+Sprites are drawn at four times their size and scaled down, since pygame's shapes have hard edges. A pothole's
+rim and cracks depend on its id alone.
 """
 
 from __future__ import annotations
@@ -32,18 +32,18 @@ def sprite_of(thing: Thing, px: int) -> pygame.Surface:
 
 @lru_cache(maxsize=_SPRITES)
 def av_sprite(px: int) -> pygame.Surface:
-    """The autonomous vehicle, facing up the road, its sensor on the roof."""
+    """The ego, facing up the road, with its sensor on the roof."""
     canvas, unit = _canvas(px)
     _car(canvas, unit, Kind.AV, theme.AV, theme.AV_GLASS, lights=True)
     middle = canvas.get_rect().center
     sensor = (middle[0], middle[1] + unit * 0.1)
     for size, colour in ((0.094, theme.AV_GLASS), (0.07, theme.SENSOR), (0.034, theme.AV)):
         _ellipse(canvas, (*colour, 255), sensor, (unit * size, unit * size))
-    return _shadowed(_smoothed(canvas, px))
+    return _add_shadow(_downscale(canvas, px))
 
 
 def vehicle_sprite(px: int, look: int, heading: str, disabled: bool) -> pygame.Surface:
-    """An obstacle vehicle facing `heading`; any number `look` picks its colour."""
+    """An obstacle vehicle facing `heading`; the integer `look` selects its colour."""
     return _vehicle(
         px, theme.DISABLED if disabled else theme.VEHICLES[look % len(theme.VEHICLES)], heading, disabled
     )
@@ -54,11 +54,11 @@ def _vehicle(px: int, colour: Colour, heading: str, disabled: bool) -> pygame.Su
     canvas, unit = _canvas(px)
     _car(canvas, unit, Kind.VEHICLE, colour, theme.GLASS, lights=not disabled)
     turned = pygame.transform.rotate(canvas, 90 if heading == "left" else -90)
-    return _shadowed(_smoothed(turned, px))
+    return _add_shadow(_downscale(turned, px))
 
 
 def pedestrian_sprite(px: int, look: int, heading: str, disabled: bool) -> pygame.Surface:
-    """A pedestrian from above: shoulders, head, arms and a foot ahead; any number `look` picks the colour."""
+    """A pedestrian from above: shoulders, head, arms, a foot ahead; the integer `look` selects the colour."""
     return _pedestrian(
         px, theme.DISABLED if disabled else theme.PEDESTRIANS[look % len(theme.PEDESTRIANS)], heading
     )
@@ -74,7 +74,7 @@ def _pedestrian(px: int, body: Colour, heading: str) -> pygame.Surface:
         at = (centre[0] + ahead * unit * across, centre[1] + unit * along)
         _ellipse(canvas, (*colour, 255), at, (unit * size[0], unit * size[1]))
 
-    # Twice an ellipse's place and half its size stay within 0.30 across and 0.32 along.
+    # Every ellipse stays within the body: 0.30 across, 0.32 along.
     spot(0.085, -0.05, (0.13, 0.08), theme.SHOE)
     spot(-0.085, 0.05, (0.13, 0.08), theme.SHOE)
     spot(0.06, 0.105, (0.12, 0.07), theme.SKIN)
@@ -83,12 +83,12 @@ def _pedestrian(px: int, body: Colour, heading: str) -> pygame.Surface:
     spot(0, 0, (0.15, 0.285), body)
     spot(0.012, 0, (0.15, 0.15), theme.SKIN)
     spot(-0.012, 0, (0.135, 0.14), theme.HAIR)
-    return _shadowed(_smoothed(canvas, px))
+    return _add_shadow(_downscale(canvas, px))
 
 
 @lru_cache(maxsize=_SPRITES)
 def barrier_sprite(px: int) -> pygame.Surface:
-    """A striped barrier on two feet, a lamp at either end."""
+    """A striped barrier on two feet, with a lamp at either end."""
     canvas, unit = _canvas(px)
     size = SIZES[Kind.BARRIER]
     across, along = float(size.across), float(size.along)
@@ -113,12 +113,12 @@ def barrier_sprite(px: int) -> pygame.Surface:
         middle = (canvas.get_width() / 2 + side * unit * across * 0.34, canvas.get_height() / 2)
         _ellipse(canvas, (*_darker(theme.LAMP, 0.6), 255), middle, (unit * 0.1, unit * 0.1))
         _ellipse(canvas, (*theme.LAMP, 255), middle, (unit * 0.075, unit * 0.075))
-    return _shadowed(_smoothed(canvas, px))
+    return _add_shadow(_downscale(canvas, px))
 
 
 @lru_cache(maxsize=_SPRITES)
 def pothole_sprite(px: int, name: str) -> pygame.Surface:
-    """A hole with a broken rim and cracks around it, the same for the same id."""
+    """A hole with a broken rim and cracks, the same for the same id."""
     canvas, unit = _canvas(px)
     draws = Stream.of(0, name)
     centre = canvas.get_rect().center
@@ -126,7 +126,7 @@ def pothole_sprite(px: int, name: str) -> pygame.Surface:
     corners = 18
 
     def at(angle: float, reach: float) -> tuple[float, float]:
-        """A point that share of the way to the edge of a rounded square that touches the box's sides."""
+        """A point at the share `reach` of the way to the edge of a rounded square that fills the box."""
         x, y = cos(angle), sin(angle)
         radius = half * reach / max(abs(x), abs(y)) ** 0.45
         return centre[0] + unit * radius * x, centre[1] + unit * radius * y
@@ -144,7 +144,7 @@ def pothole_sprite(px: int, name: str) -> pygame.Surface:
     for reach, colour in zip((0.88, 0.74, 0.52), theme.HOLE, strict=True):
         pygame.draw.polygon(canvas, colour, rim(reach, 0.24))
     pygame.draw.lines(canvas, theme.RIM, False, rim(0.88, 0.24)[1:9], max(2, unit // 70))
-    return _smoothed(canvas, px)
+    return _downscale(canvas, px)
 
 
 def _car(
@@ -158,7 +158,7 @@ def _car(
             _block(canvas, unit, (side * (wide / 2 - 0.02), end * long), (0.04, 0.12), theme.TYRE, 0.014)
         mirror = (side * (wide / 2 - 0.02), -0.115 * long)
         _block(canvas, unit, mirror, (0.04, 0.03), _darker(colour, 0.5), 0.012)
-    # From the outside inwards and from dark to light, so that the sides look rounded.
+    # Drawn from the outside in, from dark to light, so that the sides look rounded.
     body = wide - 0.02
     for inset, shade in ((0.0, 0.5), (0.012, 0.74), (0.026, 0.88), (0.044, 1.0)):
         room = (body - 2 * inset, long - 2 * inset)
@@ -178,11 +178,11 @@ def _car(
 
 
 def _glass(canvas: pygame.Surface, unit: int, glass: Colour, body: float, long: float) -> None:
-    """Windows all round the roof: wider in the middle than at either end, with light on the windscreen."""
+    """Draws the windows round the roof, wider in the middle, with light on the windscreen."""
     middle = canvas.get_rect().center
 
     def pane(*corners: tuple[float, float]) -> list[tuple[float, float]]:
-        """Both halves of a shape from the corners of its right one; shares of the body's width and length."""
+        """Mirrors the corners of the right half; coordinates are shares of the body's width and length."""
         right = [(middle[0] + unit * body * x, middle[1] + unit * long * y) for x, y in corners]
         return right + [(2 * middle[0] - x, y) for x, y in reversed(right)]
 
@@ -200,7 +200,7 @@ def _block(
     front: float,
     back: float | None = None,
 ) -> pygame.Rect:
-    """A rounded rectangle in cells from the canvas's middle, with one radius in front and one behind."""
+    """Draws a rounded rectangle, in cells from the centre of the canvas, with radii for front and back."""
     width, height = round(unit * size[0]), round(unit * size[1])
     left = round(canvas.get_width() / 2 + unit * middle[0] - width / 2)
     top = round(canvas.get_height() / 2 + unit * middle[1] - height / 2)
@@ -218,7 +218,7 @@ def _block(
     return rect
 
 
-def _shadowed(sprite: pygame.Surface) -> pygame.Surface:
+def _add_shadow(sprite: pygame.Surface) -> pygame.Surface:
     """The same over its shadow, which falls the same way whichever way it faces."""
     width, height = sprite.get_size()
     shape = pygame.mask.from_surface(sprite).to_surface(setcolor=(0, 0, 0, 105), unsetcolor=(0, 0, 0, 0))
@@ -235,7 +235,7 @@ def _canvas(px: int) -> tuple[pygame.Surface, int]:
     return pygame.Surface((unit, unit), pygame.SRCALPHA), unit
 
 
-def _smoothed(canvas: pygame.Surface, px: int) -> pygame.Surface:
+def _downscale(canvas: pygame.Surface, px: int) -> pygame.Surface:
     return pygame.transform.smoothscale(canvas, (px, px))
 
 

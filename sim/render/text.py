@@ -1,7 +1,6 @@
-"""Letters: pygame's own font, so that a picture is the same on every machine.
+"""Renders text in pygame's built-in font, so that a picture is the same on every machine.
 
-Arrows, which that font lacks, are drawn. Other letters it lacks are written in whatever font of the machine
-is likely to have them.
+Arrows, which that font lacks, are drawn as lines. Other missing letters use a system font.
 """
 
 from __future__ import annotations
@@ -16,14 +15,14 @@ from sim.render.theme import Colour
 
 SMALLEST_PX = 8
 _MISSING = "\uffff"
-"""No font has a letter for this, so it looks as all do that are missing."""
+"""A code point without a glyph in any font: its picture is that of a missing glyph."""
 _WIDE = (
     "notosanscjkjp,notosanscjksc,wenquanyizenhei,microsoftyahei,applesdgothicneo,dejavusans,arialunicodems"
 )
 
 
 FINER = 2
-"""Letters are drawn so many times larger and smoothed down: they then stand at even distances."""
+"""Text is rendered this many times larger and scaled down, which evens out the spacing of letters."""
 ARROWS = {"→": (1, 0), "←": (-1, 0), "↑": (0, -1), "↓": (0, 1)}
 
 
@@ -37,32 +36,32 @@ def _font(px: int, wide: bool = False) -> pygame.font.Font:
 
 
 @lru_cache(maxsize=1_024)
-def _lacking(letter: str) -> bool:
-    """Whether pygame's font has nothing to show for a letter."""
+def _is_missing(letter: str) -> bool:
+    """Whether pygame's font has no glyph for a letter."""
     font, white = _font(20), (255, 255, 255)
     shown, empty = (font.render(each, False, white) for each in (letter, _MISSING))
     return pygame.image.tobytes(shown, "RGBA") == pygame.image.tobytes(empty, "RGBA")
 
 
-def _parts(text: str) -> Iterator[tuple[str, bool]]:
-    """A text in parts of one font each; an arrow is a part, since it is drawn."""
+def _font_runs(text: str) -> Iterator[tuple[str, bool]]:
+    """Splits a text into (run, needs the system font); arrows are runs of their own, since they are drawn."""
     if text.isascii():
         yield text, False
         return
 
     def sort(letter: str) -> str:
-        return letter if letter in ARROWS else "" if letter.isascii() or not _lacking(letter) else "wide"
+        return letter if letter in ARROWS else "" if letter.isascii() or not _is_missing(letter) else "wide"
 
     for kind, letters in groupby(text, sort):
         yield "".join(letters), kind == "wide"
 
 
 @lru_cache(maxsize=1_024)
-def written(text: str, px: int, colour: Colour) -> pygame.Surface:
-    """A line of text, `px` pixels high. What can have no shape is a space."""
+def render_text(text: str, px: int, colour: Colour) -> pygame.Surface:
+    """Renders a line of text, `px` pixels high. Unprintable characters become spaces."""
     px = max(SMALLEST_PX, px)
     shown = "".join(letter if letter.isprintable() else " " for letter in text)
-    parts = [_drawn(part, wide, px * FINER, colour) for part, wide in _parts(shown)]
+    parts = [_render_run(part, wide, px * FINER, colour) for part, wide in _font_runs(shown)]
     height = _font(px * FINER).get_height()
     whole = pygame.Surface((sum(part.get_width() for part in parts), height), pygame.SRCALPHA)
     whole.fill((*colour, 0))
@@ -74,7 +73,7 @@ def written(text: str, px: int, colour: Colour) -> pygame.Surface:
     return pygame.transform.smoothscale(whole, size) if x else pygame.Surface((0, size[1]), pygame.SRCALPHA)
 
 
-def _drawn(part: str, wide: bool, px: int, colour: Colour) -> pygame.Surface:
+def _render_run(part: str, wide: bool, px: int, colour: Colour) -> pygame.Surface:
     if part[:1] not in ARROWS:
         return _font(px, wide).render(part, True, colour)
     side = px * 3 // 5
@@ -98,33 +97,33 @@ def _arrow(
 
 
 @lru_cache(maxsize=8_192)
-def width_of(text: str, px: int) -> int:
-    """How wide a line of text is, in pixels."""
+def text_width(text: str, px: int) -> int:
+    """The width of a line of text, in pixels."""
     px = max(SMALLEST_PX, px) * FINER
     wide = (
         px * 3 // 5 * len(part) if part[0] in ARROWS else _font(px, fallback).size(part)[0]
-        for part, fallback in _parts(text)
+        for part, fallback in _font_runs(text)
         if part
     )
     return -(-sum(wide) // FINER)
 
 
 @lru_cache(maxsize=512)
-def wrapped(text: str, px: int, width: int) -> tuple[str, ...]:
-    """The lines of a text that is broken at spaces, or within words too long for a line."""
+def wrap_text(text: str, px: int, width: int) -> tuple[str, ...]:
+    """Breaks a text into lines of at most `width` pixels: at spaces, and within words that are too long."""
     lines: list[str] = []
     for paragraph in text.split("\n"):
         line = ""
         for word in paragraph.split(" "):
             longer = f"{line} {word}" if line else word
-            if width_of(longer, px) <= width:
+            if text_width(longer, px) <= width:
                 line = longer
                 continue
             if line:
                 lines.append(line)
             line = word
-            while width_of(line, px) > width and len(line) > 1:
-                fits = len(cut(line, px, width, ""))
+            while text_width(line, px) > width and len(line) > 1:
+                fits = len(truncate(line, px, width, ""))
                 lines.append(line[:fits])
                 line = line[fits:]
         lines.append(line)
@@ -132,14 +131,14 @@ def wrapped(text: str, px: int, width: int) -> tuple[str, ...]:
 
 
 @lru_cache(maxsize=512)
-def cut(text: str, px: int, width: int, mark: str = "…") -> str:
-    """As much of a text as fits, with a mark where some is left out; at least a letter."""
-    if width_of(text, px) <= width:
+def truncate(text: str, px: int, width: int, mark: str = "…") -> str:
+    """Shortens a text to `width` pixels, at least one letter, and appends `mark` if it is shortened."""
+    if text_width(text, px) <= width:
         return text
     low, high = 1, max(1, len(text) - 1)
     while low < high:
         middle = (low + high + 1) // 2
-        if width_of(text[:middle].rstrip() + mark, px) <= width:
+        if text_width(text[:middle].rstrip() + mark, px) <= width:
             low = middle
         else:
             high = middle - 1

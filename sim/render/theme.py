@@ -1,4 +1,4 @@
-"""Colours and proportions, as data."""
+"""Colours, sizes and labels of the pictures."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from typing import Final
 Colour = tuple[int, int, int]
 
 CELL_PX: Final = 90
-"""side of a cell in the road view, in pixels, when no size is asked for"""
+"""side of a cell in the road view, in pixels, if no size is given"""
 
 MAX_SIDE_PX: Final = 2_160
-"""longest side of a picture"""
+"""longest side of a picture, in pixels"""
 
 VERGE: Final[Colour] = (34, 44, 38)
 ASPHALT: Final[Colour] = (52, 56, 63)
@@ -92,7 +92,7 @@ REASONS: Final[dict[str, str]] = {
     "ego_swaps": "head-on",
     "ego_crosses": "cut off",
 }
-"""why a move is not taken, in a few words; who it is stands before those about movers"""
+"""why a move is not chosen; for movers the name of the mover is put before it"""
 MOVES: Final[dict[str, str]] = {
     "forward": "forward",
     "left": "left",
@@ -103,11 +103,11 @@ MOVES: Final[dict[str, str]] = {
 }
 
 BODY: Final[Colour] = (24, 27, 32)
-"""behind views that are no road"""
+"""background of views other than the road"""
 OFF_ROAD: Final[Colour] = (30, 38, 34)
 ZERO: Final[Colour] = (74, 80, 90)
 ON_KIND: Final[Colour] = (16, 18, 22)
-"""writing on the colour of a kind"""
+"""text on the colour of a kind"""
 REFUSED: Final[Colour] = (240, 108, 98)
 LINES: Final[dict[str, Colour]] = {
     "crashed": OUTCOMES["crash"],
@@ -122,4 +122,4 @@ LINES: Final[dict[str, Colour]] = {
     "taught": (120, 170, 255),
     "forgotten": (120, 170, 255),
 }
-"""colours of lines of the log by their type; the rest is plain"""
+"""colours of lines of the log by event type; other lines have the colour of text"""

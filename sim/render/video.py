@@ -1,7 +1,7 @@
-"""A stretch of ticks as a moving picture: GIF, or MP4 where the extra `video` is installed.
+"""Renders a range of ticks as a video: GIF, or MP4 if the extra `video` is installed.
 
-Frames are evenly spaced in simulated time, whatever a tick lasts, and things glide between ticks as they
-do on screen. Leaves out where the states come from, and how much may be asked for.
+Frames are evenly spaced in simulated time, whatever the length of a tick, and positions are interpolated as
+on screen. The caller chooses the states and limits their number.
 """
 
 from __future__ import annotations
@@ -22,18 +22,18 @@ from sim.state import SimState
 if TYPE_CHECKING:
     from PIL.Image import Image
 
-FILMS: Final = ("gif", "mp4")
+VIDEO_FORMATS: Final = ("gif", "mp4")
 FPS: Final = {"gif": 50, "mp4": 60}
-"""The most frames a second: a GIF counts in hundredths of a second, and is shown slowly below two."""
+"""Most frames a second. GIF frames last whole hundredths of a second, and players slow down below two."""
 _COLOURS: Final = 128
 _SAMPLES: Final = 8
-"""Pictures of the stretch that the one palette of a GIF is made from."""
+"""Number of pictures that the palette of a GIF is made from."""
 _ROUNDING: Final = 1e-6
 
 Turn = Callable[[], AbstractContextManager[object]]
-"""What is around the drawing of each frame; what it raises ends the film."""
+"""Makes a context manager around the drawing of each frame; an exception from it ends the video."""
 
-Decided = Callable[[SimState], Decision | None]
+DecisionOf = Callable[[SimState], Decision | None]
 
 
 class VideoMissingError(Exception):
@@ -44,8 +44,8 @@ class VideoMissingError(Exception):
 
 
 @dataclass(frozen=True, slots=True)
-class Shot:
-    """One frame: the way from one state to the next, `phase` of it gone."""
+class Frame:
+    """One frame: the share `phase` of the way from one state to the next."""
 
     before: SimState
     after: SimState
@@ -53,24 +53,24 @@ class Shot:
 
 
 def has_video() -> bool:
-    """Whether the extra `video` is there."""
+    """Whether the extra `video` is installed."""
     return find_spec("av") is not None
 
 
-def frames_in(runs: Sequence[SimState], fps: float) -> int:
-    """How many frames a film of these states has."""
-    return _whole(_seconds(runs), fps) + 1
+def frame_count(runs: Sequence[SimState], fps: float) -> int:
+    """The number of frames of a video of these states."""
+    return _whole_frames(_seconds(runs), fps) + 1
 
 
-def video_shots(runs: Sequence[SimState], fps: float) -> Iterator[Shot]:
-    """The frames of these states, which follow each other tick by tick: the first, then one each 1/fps."""
-    yield Shot(runs[0], runs[0], 1.0)
+def video_frames(runs: Sequence[SimState], fps: float) -> Iterator[Frame]:
+    """Lists the frames of consecutive states: the first state, then a frame every 1/fps seconds."""
+    yield Frame(runs[0], runs[0], 1.0)
     start_s, shown = 0.0, 0
     for before, after in pairwise(runs):
         step_s = before.config.step_seconds
-        while shown < _whole(start_s + step_s, fps):
+        while shown < _whole_frames(start_s + step_s, fps):
             shown += 1
-            yield Shot(before, after, min(1.0, (shown / fps - start_s) / step_s))
+            yield Frame(before, after, min(1.0, (shown / fps - start_s) / step_s))
         start_s += step_s
 
 
@@ -82,38 +82,42 @@ def render_video(
     fps: int,
     size: tuple[int, int],
     turn: Turn = nullcontext,
-    decided: Decided = decide,
+    decision_of: DecisionOf = decide,
 ) -> bytes:
-    """The bytes of a film file; `decided` knows what was decided in each state.
+    """Renders a video and returns the bytes of its file; `decision_of` gives the decision of each state.
 
-    Raises `VideoMissingError` for MP4 without its extra, `ValueError` for a form there is none of and what
-    `sim.render.render` raises it for.
+    Raises `VideoMissingError` for MP4 without the extra `video`, and `ValueError` for an unknown format and
+    as `sim.render.render` does.
     """
-    if form not in FILMS:
-        raise ValueError(f"films can be had as {' and '.join(FILMS)}, not as {form!r}")
+    if form not in VIDEO_FORMATS:
+        raise ValueError(f"films can be had as {' and '.join(VIDEO_FORMATS)}, not as {form!r}")
     if form == "mp4" and not has_video():
         raise VideoMissingError
-    pictures = (_taken(view, shot, size, turn, decided) for shot in video_shots(runs, fps))
+    pictures = (_render_frame(view, frame, size, turn, decision_of) for frame in video_frames(runs, fps))
     if form == "mp4":
         return _mp4(pictures, fps)
     step = max(1, len(runs) // _SAMPLES)
-    samples = [_taken(view, Shot(state, state, 1.0), size, turn, decided) for state in runs[::step]]
-    return _gif(pictures, samples, fps, frames_in(runs, fps))
+    samples = [
+        _render_frame(view, Frame(state, state, 1.0), size, turn, decision_of) for state in runs[::step]
+    ]
+    return _gif(pictures, samples, fps, frame_count(runs, fps))
 
 
-def _taken(view: str, shot: Shot, size: tuple[int, int], turn: Turn, decided: Decided) -> Image:
+def _render_frame(
+    view: str, frame: Frame, size: tuple[int, int], turn: Turn, decision_of: DecisionOf
+) -> Image:
     from PIL.Image import fromarray
 
-    decision = decided(shot.before) if shot.phase < 1.0 else None
+    decision = decision_of(frame.before) if frame.phase < 1.0 else None
     with turn():
         drawn = render(
-            view, shot.after, before=shot.before.world, decision=decision, phase=shot.phase, size=size
+            view, frame.after, before=frame.before.world, decision=decision, phase=frame.phase, size=size
         )
         return fromarray(pixels(drawn))
 
 
 def _gif(pictures: Iterator[Image], samples: list[Image], fps: int, count: int) -> bytes:
-    """One palette for all frames, so that what stands still stays the same, and takes no room."""
+    """Encodes a GIF with one palette for all frames, so that still areas stay the same and compress well."""
     from PIL import Image, ImageOps
 
     room = samples[0].size
@@ -125,7 +129,7 @@ def _gif(pictures: Iterator[Image], samples: list[Image], fps: int, count: int) 
         ImageOps.pad(picture, room).quantize(palette=palette, dither=Image.Dither.NONE)
         for picture in pictures
     )
-    # Hundredths of a second, rounded so that their sum is right.
+    # Hundredths of a second, rounded so that the total length is right.
     ends = [round(100 * number / fps) for number in range(count + 1)]
     lasting_ms = [10 * (end - start) for start, end in pairwise(ends)]
     file = BytesIO()
@@ -134,7 +138,7 @@ def _gif(pictures: Iterator[Image], samples: list[Image], fps: int, count: int) 
 
 
 def _mp4(pictures: Iterator[Image], fps: int) -> bytes:
-    """H.264 where the encoder is there. Its colours are kept for pairs of pixels, so sides are even."""
+    """Encodes H.264 if the encoder is available, else MPEG-4. Sides are even, as `yuv420p` requires."""
     import av
     import numpy as np
     from PIL import ImageOps
@@ -157,6 +161,6 @@ def _seconds(runs: Sequence[SimState]) -> float:
     return sum(state.config.step_seconds for state in runs[:-1])
 
 
-def _whole(seconds: float, fps: float) -> int:
-    """Whole frames in so many seconds, sums of which are a little off."""
+def _whole_frames(seconds: float, fps: float) -> int:
+    """The number of whole frames in so many seconds, tolerant of rounding in sums."""
     return int(seconds * fps + _ROUNDING)

@@ -1,7 +1,8 @@
-"""A configuration as actions: what would have to be said, on a new road, to get it.
+"""Converts a configuration to the actions that make it from the default one.
 
-Inverts `config_of_scenario` and `change_setting`; the result is checked by applying it, so it is exact or not
-given. Omits what nothing that can be said changes (cell size, reset delay, what is visible).
+This is the inverse of `config_of_scenario` and `change_setting`. The result is checked by applying it, so it
+is exact or an error is raised. Settings that no action can change (size of a cell, reset delay, visible rows)
+have no actions.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ _SET_AFTER = (
 
 
 class UndescribableError(ValueError):
-    """Nothing that can be said makes this configuration; `field` is the first that differs."""
+    """No actions make this configuration; `field` is the first setting that differs."""
 
     def __init__(self, field: str) -> None:
         super().__init__(f"undescribable: {field}")
@@ -36,7 +37,7 @@ class UndescribableError(ValueError):
 
 
 def config_to_actions(config: Config) -> tuple[WorldAction, ...]:
-    """Actions that make this configuration of the default one, in order. Raises `UndescribableError`."""
+    """Lists the actions that make this configuration from the default one. Raises `UndescribableError`."""
     now = Config()
     actions: list[WorldAction] = []
     for name in _GROUND:
@@ -70,10 +71,10 @@ def _set(now: Config, name: str, config: Config, actions: list[WorldAction]) -> 
 
 
 def _scenario(config: Config) -> Scenario:
-    """The scenario that names what this configuration has and its road has not by itself."""
+    """Returns the scenario with the settings in which this configuration differs from its road preset."""
     preset = ROADS[config.road]
     spawn = preset.spawn_probability if config.traffic is None else TRAFFIC[config.traffic]
-    # A probability that is set later takes the place of an exact number.
+    # Setting a probability later replaces an exact number.
     changed = set()
     if config.spawn_probability != spawn:
         changed.add("spawn_probability")

@@ -1,8 +1,8 @@
-"""A sequence that grows without being copied: many of them share one beginning.
+"""A persistent (immutable) list: appending returns a new list that shares the old one's storage.
 
-A session's log is tried on copies, kept as it was at named moments, and goes two ways in a fork. As a value
-that is never changed it needs no copying for that. Those that go the same way share one list; who goes
-another way from a shared beginning gets a list of its own.
+A session's log is tried on copies, kept at named moments, and continued twice after a fork; none of this
+copies the log. Lists with a common history share one underlying list. Only a list that branches off from the
+middle of a shared one is copied.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ from typing import TypeVar, overload
 Item = TypeVar("Item")
 
 _GROWING = Lock()
-"""Two chains of one list may be grown in two threads."""
+"""Two lists that share storage may be extended in two threads."""
 
 
 class PersistentList(Sequence[Item]):
-    """A sequence as a value: `plus` and prefixes (`chain[:n]`) answer others, and take no time."""
+    """An immutable sequence with fast `plus` and fast prefixes (`log[:n]`)."""
 
     __slots__ = ("_length", "_shared")
 
@@ -28,7 +28,7 @@ class PersistentList(Sequence[Item]):
         self._length = len(self._shared)
 
     def plus(self, items: Sequence[Item]) -> PersistentList[Item]:
-        """This and more."""
+        """Returns this list followed by `items`."""
         if not items:
             return self
         longer: PersistentList[Item] = PersistentList.__new__(PersistentList)
@@ -36,13 +36,13 @@ class PersistentList(Sequence[Item]):
             if len(self._shared) == self._length:
                 self._shared.extend(items)
                 longer._shared = self._shared
-            else:  # another chain has gone on from here
+            else:  # another list has been extended from here
                 longer._shared = [*self._shared[: self._length], *items]
         longer._length = self._length + len(items)
         return longer
 
     def first(self, count: int) -> PersistentList[Item]:
-        """The first of it; all where there are no more."""
+        """Returns the first `count` items, or all if there are fewer."""
         if count >= self._length:
             return self
         shorter: PersistentList[Item] = PersistentList.__new__(PersistentList)
@@ -51,16 +51,16 @@ class PersistentList(Sequence[Item]):
         return shorter
 
     def after(self, count: int) -> list[Item]:
-        """What follows the first `count`."""
+        """Lists the items after the first `count`."""
         return self._shared[count : self._length]
 
     @property
     def shared(self) -> Sequence[Item]:
-        """The list that it is the beginning of, with what others have put after it."""
+        """The underlying list; this one is a prefix of it. Read only."""
         return self._shared
 
-    def alike(self, other: PersistentList[Item]) -> int:
-        """How many items both begin with."""
+    def common_prefix_length(self, other: PersistentList[Item]) -> int:
+        """The number of items in the common prefix of both lists."""
         shorter = min(self._length, other._length)
         if self._shared is other._shared:
             return shorter
@@ -103,4 +103,4 @@ class PersistentList(Sequence[Item]):
     __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
-        return f"Chain({list(self)!r})"
+        return f"PersistentList({list(self)!r})"

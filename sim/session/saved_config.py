@@ -1,4 +1,4 @@
-"""A configuration out of parts that were kept, or that somebody gives, under the rules they come from."""
+"""Builds a configuration from saved or given settings, with the defaults of their version of the rules."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from sim.rules.versions import RULES, check_known, completed, version_of
 
 
 def saved_config(parts: Mapping[str, Any]) -> Config:
-    """The configuration that kept parts meant when they were kept; without a version they are of the first.
+    """Returns the configuration that saved settings mean; settings without a version are of version 1.
 
     Raises `ConfigError` or `NewerRulesError`.
     """
@@ -19,7 +19,7 @@ def saved_config(parts: Mapping[str, Any]) -> Config:
 
 
 def new_config(parts: Mapping[str, Any]) -> Config:
-    """The configuration of parts that are given now: with the defaults of today, or of the version they name.
+    """Returns the configuration of settings given now, with the current defaults or those of a named version.
 
     Raises `ConfigError`.
     """
@@ -27,5 +27,5 @@ def new_config(parts: Mapping[str, Any]) -> Config:
 
 
 def defaults_under(rules: int) -> Config:
-    """The default configuration of a version. Raises `ConfigError` for none that is known."""
+    """Returns the default configuration of a version. Raises `ConfigError` for an unknown version."""
     return new_config({"rules": rules})

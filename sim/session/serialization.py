@@ -1,12 +1,12 @@
-"""States as JSON values and back, exactly: many of them together, and what they share is written once.
+"""Serializes states as JSON values and back, exactly; parts that several states share are written once.
 
-Worlds that follow each other share most of what they are made of: configurations, tables of things, the
-world an episode began with. Here each such part has a number, given when it is first met, and is one object
-again when it is read. Boards are hexadecimal, since JSON readers take no whole numbers of that size. Leaves
-out what is to be made of it, and whether it can be trusted.
+Consecutive states share most of their parts: configurations, tables of ids, the first world of the episode.
+Each shared part gets a number when it is first seen, and is one object again after reading. Boards are
+hexadecimal strings, since JSON readers cannot take such large integers. Storage and trust are the caller's
+concern.
 
-A stateless sensor has no belief, and nothing is written for it. Any other belief has a form that only its
-sensor knows: such a state is not written (`BeliefError`), and comes back by a replay of its session.
+A stateless sensor has no belief, and nothing is written for it. Only its sensor knows the form of any other
+belief: such a state is not written (`BeliefError`), and is restored by a replay of its session.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class BeliefError(ValueError):
 
 
 class Pool:
-    """Parts that are written once, by identity; they must live as long as the pool."""
+    """A pool of parts, each written once, by identity. The pool keeps its parts alive."""
 
     def __init__(self) -> None:
         self.values: list[Any] = []
@@ -50,10 +50,10 @@ class Pool:
         self._held: list[object] = []
 
     def number(self, part: Part, written: Callable[[Part], Any]) -> int:
-        """The number of a part; it is written when it is met for the first time."""
+        """Returns the number of a part; calls `written` for a part that is new."""
         found = self._numbers.get(id(part))
         if found is None:
-            value = written(part)  # which may write parts of its own first
+            value = written(part)  # may add parts of its own first
             found = self._numbers[id(part)] = len(self.values)
             self.values.append(value)
             self._held.append(part)
@@ -61,7 +61,7 @@ class Pool:
 
 
 class Packer:
-    """Runs as JSON values."""
+    """Packs states into one JSON value."""
 
     def __init__(self) -> None:
         self._configs, self._tables, self._numbered = Pool(), Pool(), Pool()
@@ -70,11 +70,11 @@ class Packer:
         self._planners: set[str] = set()
 
     def run(self, state: SimState) -> int:
-        """The number of a run. Raises `BeliefError`."""
+        """Adds a state and returns its number. Raises `BeliefError`."""
         return self._runs.number(state, self._run)
 
     def packed(self) -> dict[str, Any]:
-        """All of it."""
+        """Returns everything packed so far as a JSON value."""
         return {
             "configs": self._configs.values,
             "tables": self._tables.values,
@@ -85,11 +85,11 @@ class Packer:
         }
 
     def planners(self) -> set[str]:
-        """Every planner that one of them is driven by."""
+        """The names of all planners in the packed states."""
         return {config["planner"] for config in self._configs.values} | self._planners
 
     def config(self, config: Config) -> int:
-        """The number of a configuration."""
+        """Adds a configuration and returns its number."""
         return self._configs.number(config, _config)
 
     def _run(self, state: SimState) -> list[Any]:
@@ -150,10 +150,10 @@ class Packer:
 
 
 class Unpacker:
-    """Runs from JSON values, by their numbers.
+    """Unpacks states from a JSON value; `runs` and `configs` are in the order of their numbers.
 
-    Raises `ValueError`, `TypeError` or `LookupError` for what cannot be read (`ConfigError` is one of the
-    first), and `ValueError` where the worlds are not those that were written.
+    Raises `ValueError` (`ConfigError` is one), `TypeError` or `LookupError` for an invalid value, and
+    `ValueError` if the digest of the worlds differs from the saved one.
     """
 
     def __init__(self, packed: Mapping[str, Any]) -> None:

@@ -1,9 +1,8 @@
 """The grid, and sets of its cells as integers (bitboards).
 
-Cell (column, row) is bit `row * columns + column`. A set of cells is one Python integer, so that
-a road of any size is handled whole by `&`, `|`, `~` and shifts; idea and names are those of chess
-engines (Slate & Atkin, "CHESS 4.5", 1977). A shift by one is a step sideways, by `columns` a
-step along the road.
+Cell (column, row) is bit `row * columns + column`. A set of cells is one Python integer, so `&`, `|`, `~` and
+shifts work on a whole road of any size, as in chess engines (Slate & Atkin, "CHESS 4.5", 1977). A shift by
+one is a sideways step, a shift by `columns` a step along the road.
 """
 
 from __future__ import annotations
@@ -24,8 +23,8 @@ Board = int
 
 
 def bits(board: Board) -> Iterator[int]:
-    """The cell indices in a board, lowest first."""
-    # Word by word: taking single bits off a long number costs its whole length each time.
+    """Yields the cell indices in a board, lowest first."""
+    # Word by word: removing a bit from a long integer takes time in proportion to its length.
     offset = 0
     while board:
         word = board & _WORD
@@ -38,12 +37,12 @@ def bits(board: Board) -> Iterator[int]:
 
 
 def cells_of(board: Board) -> list[int]:
-    """The same as a list; quicker where many of the cells are in it."""
+    """Lists the cell indices in a board, lowest first; faster than `bits` for dense boards."""
     return list(compress(range(board.bit_length()), bin(board)[:1:-1].encode().translate(_FROM_DIGITS)))
 
 
 def board_of(indices: Iterable[int]) -> Board:
-    """The board holding these cell indices."""
+    """Returns the board with these cell indices."""
     board = 0
     for index in indices:
         board |= 1 << index
@@ -60,7 +59,7 @@ def union(boards: Iterable[Board]) -> Board:
 
 @dataclass(frozen=True, slots=True)
 class Road:
-    """`columns` × `rows` cells; row 0 is the destination edge, column 0 is lane 1."""
+    """A road of `columns` × `rows` cells; row 0 is the goal, column 0 is lane 1."""
 
     columns: int
     rows: int
@@ -77,20 +76,20 @@ class Road:
     @staticmethod
     @lru_cache(maxsize=64)
     def of(columns: int, rows: int) -> Road:
-        """The road of that size; one object per size."""
+        """Returns the road of that size; one shared object per size."""
         return Road(columns, rows)
 
     @property
     def start(self) -> int:
-        """The cell index where the first vehicle starts: bottom centre."""
+        """The cell index where the first ego starts: last row, centre."""
         return self.index((self.columns // 2, self.rows - 1))
 
     def index(self, cell: Cell) -> int:
-        """The bit number of a cell that lies on the road."""
+        """The index of a cell on the road."""
         return cell[1] * self.columns + cell[0]
 
     def cell(self, index: int) -> Cell:
-        """(column, row) of a bit number."""
+        """The cell (column, row) of an index."""
         row, column = divmod(index, self.columns)
         return column, row
 
@@ -108,11 +107,11 @@ class Road:
 
     @property
     def between(self) -> Board:
-        """The rows between start and goal, where roads are furnished."""
+        """All cells between the start row and the goal row, where things are placed."""
         return self.all & ~self.row(0) & ~self.row(self.rows - 1)
 
     def moved(self, index: int, move: Move) -> int | None:
-        """The cell a move leads to, or None if that is off the road."""
+        """The index of the cell a move leads to; None if that is off the road."""
         columns, rows = move.offset
         column = index % self.columns + columns
         target = index + columns + rows * self.columns

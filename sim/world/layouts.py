@@ -1,19 +1,19 @@
-"""Families of roads: where the barriers of a layout stand, from a stream of random words.
+"""Layouts (families of roads): draws the barriers of a road from a random stream.
 
-Structure: a layout is laid band by band from the start to the goal, each band from a sub-stream of its own,
-so that a longer road goes on from a shorter one. Within a band the way through lies away from the one before
-(`_far`: the farther of two draws), so that sideways moves are needed. Every band leaves a way through for a
-vehicle on an empty road. Movers are drawn in the busy rows of a band, between which one can wait, and
-potholes where they leave that way open. Whether the road can be driven is then searched (`sim.generation`).
+Structure: a layout is built band by band from the start to the goal. Each band has its own sub-stream, so a
+longer road continues a shorter one. The opening of a band lies away from that of the band before
+(`_farther_draw`), so sideways moves are needed. Every band leaves a way through an empty road. Movers are
+drawn in the busy rows of a band, with rows to wait in between, and potholes off the way through.
+`sim.generation` then searches whether the road can be driven.
 
-- `walls`: a row of barriers every second or third row, with one gap or two of one cell.
+- `walls`: a row of barriers every second or third row, with one or two gaps of one cell.
 - `narrows`: an open row or two, then a street of one to three lanes for some rows.
 - `dead_ends`: corridors side by side, all but one of them closed at their far end.
 - `crossing`: no barriers; several vehicles in every row of a band but the last.
 - `maze`: rows cut into rooms, with walls between them; some openings lead into closed rooms.
 
-The idea of bands with an opening each is that of Eller's row-by-row mazes (Buck, "Mazes for Programmers",
-2015), without loops back, since a vehicle never drives back.
+Source: Eller's algorithm builds mazes row by row with an opening each (Buck, "Mazes for Programmers", 2015);
+here without passages that lead back, since the ego never moves backwards.
 """
 
 from __future__ import annotations
@@ -27,29 +27,29 @@ from sim.randomness import Stream
 from sim.world.grid import Board, Road, board_of
 
 _CROSSING: Final = 0.7
-"""Part of the cells that hold a vehicle on a `crossing` road on average, times the spawn probability."""
+"""Mean share of cells with a vehicle on a `crossing` road, per unit of spawn probability."""
 _STREET: Final = 8
-"""Columns for which a road has one street, or one corridor that is open."""
+"""A road has one street for every so many columns."""
 _DOORS: Final = 16
-"""Columns for which a wall has one more gap."""
+"""A wall has one more gap, and a band one more open corridor, for every so many columns."""
 _LONGEST: Final = 6
 """Rows of the longest street."""
 _DEEPEST: Final = 5
-"""Rows of the deepest corridor, without the row that closes it."""
+"""Rows of the deepest corridor, without the closing row."""
 _BUSY: Final = 5
-"""Rows of the longest stretch of crossing traffic."""
+"""Rows of the longest band of crossing traffic."""
 _PILLARS: Final = 0.25
-"""Part of the cells of a maze's rooms that are barriers, off the way through."""
+"""Share of barriers among the cells of a maze's rooms, off the way through."""
 _OPENINGS: Final = 0.15
-"""Part of the cells of a maze's walls that are open, beside the way through."""
+"""Share of open cells in a maze's walls, besides the way through."""
 
 _SIZE, _SECOND, _FLIP = 0, 1, 2
 _PLACES, _CELLS, _WALL = 8, 256, 512
-"""Where the words of a band's stream are read for what."""
+"""Indices of a band's random stream, by purpose."""
 
 
-class LaidRoad(NamedTuple):
-    """What a layout says of the cells between start and goal."""
+class LayoutBoards(NamedTuple):
+    """The boards of a layout, between start and goal."""
 
     barriers: Board
     movers: Board
@@ -58,10 +58,10 @@ class LaidRoad(NamedTuple):
     """cells where potholes are drawn first"""
 
 
-def lay_out(layout: Layout | None, road: Road, stream: Stream) -> LaidRoad:
-    """The barriers of a layout, and where the rest is drawn; no barriers without a layout."""
+def lay_out(layout: Layout | None, road: Road, stream: Stream) -> LayoutBoards:
+    """Draws the barriers of a layout, and where movers and potholes go; no barriers without a layout."""
     if layout is None:
-        return LaidRoad(0, road.between, road.between)
+        return LayoutBoards(0, road.between, road.between)
     columns, barriers, movers, potholes = road.columns, 0, 0, 0
     row, number, through = road.rows - 2, 0, columns // 2
     while row >= 1:
@@ -73,26 +73,26 @@ def lay_out(layout: Layout | None, road: Road, stream: Stream) -> LaidRoad:
             potholes |= (holes & ~line) << start
             row -= 1
         number, through = number + 1, band.through
-    return LaidRoad(barriers, movers, potholes)
+    return LayoutBoards(barriers, movers, potholes)
 
 
 def _movable(line: Board, columns: int) -> Board:
-    """The free cells of a row with a free cell beside them: in any other a mover would stand for good."""
+    """The free cells of a row with a free neighbour in it: in any other a mover could never move."""
     free = _all_but((), columns) & ~line
     return free & (free << 1 | free >> 1)
 
 
 def has_barriers(layout: Layout | None) -> bool:
-    """Whether a layout places barriers itself, so that none can be asked for beside them."""
+    """Whether a layout places barriers itself; a number of barriers cannot be asked for then."""
     return layout is not None and layout != "crossing"
 
 
-def least_room(layout: Layout | None, columns: int, rows: int) -> int:
-    """Cells between start and goal that are free of a layout's barriers, whatever is drawn."""
+def min_free_cells(layout: Layout | None, columns: int, rows: int) -> int:
+    """A lower bound on the cells between start and goal that are free of barriers, for every seed."""
     between = rows - 2
     match layout:
         case "walls" | "maze":
-            # At least every other row is a room or open; a maze's rooms keep the way through alone.
+            # At least every other row is open or a room; in a maze's room only the way is surely free.
             open_rows = -(-between // 2)
             return open_rows * (columns if layout == "walls" else 1) + between - open_rows
         case "narrows":
@@ -104,13 +104,13 @@ def least_room(layout: Layout | None, columns: int, rows: int) -> int:
 
 
 def vehicles_on_average(layout: Layout | None, columns: int, rows: int, spawn_probability: float) -> float:
-    """About how many obstacle vehicles a road has where no exact number is asked for."""
+    """The mean number of obstacle vehicles on a road without an exact number."""
     a_row = spawn_probability * (columns * _CROSSING if layout == "crossing" else 1)
     return (rows - 2) * a_row * _BUSY_SHARE.get(layout, 1.0)
 
 
-def crossing(columns: int, spawn_probability: float, stream: Stream) -> int:
-    """Vehicles in one row of a `crossing` road, by the row's own stream: half the average to half more."""
+def crossing_vehicles(columns: int, spawn_probability: float, stream: Stream) -> int:
+    """Draws the number of vehicles in a row of a `crossing` road: 0.5 to 1.5 times the mean."""
     average = columns * spawn_probability * _CROSSING
     most = min(int(average * 1.5), columns // 2 + columns // 8)
     least = min(ceil(average / 2), most)
@@ -118,20 +118,20 @@ def crossing(columns: int, spawn_probability: float, stream: Stream) -> int:
 
 
 class _Band(NamedTuple):
-    """Some rows, from the start on."""
+    """A band: some rows, listed from the start towards the goal."""
 
     lines: list[Board]
-    """the barriers of each row, column by column"""
+    """barriers of each row; bit i is column i"""
     busy: list[bool]
     """whether movers are drawn in each row"""
     holes: list[Board]
-    """where potholes are drawn in each row"""
+    """cells of each row in which potholes are drawn"""
     through: int
-    """the column by which the way through leaves"""
+    """column in which the way through leaves the band"""
 
 
 def _alternating(length: int, first: int = 0) -> list[bool]:
-    """Movers in every second row from that one on, and not in the last."""
+    """Marks every second row from `first` on as busy, except the last."""
     return [at % 2 == first and at < length - 1 for at in range(length)]
 
 
@@ -139,19 +139,19 @@ def _all_but(free: Iterable[int], columns: int) -> Board:
     return (1 << columns) - 1 & ~board_of(free)
 
 
-def _far(positions: int, stream: Stream, index: int, before: int) -> int:
-    """The one of two draws that lies farther from the position before."""
+def _farther_draw(positions: int, stream: Stream, index: int, before: int) -> int:
+    """Draws two positions and returns the one farther from `before`."""
     first, second = stream.below(positions, index), stream.below(positions, index + 1)
     return second if abs(second - before) > abs(first - before) else first
 
 
-def _inner(columns: int, stream: Stream, index: int, before: int) -> int:
-    """A column for a gap, off the edges: there a mover that turns round would shut in who follows it."""
-    return 1 + _far(columns - 2, stream, index, before - 1)
+def _inner_column(columns: int, stream: Stream, index: int, before: int) -> int:
+    """Draws a column for a gap, never at an edge, where a turning mover could lock in the ego."""
+    return 1 + _farther_draw(columns - 2, stream, index, before - 1)
 
 
 def _walls(columns: int, stream: Stream, through: int) -> _Band:
-    gap = _inner(columns, stream, _PLACES, through)
+    gap = _inner_column(columns, stream, _PLACES, through)
     gaps = {gap}
     for extra in range(stream.below(2, _SECOND) + columns // _DOORS):
         column = 1 + stream.below(columns - 2, _PLACES + 2 + extra)
@@ -169,13 +169,15 @@ def _narrows(columns: int, stream: Stream, through: int) -> _Band:
     for street in range(streets):
         first, last = columns * street // streets, columns * (street + 1) // streets
         width = 1 + stream.below(min(3, last - first - 1), _PLACES + 3 * street)
-        left = first + _far(last - first - width + 1, stream, _PLACES + 3 * street + 1, through - first)
+        left = first + _farther_draw(
+            last - first - width + 1, stream, _PLACES + 3 * street + 1, through - first
+        )
         free.update(range(left, left + width))
         if street == 0:
             through_next = left + width // 2
     busy_first = stream.below(2, _SECOND)
     length = 3 + stream.below(_LONGEST - 2, _SIZE)
-    # The row before a street has no movers: who leaves by one edge could not reach a street at the other.
+    # The row before a street has no movers: an ego at one edge could not reach a street at the other.
     lines = [0] * (1 + busy_first) + [_all_but(free, columns)] * length
     busy = _alternating(len(lines), 1 - busy_first)
     wide = board_of(free) if len(free) == 3 * streets else 0
@@ -196,7 +198,7 @@ def _dead_ends(columns: int, stream: Stream, through: int) -> _Band:
             range(columns - corridor.stop, columns - corridor.start) for corridor in reversed(corridors)
         ]
     near = next((at for at, corridor in enumerate(corridors) if corridor.stop >= through), len(corridors) - 1)
-    chosen = _far(len(corridors), stream, _PLACES, near)
+    chosen = _farther_draw(len(corridors), stream, _PLACES, near)
     between = _all_but((column for corridor in corridors for column in corridor), columns)
     out = {*corridors[chosen]}
     for extra in range(columns // _DOORS):
@@ -214,7 +216,7 @@ def _crossing(columns: int, stream: Stream, through: int) -> _Band:
 
 
 def _maze(columns: int, stream: Stream, through: int) -> _Band:
-    gap = _inner(columns, stream, _PLACES, through)
+    gap = _inner_column(columns, stream, _PLACES, through)
     way = range(min(gap, through) - 1, max(gap, through) + 2)
     rooms = [
         column
@@ -245,4 +247,4 @@ _BUSY_SHARE: Final[dict[Layout | None, float]] = {
     "crossing": 0.75,
     "maze": 0.5,
 }
-"""Part of the rows that have movers, as counted on many roads."""
+"""Share of rows with movers, counted on many roads."""

@@ -1,4 +1,4 @@
-"""A world as a few lines of text, and back. Every test shows its road; every road can be mailed.
+"""Reads and writes a world as a few lines of text, for tests, logs and reports.
 
     road 8x30 tick 12 episode 1 from 0 running
     ..>.o...
@@ -6,14 +6,12 @@
     ids pothole 3, vehicle 7
     next pothole 5, vehicle 21
 
-Cells: `.` empty, `A` the autonomous vehicle, `o` pothole, `#` barrier, `>` `<` obstacle vehicles by
-heading, `)` `(` pedestrians; `}` `{` a vehicle held by a pothole, `]` `[` a pedestrian so held.
-The signs are those of `sim.types.KINDS`.
-`ids` gives numbers by kind in reading order, and `next` the first number not yet given; without them
-things are numbered 1, 2, 3 … An autonomous vehicle that shares its cell is on a line of its own
-(`av 4,29`), as is the cause of a crash (`cause swap vehicle-7 at 4,12`, and
-` by av-2` where it was not the first ego's). An outcome other than
-`running` is followed by the tick it was decided at (`crash at 12`).
+Cells: `.` empty, `A` the ego, `o` pothole, `#` barrier, `>` `<` obstacle vehicles by heading, `)` `(`
+pedestrians; `}` `{` a vehicle disabled by a pothole, `]` `[` a pedestrian disabled by one (the signs of
+`sim.types.KINDS`). `ids` gives the numbers of each kind in reading order, `next` the first unused number;
+without them things are numbered 1, 2, 3 … An ego that shares its cell has a line of its own (`av 4,29`), and
+so has the cause of a crash (`cause swap vehicle-7 at 4,12`, with ` by av-2` for another ego than the first).
+An outcome other than `running` is followed by its tick (`crash at 12`).
 """
 
 from __future__ import annotations
@@ -27,7 +25,7 @@ from sim.world.boards import BOARDED, Boards
 from sim.world.grid import Board, Road, bits, board_of
 
 MAX_CELLS = 64 * 512
-"""The largest road that is read."""
+"""Cells of the largest road that is read."""
 
 _HEAD = re.compile(
     r"road (\d+)x(\d+) tick (\d+) episode (\d+) from (\d+) (running|success|crash|stuck)(?: at (\d+))?"
@@ -57,11 +55,11 @@ _SIGN_OF = {frozenset(parts): sign for sign, parts in _SIGNS.items()}
 
 
 class NotationError(ValueError):
-    """Text that is not a world; the message names the line."""
+    """The text is not a world; the message names the line."""
 
 
 def write(world: World) -> str:
-    """The world as text; `read` gives an equal one back."""
+    """Writes a world as text; `read` returns an equal world."""
     road = world.road
     shared = [cell for cell in world.avs if (world.fixed | world.moving) >> cell & 1]
     ended = "" if world.ended is None else f" at {world.ended}"
@@ -99,7 +97,7 @@ def write(world: World) -> str:
 
 
 def read(text: str) -> World:
-    """The world that some text describes. Raises `NotationError`."""
+    """Reads a world from text. Raises `NotationError`."""
     lines = [line.strip() for line in text.strip().splitlines()]
     head = _HEAD.fullmatch(lines[0]) if lines else None
     if head is None:

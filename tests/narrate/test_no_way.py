@@ -17,7 +17,7 @@ from sim.episode_record import EpisodeRecord
 from sim.events import Event, EventType
 from sim.explain.summary import summary
 from sim.oracle.lower_bounds import can_arrive
-from sim.render.hud import _told
+from sim.render.hud import _outcome_details
 from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.transition import next_world, step
@@ -140,7 +140,7 @@ def test_a_mover_that_cuts_across_is_told_in_the_decision_and_in_the_crash() -> 
         "Crash after 1 tick: a car going to lane 3, row 2 cut across my diagonal; "
         "until the last move a way to the goal was open."
     )
-    assert _told(replace(run, world=crossed)) == "cut off by vehicle-1"
+    assert _outcome_details(replace(run, world=crossed)) == "cut off by vehicle-1"
 
 
 def test_every_end_by_repetition_says_so_and_until_when_a_way_was_open() -> None:
@@ -169,10 +169,10 @@ def test_the_end_of_a_repetition_is_told_before_it_comes() -> None:
     ahead = NARRATOR.answer(Asked(Ask(about="next"), _timeline(closed)))["text"]
     assert ahead.endswith("and then I am stuck, for the same situation comes again and would for ever.")
     (*_, end) = driven(closed)
-    assert _told(end).startswith("the same again after ")
+    assert _outcome_details(end).startswith("the same again after ")
     late = run_on(road("....", "####", "....", ".A.."), repetition=False)
     (*_, last) = driven(late)
-    assert _told(last) == "41 ticks, 20.5 s"
+    assert _outcome_details(last) == "41 ticks, 20.5 s"
 
 
 def _timeline(run: SimState) -> Timeline:

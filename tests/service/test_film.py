@@ -17,7 +17,7 @@ from service.settings import Settings
 from service.store import MemoryStore
 from sim.config import Config
 from sim.render import video as films
-from sim.render.video import VideoMissingError, frames_in, render_video, video_shots
+from sim.render.video import VideoMissingError, frame_count, render_video, video_frames
 from sim.session.timeline import Timeline
 from sim.state import SimState
 from tests.service.conftest import Service
@@ -46,8 +46,8 @@ def gif(data: bytes) -> tuple[list[Image.Image], int]:
 @pytest.mark.parametrize(("fps", "step_seconds"), [(10, 0.5), (1, 0.3), (7, 0.1), (50, 1.0), (3, 0.5)])
 def test_frames_are_evenly_spaced(fps: int, step_seconds: float) -> None:
     runs = stretch(8, step_seconds=step_seconds)
-    found = list(video_shots(runs, fps))
-    assert len(found) == frames_in(runs, fps) == int(8 * step_seconds * fps + 1e-6) + 1
+    found = list(video_frames(runs, fps))
+    assert len(found) == frame_count(runs, fps) == int(8 * step_seconds * fps + 1e-6) + 1
     times = [(shot.before.world.tick + shot.phase) * step_seconds for shot in found[1:]]
     assert times == pytest.approx([(number + 1) / fps for number in range(len(times))])
     assert found[0].after is runs[0]
@@ -75,7 +75,7 @@ def test_an_mp4_has_all_frames() -> None:
     data = render_video("road", runs, "mp4", fps=25, size=(201, 201))
     with av.open(BytesIO(data)) as container:
         (stream,) = container.streams.video
-        assert sum(1 for _ in container.decode(stream)) == frames_in(runs, 25) == 51
+        assert sum(1 for _ in container.decode(stream)) == frame_count(runs, 25) == 51
         assert float(stream.average_rate or 0) == pytest.approx(25, abs=0.1)
 
 
@@ -184,7 +184,7 @@ async def test_a_film_ends_when_whoever_asked_has_gone(monkeypatch: pytest.Monke
         finally:
             loop.call_soon_threadsafe(ended.set)
 
-    monkeypatch.setattr(route, "film", watched)
+    monkeypatch.setattr(route, "render_video", watched)
     monkeypatch.setattr(PatientProtocol, "half_shut_s", 0.0)
     settings = Settings(database="memory:")
     app = create_app(settings, store=MemoryStore(), language=FewSentences(), clock=HandClock())

@@ -12,7 +12,7 @@ import pygame
 from sim.render import theme
 from sim.render.motion import Pose, poses
 from sim.render.sprites import av_sprite, barrier_sprite, pedestrian_sprite, pothole_sprite, vehicle_sprite
-from sim.render.text import written
+from sim.render.text import render_text
 from sim.rules.bodies import SIZES
 from sim.types import Kind, Move
 from tests.sim.contacts import MIDDLE, Case, worlds
@@ -42,7 +42,7 @@ def figure(path: Path) -> None:
     for number, (name, case, phase) in enumerate(SHOWN):
         corner = (number % across * (3 * PX + 12), number // across * high)
         picture.blit(_drawn(case, phase), corner)
-        picture.blit(written(name, 24, theme.TEXT), (corner[0] + 4, corner[1] + 3 * PX + 8))
+        picture.blit(render_text(name, 24, theme.TEXT), (corner[0] + 4, corner[1] + 3 * PX + 8))
     pygame.image.save(picture, path)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from sim.config import Config
-from sim.render.motion import STEP_FRAMES, leading, poses
+from sim.render.motion import STEP_FRAMES, glide_start, poses
 from sim.state import FIRST, SimState
 from sim.transition import transition
 from sim.types import Kind, Mode, Move, Outcome
@@ -62,5 +62,5 @@ def test_a_crash_is_approached() -> None:
 
 
 def _way(state: SimState, before: SimState | None, phase: float) -> tuple[World, World, float]:
-    start, gone = leading(state, before.world if before else None, phase)
+    start, gone = glide_start(state, before.world if before else None, phase)
     return start, state.world, gone

@@ -99,7 +99,7 @@ def test_it_is_written_and_read(kind: Kind, world: World) -> None:
     state = run_on(world).with_ego(watch=Watch(situation(world), 1, 2))
     assert saved(state) == state
     percept, _ = perceive(world, state.config)
-    assert codec.asked(codec.question(percept, state.config)) == (percept, state.config)
+    assert codec.parse_question(codec.question(percept, state.config)) == (percept, state.config)
 
 
 @every_kind

@@ -13,12 +13,13 @@ WORDS = 4
 """A literal of so many words, or of two that end like a sentence, is taken to be one."""
 FOR_DEVELOPERS = {
     "AssertionError",
+    "BeliefError",
     "ConnectionError",
     "IndexError",
     "KeyError",
+    "NoAnswerError",
     "NotationError",
     "RuntimeError",
-    "SilentError",
     "TypeError",
     "ValueError",
 }

@@ -1,1 +1,1 @@
-"""Planners of other packages, each in a process of its own that may hang, crash or lie."""
+"""Sandbox for planners of other packages: each runs in a process of its own, which may hang, crash or lie."""

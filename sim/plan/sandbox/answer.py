@@ -1,8 +1,8 @@
-"""What a planner of another package may answer, and the decision that is made of it.
+"""Validates the answer of a planner of another package and makes a decision from it.
 
 An answer is a move and six costs, as JSON: `{"move": "left", "costs": {"forward": null, "left": 2, ...}}`.
-Nothing else is heard. Cells, verdicts, causes, the tick, the vehicle and the planner's name are made here,
-from this project's forecast and from the question. What is not such an answer is a fault with a name.
+Nothing else is accepted. Cells, verdicts, causes, the tick, the ego and the planner's name come from this
+project's forecast and from the question. Anything but an answer is a fault with a code (`FAULTS`).
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from sim.plan.priority import options_in_order
 from sim.types import Move
 
 MOST_BYTES: Final = 4_096
-"""Of one answer."""
+"""Most bytes of one answer."""
 MOST_COST: Final = 1e12
-"""A cost is between this and its negative."""
+"""Largest absolute value of a cost."""
 MOST_TOLD: Final = 160
-"""Characters of what a planner is quoted with."""
+"""Most characters of a quotation from a planner."""
 
 _MOVES: Final = {move.value: move for move in Move}
 
@@ -53,15 +53,15 @@ FAULTS: Final = {
     "died": "took its process down ({kind})",
     "closed": "closed the line on which it was asked",
 }
-"""What a planner may do instead of answering, to follow its name. Its own words are in none of them."""
+"""Faults by code; each message follows the planner's name and contains none of its words."""
 
 _KIND: Final = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,59}")
 
 
 class FaultError(Exception):
-    """What a planner did instead of answering, to follow its name: "raised ValueError".
+    """A planner gave no valid answer; the message follows its name: "raised ValueError".
 
-    `detail` is in its own words, for its author and nobody else.
+    `detail` contains the planner's own words, for its author only.
     """
 
     def __init__(self, message: str, detail: str = "") -> None:
@@ -70,7 +70,7 @@ class FaultError(Exception):
 
 
 class CodedError(FaultError):
-    """A fault of those in `FAULTS`."""
+    """A fault with a code from `FAULTS`."""
 
     def __init__(self, code: str, kind: str = "", detail: str = "") -> None:
         super().__init__(FAULTS[code].format(kind=kind), detail)
@@ -79,25 +79,28 @@ class CodedError(FaultError):
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """A move, and what each move costs, in the order of `Move`; None where the planner has no cost for it."""
+    """A move and the cost of each move in the order of `Move`; None for a move without a cost."""
 
     move: Move
     costs: tuple[float | None, ...]
 
 
-def parsed(line: bytes) -> Answer:
-    """The answer on a line. Raises `FaultError`, also where the line names a fault."""
-    values = loaded(line)
+def parse_answer(line: bytes) -> Answer:
+    """Parses a line into an answer. Raises `FaultError`, also if the line reports a fault."""
+    values = load_json(line)
     if "fault" in values:
         raise fault_of(values)
     return answer_of(values)
 
 
-def loaded(line: bytes) -> dict[str, Any]:
-    """The JSON object on a line, each key once and every number finite. Raises `FaultError`."""
+def load_json(line: bytes) -> dict[str, Any]:
+    """Parses a JSON object with unique keys and finite numbers. Raises `FaultError`."""
     try:
         values = json.loads(
-            line.decode("utf-8"), object_pairs_hook=_each_once, parse_constant=_no_number, parse_float=_number
+            line.decode("utf-8"),
+            object_pairs_hook=_reject_duplicate_keys,
+            parse_constant=_reject_constant,
+            parse_float=_finite_float,
         )
     except (ValueError, RecursionError):
         raise CodedError("no-json") from None
@@ -107,31 +110,31 @@ def loaded(line: bytes) -> dict[str, Any]:
 
 
 def fault_of(values: Mapping[str, Any]) -> FaultError:
-    """The fault that a planner's process tells of."""
+    """Returns the fault that a planner's process reports."""
     code, kind, detail = (values.get(key) for key in ("fault", "kind", "detail"))
     if not isinstance(code, str) or code not in FAULTS:
         return CodedError("no-json")
     known = isinstance(kind, str) and _KIND.fullmatch(kind)
-    return CodedError(code, kind if known else "something", clean(detail))  # type: ignore[arg-type]
+    return CodedError(code, kind if known else "something", sanitize(detail))  # type: ignore[arg-type]
 
 
 def answer_of(values: Mapping[str, Any]) -> Answer:
-    """The answer of such values. Raises `FaultError`."""
+    """Validates parsed values as an answer. Raises `FaultError`."""
     if set(values) != {"move", "costs"}:
         raise CodedError("more")
     move, costs = values["move"], values["costs"]
     if not isinstance(move, str) or move not in _MOVES:
-        raise CodedError("no-move", detail=quoted(move))
+        raise CodedError("no-move", detail=quote(move))
     if not isinstance(costs, dict) or set(costs) != set(_MOVES):
         raise CodedError("no-verdicts")
-    return Answer(_MOVES[move], tuple(checked_cost(costs[each.value], each) for each in Move))
+    return Answer(_MOVES[move], tuple(check_cost(costs[each.value], each) for each in Move))
 
 
-def checked_cost(cost: object, move: Move) -> float | None:
-    """A cost as a number. Raises `FaultError` for what is none, or none that can be."""
+def check_cost(cost: object, move: Move) -> float | None:
+    """Returns a cost as a float, or None. Raises `FaultError` for anything but a finite number in range."""
     if cost is None:
         return None
-    detail = f"{quoted(cost)} for {move}"
+    detail = f"{quote(cost)} for {move}"
     if isinstance(cost, bool) or not isinstance(cost, int | float):
         raise CodedError("no-number", detail=detail)
     if isinstance(cost, float) and not isfinite(cost):
@@ -142,10 +145,10 @@ def checked_cost(cost: object, move: Move) -> float | None:
 
 
 def decision_of(answer: Answer, percept: Percept, config: Config) -> Decision:
-    """The decision: the planner's move and costs, and what this project's forecast says of each move.
+    """Combines the planner's move and costs with the verdicts of this project's forecast into a decision.
 
-    Cheapest first, a move without a cost last. Raises `FaultError` for a move that leads off the road
-    or into another ego.
+    Options are sorted by cost, those without a cost last. Raises `FaultError` for a move off the road or into
+    another ego.
     """
     if config.ego_dynamics(percept.road).target(percept.ego, answer.move) is None:
         raise CodedError("off-road", detail=answer.move)
@@ -169,8 +172,8 @@ def decision_of(answer: Answer, percept: Percept, config: Config) -> Decision:
     )
 
 
-def quoted(value: object) -> str:
-    """Something foreign, for a person: short, on one line, and of plain characters."""
+def quote(value: object) -> str:
+    """Formats any object of a planner for a person: short, on one line, in ASCII."""
     if isinstance(value, int) and abs(value) >= 10**40:
         return "a number of many digits"
     try:
@@ -180,26 +183,26 @@ def quoted(value: object) -> str:
     return told if len(told) <= MOST_TOLD // 2 else f"{told[: MOST_TOLD // 2]}..."
 
 
-def clean(text: object) -> str:
-    """Words of a planner's process, as above."""
+def sanitize(text: object) -> str:
+    """Limits text from a planner's process to one short printable line; other values become an empty text."""
     if not isinstance(text, str):
         return ""
     plain = "".join(each if each.isprintable() else " " for each in text[: MOST_TOLD + 1])
     return plain if len(plain) <= MOST_TOLD else f"{plain[:MOST_TOLD]}..."
 
 
-def _each_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+def _reject_duplicate_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     values = dict(pairs)
     if len(values) != len(pairs):
         raise ValueError("a key stands twice")
     return values
 
 
-def _no_number(name: str) -> Any:
+def _reject_constant(name: str) -> Any:
     raise ValueError(f"{name} is no number")
 
 
-def _number(digits: str) -> float:
+def _finite_float(digits: str) -> float:
     number = float(digits)
     if not isfinite(number):
         raise ValueError("a number is too large")

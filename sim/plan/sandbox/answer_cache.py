@@ -1,7 +1,7 @@
-"""What planners of other packages have answered: the same question is not asked twice.
+"""A cache of planners' answers: the same question is not asked twice.
 
-So a decision that was taken is told of as it was, without its planner, and twenty questions about one moment
-cost one. Kept for the latest questions, in memory only. Safe to use from several threads.
+A past decision is then explained without its planner, and twenty questions about one tick cost one call. The
+cache holds the latest questions, in memory only (least recently used ones are dropped), and is thread-safe.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from typing import Final
 from sim.plan.sandbox.answer import Answer
 
 MOST: Final = 20_000
-"""Answers, of some hundred bytes each."""
+"""Most entries, of some hundred bytes each."""
 
 
-class Remembered:
-    """The latest answers, and the faults that were met instead."""
+class AnswerCache:
+    """An LRU cache of answers and faults by question."""
 
     def __init__(self, most: int = MOST) -> None:
         self._most = most
@@ -26,7 +26,7 @@ class Remembered:
         self._by_question: OrderedDict[bytes, Answer | str] = OrderedDict()
 
     def note(self, key: bytes, answer: Answer | str) -> None:
-        """An answer, or the fault (`FaultError`) that was met."""
+        """Stores an answer, or the message of the fault that came instead."""
         with self._lock:
             self._by_question[key] = answer
             self._by_question.move_to_end(key)
@@ -34,7 +34,7 @@ class Remembered:
                 self._by_question.popitem(last=False)
 
     def find(self, key: bytes) -> Answer | str | None:
-        """What was answered to this question."""
+        """Returns the stored answer or fault; None if the question is unknown."""
         with self._lock:
             found = self._by_question.get(key)
             if found is not None:
@@ -42,18 +42,18 @@ class Remembered:
             return found
 
     def clear(self) -> None:
-        """Forget all."""
+        """Removes all entries."""
         with self._lock:
             self._by_question.clear()
 
 
 def key_of(planner: str, question: bytes) -> bytes:
-    """What a planner is asked, in 16 bytes."""
+    """Hashes a planner's name and a question to a key of 16 bytes."""
     digest = blake2b(planner.encode(), digest_size=16)
     digest.update(b"\0")
     digest.update(question)
     return digest.digest()
 
 
-answers = Remembered()
-"""Those of this process."""
+answers = AnswerCache()
+"""The cache of this process."""

@@ -1,8 +1,8 @@
-"""Asking a planner of another package, waiting no longer than there is time for.
+"""Asks a planner of another package, with a time limit.
 
-A thread that serves others (`not_in_this_thread`) never waits: there only what was answered before is told.
-A piece of work that asks many times (`within`) has one time for all of it, after which every further question
-goes unanswered. Leaves out how the planner is run (`worker`), and what is believed of an answer (`answer`).
+A thread that must not block (`without_waiting`) gets cached answers only. Work that asks many times has one
+time limit for all its questions (`time_limit`); later questions get no answer. `worker` runs the planner and
+`answer` validates what it returns.
 """
 
 from __future__ import annotations
@@ -21,54 +21,51 @@ from sim.plan.sandbox import worker
 from sim.plan.sandbox.answer import Answer, FaultError
 from sim.plan.sandbox.answer_cache import answers, key_of
 from sim.plan.sandbox.codec import question
-from sim.plan.sandbox.worker import SilentError
+from sim.plan.sandbox.worker import NoAnswerError
 
-NOT_HERE: Final = "is not waited for here"
+NO_WAITING: Final = "is not waited for here"
 
-_serving: set[int] = set()
+_nonblocking_threads: set[int] = set()
 
 
-class _Patience:
-    """How long may still be waited."""
+class _TimeBudget:
+    """The time that is left for waiting, in seconds."""
 
     def __init__(self, seconds: float) -> None:
         self.seconds = self.left_s = seconds
 
 
-_patience: ContextVar[_Patience | None] = ContextVar("_patience", default=None)
+_time_budget: ContextVar[_TimeBudget | None] = ContextVar("_time_budget", default=None)
 
 
 @contextmanager
-def within(seconds: float) -> Iterator[None]:
-    """All that is asked in here is waited for this long in all."""
-    token = _patience.set(_Patience(seconds))
+def time_limit(seconds: float) -> Iterator[None]:
+    """Limits the total time of waiting for answers in this context."""
+    token = _time_budget.set(_TimeBudget(seconds))
     try:
         yield
     finally:
-        _patience.reset(token)
+        _time_budget.reset(token)
 
 
 @contextmanager
-def not_in_this_thread() -> Iterator[None]:
-    """In this thread nothing is waited for: others would wait with it."""
+def without_waiting() -> Iterator[None]:
+    """In this thread only cached answers are used in this context, since waiting would block others."""
     thread = threading.get_ident()
-    _serving.add(thread)
+    _nonblocking_threads.add(thread)
     try:
         yield
     finally:
-        _serving.discard(thread)
+        _nonblocking_threads.discard(thread)
 
 
-def remembered(percept: Percept, config: Config) -> Answer | str | None:
-    """What the planner answered to this before, or the fault that was met; None if that is not known."""
+def cached_answer(percept: Percept, config: Config) -> Answer | str | None:
+    """Returns the cached answer or fault of the configured planner; None if there is none."""
     return answers.find(key_of(config.planner, question(percept, config)))
 
 
 def ask(percept: Percept, config: Config) -> Future[Answer]:
-    """What the planner that the configuration names answers, once it does.
-
-    The future raises `FaultError` and `SilentError`.
-    """
+    """Asks the configured planner. The future raises `FaultError` and `NoAnswerError`."""
     asked = worker.worker_of(config.planner)
     if asked is not None:
         return asked.ask(percept, config)
@@ -77,22 +74,22 @@ def ask(percept: Percept, config: Config) -> Future[Answer]:
     return missing
 
 
-def answered(percept: Percept, config: Config) -> Answer:
-    """The same, waited for. Raises `FaultError` and `SilentError`."""
-    if threading.get_ident() in _serving:
-        found = remembered(percept, config)
+def wait_for_answer(percept: Percept, config: Config) -> Answer:
+    """Asks the configured planner and waits. Raises `FaultError` and `NoAnswerError`."""
+    if threading.get_ident() in _nonblocking_threads:
+        found = cached_answer(percept, config)
         if found is None:
-            raise SilentError(NOT_HERE)
+            raise NoAnswerError(NO_WAITING)
         if isinstance(found, str):
             raise FaultError(found)
         return found
-    patience = _patience.get()
+    patience = _time_budget.get()
     if patience is None:
         return ask(percept, config).result()
     began = monotonic()
     try:
         return ask(percept, config).result(max(0.0, patience.left_s))
     except TimeoutError:
-        raise SilentError(f"did not answer within {patience.seconds:g} s in all") from None
+        raise NoAnswerError(f"did not answer within {patience.seconds:g} s in all") from None
     finally:
         patience.left_s -= monotonic() - began

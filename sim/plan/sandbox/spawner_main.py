@@ -1,12 +1,12 @@
-"""The process that planners' processes are started from: `python -m sim.plan.sandbox.spawner_main`.
+"""The process that forks planners' processes: `python -m sim.plan.sandbox.spawner_main`.
 
-It has this project's modules loaded and nothing else, so that one more process costs milliseconds, and who
-asks (a service with much memory and little time) does not have to divide itself. It has one thread, runs
-nothing of any planner, and is asked on its standard input, one request after the other; a line answers each:
+It has only this project's modules loaded, so a new process costs milliseconds and the service itself never
+forks. It has one thread and runs no planner code. Requests come on its standard input, one after the other;
+each gets a line as its answer:
 
-    {"start": "module:Class", "paths": [...]}, with two files: the line, and what is printed  ->  its number
-    {"look": number}   ->  the code it ended with, or null
-    {"reap": number}   ->  null; it has been killed, and its number may be given away
+    {"start": "module:Class", "paths": [...]}, with two files (socket, output)  ->  the process id
+    {"look": pid}   ->  the exit code (negative for a signal), or null while it runs
+    {"reap": pid}   ->  null; the process has been killed and is to be waited for
 """
 
 from __future__ import annotations
@@ -24,20 +24,20 @@ _reaping: set[int] = set()
 
 
 def main() -> None:
-    """Answer until nobody asks."""
+    """Handles requests until the input closes."""
     end_with_parent()
     asked = socket.socket(fileno=os.dup(0))
     with open(os.devnull, "rb") as nothing:
         os.dup2(nothing.fileno(), 0)
     while True:
-        data, files = _received(asked)
+        data, files = _receive(asked)
         if not data:
             return
-        answer = _answer(json.loads(data), files, asked)
+        answer = _handle(json.loads(data), files, asked)
         asked.sendall(json.dumps(answer).encode() + b"\n")
 
 
-def _received(asked: socket.socket) -> tuple[bytes, list[int]]:
+def _receive(asked: socket.socket) -> tuple[bytes, list[int]]:
     data, files = b"", list[int]()
     while not data.endswith(b"\n"):
         part, more, _, _ = socket.recv_fds(asked, _REQUEST, 2)
@@ -47,12 +47,12 @@ def _received(asked: socket.socket) -> tuple[bytes, list[int]]:
     return data, files
 
 
-def _answer(request: dict[str, Any], files: list[int], asked: socket.socket) -> int | None:
+def _handle(request: dict[str, Any], files: list[int], asked: socket.socket) -> int | None:
     for number in list(_reaping):
         if os.waitpid(number, os.WNOHANG)[0]:
             _reaping.discard(number)
     if "start" in request:
-        number = _started(request["start"], request["paths"], files, asked)
+        number = _start(request["start"], request["paths"], files, asked)
         for file in files:
             os.close(file)
         return number
@@ -65,7 +65,7 @@ def _answer(request: dict[str, Any], files: list[int], asked: socket.socket) -> 
     return ended.si_status if ended.si_code == os.CLD_EXITED else -ended.si_status
 
 
-def _started(target: str, paths: list[str], files: list[int], asked: socket.socket) -> int:
+def _start(target: str, paths: list[str], files: list[int], asked: socket.socket) -> int:
     number = os.fork()
     if number:
         os.setpgid(number, number)

@@ -1,13 +1,13 @@
-"""Planners of other packages, each in a process of its own, where it can hang, crash or leak alone.
+"""Runs planners of other packages, each in a process of its own, where it can hang, crash or leak alone.
 
-One thread with an event loop looks after all of them; who asks has a future, and waits or does not. A process
-has a time to start in and a time for each decision, gets a line of its own and nothing else of this process
-(no files, no sockets, no settings), and stands still while it is not asked (Linux). Whoever takes too long or
-breaks the rules of the line is killed with all it has started, and begun anew at the next question; one that
-fails again and again is left alone for a while. How many processes there are, and begin at once, is limited.
+One thread with an event loop manages all processes; callers get futures. A process has a time limit to start
+and one for each decision. It gets one socket and nothing else of this process (no files, no settings), and is
+stopped while it is not asked (Linux). A process that is late or breaks the protocol is killed with its
+children and restarted at the next question; after repeated failures it pauses. The number of processes, and
+of simultaneous starts, is limited.
 
-Leaves out what an answer is (`answer`), and what a process with the rights of its user may do to that user's
-files: it is kept from troubling the service, not from being malicious.
+`answer` validates answers. A process has the rights of its user: the sandbox protects the service from
+errors, not the user's files from malice.
 """
 
 from __future__ import annotations
@@ -38,10 +38,10 @@ from sim.plan.sandbox.answer import (
     FaultError,
     answer_of,
     fault_of,
-    loaded,
-    parsed,
+    load_json,
+    parse_answer,
 )
-from sim.plan.sandbox.answer_cache import Remembered, answers, key_of
+from sim.plan.sandbox.answer_cache import AnswerCache, answers, key_of
 from sim.plan.sandbox.codec import CHECKED, question
 from sim.planner_names import installed
 
@@ -51,25 +51,25 @@ if TYPE_CHECKING:
 _LOG = logging.getLogger(__name__)
 
 BUDGET_S: Final = 0.25
-"""Time for one decision."""
+"""Time limit of one decision."""
 START_S: Final = 20.0
-"""Time for a process to start and load its planner."""
+"""Time limit for a process to start and load its planner."""
 MOST_PROCESSES: Final = 32
-"""More planners than this take turns."""
+"""Most processes; more planners take turns."""
 MOST_AT_ONCE: Final = max(4, os.cpu_count() or 1)
-"""So many decide at once, so that each has a processor to do so in time; the others wait for their turn."""
+"""Most decisions at the same time, so that each has a processor; others wait."""
 MOST_STARTING: Final = 2
-"""So many processes start at once; the others wait for their turn."""
+"""Most processes that start at the same time; others wait."""
 MOST_FAILURES: Final = 5
-"""After so many failures in a row a planner is left alone for `REST_S`."""
+"""After this many failures in a row a planner pauses for `REST_S`."""
 REST_S: Final = 30.0
 CHECK_BYTES: Final = 32_768
-"""Of an answer that is told in full, for the checker."""
+"""Most bytes of a full answer for the conformance check."""
 LOG_BYTES: Final = 500
-"""Of what a process prints are logged; the rest is thrown away."""
+"""Most bytes of a process's output that are logged; the rest is dropped."""
 
 _PRINTED_BYTES, _PRINTED_S = 4_096, 0.02
-"""Not more is read of what a process prints, and not more often: who floods waits."""
+"""Size and interval of reads from a process's output, which slow down a process that floods it."""
 _PASSED_ON: Final = (
     "PATH",
     "HOME",
@@ -81,19 +81,19 @@ _PASSED_ON: Final = (
     "VIRTUAL_ENV",
     "LD_LIBRARY_PATH",
 )
-"""Of the environment: keys and passwords of the service are not for planners."""
+"""Environment variables that are passed on; keys and passwords of the service are not."""
 _ONE_THREAD: Final = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
-_STANDS_STILL: Final = sys.platform == "linux"
+_CAN_PAUSE: Final = sys.platform == "linux"
 
 Result = TypeVar("Result")
 
 
-class SilentError(Exception):
-    """No answer within the time there is; the message says which, to follow the planner's name."""
+class NoAnswerError(Exception):
+    """No answer in time; the message follows the planner's name and says which limit was reached."""
 
 
 class Worker:
-    """One planner's process, started when first asked. Several threads may ask; it answers in turn."""
+    """The process of one planner, started at the first question. Thread-safe; answers come in turn."""
 
     def __init__(
         self,
@@ -101,9 +101,9 @@ class Worker:
         target: str,
         budget_s: float = BUDGET_S,
         start_s: float = START_S,
-        memory: Remembered | None = answers,
+        memory: AnswerCache | None = answers,
     ) -> None:
-        """The planner `module:Class`. Without a `memory` it is asked the same question again."""
+        """For the planner at `target` ("module:Class"). Without `memory`, answers are not cached."""
         self.name = name
         self._target = target
         self._budget_s = budget_s
@@ -115,100 +115,100 @@ class Worker:
         self._rests_until = 0.0
 
     def ask(self, percept: Percept, config: Config) -> Future[Answer]:
-        """What it answers. The future raises `FaultError` or `SilentError`; it is not to be cancelled."""
+        """Asks the planner. The future raises `FaultError` or `NoAnswerError`; do not cancel it."""
 
         async def asked() -> Answer:
-            return await self._asked(question(percept, config))
+            return await self._ask_once(question(percept, config))
 
-        return _planners().begin(asked())
+        return _planners().submit(asked())
 
     def ask_in_full(self, percept: Percept, config: Config) -> Future[tuple[Answer, dict[str, Any]]]:
-        """As `ask`, with all that its decision says, as it says it: nothing of that is believed."""
+        """As `ask`, with the claims of the decision, which are not validated."""
 
         async def asked() -> tuple[Answer, dict[str, Any]]:
             async with self._turn:
-                values = loaded(await self._exchanged(CHECKED + question(percept, config), CHECK_BYTES))
+                values = load_json(await self._exchange(CHECKED + question(percept, config), CHECK_BYTES))
             if "fault" in values:
                 raise fault_of(values)
             if set(values) != {"answer", "claims", "changed"} or not isinstance(values["answer"], dict):
                 raise CodedError("more")
             return answer_of(values["answer"]), values
 
-        return _planners().begin(asked())
+        return _planners().submit(asked())
 
     def stop(self) -> None:
-        """End the process."""
+        """Ends the process and waits for its end."""
 
         async def stopped() -> None:
             line = self._line
-            self.leave()
+            self.drop_process()
             if line is not None:
-                await line.gone()
+                await line.wait_until_reaped()
 
-        _planners().begin(stopped()).result()
+        _planners().submit(stopped()).result()
 
     @property
     def idle(self) -> bool:
-        """Whether it has a process that nobody asks."""
+        """Whether it has a process without a question."""
         return self._line is not None and not self._turn.locked()
 
-    async def _asked(self, what: bytes) -> Answer:
+    async def _ask_once(self, what: bytes) -> Answer:
         key = key_of(self.name, what)
         async with self._turn:
             found = None if self._memory is None else self._memory.find(key)
             if found is None:
-                found = await self._found(what)
+                found = await self._answer_or_fault(what)
                 if self._memory is not None:
                     self._memory.note(key, found)
         if isinstance(found, str):
             raise FaultError(found)
         return found
 
-    async def _found(self, what: bytes) -> Answer | str:
+    async def _answer_or_fault(self, what: bytes) -> Answer | str:
         try:
-            return parsed(await self._exchanged(what, MOST_BYTES))
+            return parse_answer(await self._exchange(what, MOST_BYTES))
         except FaultError as fault:
             if fault.detail:
                 _LOG.info("the planner %s %s: %s", self.name, fault, ascii(fault.detail))
             return str(fault)
 
-    async def _exchanged(self, what: bytes, most: int) -> bytes:
-        """A question and its answer. Raises `FaultError` where the line broke, and `SilentError`."""
+    async def _exchange(self, what: bytes, most: int) -> bytes:
+        """Sends a question and reads its answer. Raises `FaultError` and `NoAnswerError`."""
         if self._rests_until > time.monotonic():
-            raise SilentError(f"has failed {MOST_FAILURES} times in a row and is left alone for now")
+            raise NoAnswerError(f"has failed {MOST_FAILURES} times in a row and is left alone for now")
         try:
-            line = self._line or await self._started()
-            _planners().used(self)
+            line = self._line or await self._start_process()
+            _planners().mark_used(self)
             async with _planners().deciding:
-                told = await line.exchanged(what, most, self._budget_s, "did not answer")
-        except (SilentError, FaultError):
-            self.leave()
+                told = await line.exchange(what, most, self._budget_s, "did not answer")
+        except (NoAnswerError, FaultError):
+            self.drop_process()
             self._failures += 1
             if self._failures >= MOST_FAILURES:
                 self._rests_until = time.monotonic() + REST_S
             raise
         self._failures = 0
-        if _planners().wanted:
-            self.leave()  # others wait for a process
+        if _planners().waiting:
+            self.drop_process()  # other planners wait for a process
         return told
 
-    async def _started(self) -> _Line:
+    async def _start_process(self) -> _Line:
         async with _planners().starting(self):
             self._line = _Line(self.name, _planners().spawner)
             await self._line.start(self._target)
             await self._line.ready(self._start_s)
             return self._line
 
-    def leave(self) -> None:
-        """Let go of its process; on the planners' thread."""
+    def drop_process(self) -> None:
+        """Kills its process, if any. Call on the planners' thread."""
         line, self._line = self._line, None
         if line is not None:
             line.kill()
-        _planners().gone(self)
+        _planners().release(self)
 
 
 class _Spawner:
-    """The process that the others are started from. For the planners' thread."""
+    """The spawner process, from which planners' processes are forked. For the planners' thread."""
 
     def __init__(self) -> None:
         self._turn = asyncio.Lock()
@@ -216,24 +216,24 @@ class _Spawner:
         self._socket: socket.socket | None = None
 
     async def start(self, target: str, *files: int) -> int:
-        """Start the process of a planner with these files; answers its number. Raises `CodedError`."""
+        """Starts a planner's process with these files; returns its process id. Raises `CodedError`."""
         try:
-            number = await self._asked({"start": target, "paths": _paths()}, *files)
+            number = await self._request({"start": target, "paths": _paths()}, *files)
         except (OSError, ValueError) as error:
             raise CodedError("unstartable", detail=str(error)) from error
         assert number is not None
         return number
 
     async def code(self, number: int) -> int | None:
-        """The code that a process ended with; of a signal, its negative. None while it runs."""
-        return await self._asked({"look": number})
+        """The exit code of a process, negative for a signal; None while it runs."""
+        return await self._request({"look": number})
 
     async def reap(self, number: int) -> None:
-        """A process has been killed and is looked at no more."""
-        await self._asked({"reap": number})
+        """Has a killed process reaped; its process id may then be reused."""
+        await self._request({"reap": number})
 
     def end(self) -> None:
-        """End it, and with it (on Linux) all that it has started."""
+        """Ends the spawner and, on Linux, all processes it has started."""
         if self._socket is not None:
             self._socket.close()
         if self._process is not None:
@@ -241,7 +241,7 @@ class _Spawner:
             self._process.wait()
         self._socket = self._process = None
 
-    async def _asked(self, request: dict[str, Any], *files: int) -> int | None:
+    async def _request(self, request: dict[str, Any], *files: int) -> int | None:
         loop = asyncio.get_running_loop()
         async with self._turn:
             if self._socket is None or self._process is None or self._process.poll() is not None:
@@ -258,7 +258,7 @@ class _Spawner:
                         if not part:
                             raise ConnectionError("the process that starts planners has ended")
                         answer += part
-            except OSError:  # a planner may have stopped it, or ended it; a timeout is one, too
+            except OSError:  # a planner may have stopped or killed it; TimeoutError is an OSError, too
                 self.end()
                 raise
         found = json.loads(answer)
@@ -276,13 +276,13 @@ class _Spawner:
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.DEVNULL,
                 env=environment,
-                start_new_session=True,  # Linux shares out processors session by session
+                start_new_session=True,  # Linux schedules by session
             )
         self._socket = ours
 
 
 class _Line:
-    """A process, and the line to it."""
+    """A planner's process and the socket to it."""
 
     def __init__(self, name: str, spawner: _Spawner) -> None:
         self._name = name
@@ -295,7 +295,7 @@ class _Line:
         self._reaping: asyncio.Future[None] | None = None
 
     async def start(self, target: str) -> None:
-        """Start the process. Raises `CodedError`."""
+        """Starts the process. Raises `CodedError`."""
         ours, theirs = socket.socketpair()
         printed, printing = os.pipe()
         try:
@@ -311,34 +311,34 @@ class _Line:
         self._reader, self._writer = await asyncio.open_unix_connection(sock=ours, limit=CHECK_BYTES)
 
     async def ready(self, within_s: float) -> None:
-        """Wait until its planner is loaded. Raises `SilentError` and `FaultError`."""
-        told = loaded(await self._told(0, MOST_BYTES, within_s, "did not start"))
+        """Waits until the planner is loaded. Raises `NoAnswerError` and `FaultError`."""
+        told = load_json(await self._read_answer(0, MOST_BYTES, within_s, "did not start"))
         if told != {"ready": True}:
             raise fault_of(told)
-        self._rest()
+        self._pause()
 
-    async def exchanged(self, what: bytes, most: int, within_s: float, late: str) -> bytes:
-        """The line that answers a line."""
+    async def exchange(self, what: bytes, most: int, within_s: float, late: str) -> bytes:
+        """Sends a line and returns the line that answers it. Raises `NoAnswerError` and `CodedError`."""
         assert self._writer is not None
         self._number += 1
-        if _STANDS_STILL:
+        if _CAN_PAUSE:
             self._signal(signal.SIGCONT)
         self._writer.write(b"%d %s\n" % (self._number, what))
-        told = await self._told(self._number, most, within_s, late)
-        self._rest()
+        told = await self._read_answer(self._number, most, within_s, late)
+        self._pause()
         return told
 
-    async def _told(self, number: int, most: int, within_s: float, late: str) -> bytes:
+    async def _read_answer(self, number: int, most: int, within_s: float, late: str) -> bytes:
         assert self._reader is not None
         try:
             async with asyncio.timeout(within_s):
                 line = await self._reader.readuntil()
         except TimeoutError:
-            raise SilentError(f"{late} within {within_s:g} s") from None
+            raise NoAnswerError(f"{late} within {within_s:g} s") from None
         except asyncio.LimitOverrunError:
             raise CodedError("too-long") from None
         except (asyncio.IncompleteReadError, ConnectionError):
-            raise await self._ended() from None
+            raise await self._exit_fault() from None
         if len(line) > most:
             raise CodedError("too-long")
         which, _, told = line.partition(b" ")
@@ -346,8 +346,8 @@ class _Line:
             raise CodedError("out-of-turn")
         return told
 
-    async def _ended(self) -> CodedError:
-        """How its process ended, if it has."""
+    async def _exit_fault(self) -> CodedError:
+        """Returns the fault for a closed socket: how the process ended, if it did."""
         assert self._process is not None
         for _ in range(20):
             code = await self._spawner.code(self._process)
@@ -359,27 +359,27 @@ class _Line:
         return CodedError("closed")
 
     def kill(self) -> None:
-        """End it, and whatever it has started in its group."""
+        """Kills the process and its process group."""
         self._signal(signal.SIGKILL)
         if self._process is not None:
-            self._reaping = asyncio.ensure_future(self._reaped(self._process))
+            self._reaping = asyncio.ensure_future(self._reap(self._process))
             self._process = None
         if self._reading is not None:
             self._reading.cancel()
         if self._writer is not None:
             self._writer.transport.abort()
 
-    async def gone(self) -> None:
-        """Once it has been killed: wait until its number is given back."""
+    async def wait_until_reaped(self) -> None:
+        """Waits until a killed process is reaped."""
         if self._reaping is not None:
             await self._reaping
 
-    async def _reaped(self, process: int) -> None:
-        with suppress(OSError, ValueError):  # whoever starts them has ended, and they with it
+    async def _reap(self, process: int) -> None:
+        with suppress(OSError, ValueError):  # the spawner has ended, and its children with it
             await self._spawner.reap(process)
 
-    def _rest(self) -> None:
-        if _STANDS_STILL:
+    def _pause(self) -> None:
+        if _CAN_PAUSE:
             self._signal(signal.SIGSTOP)
 
     def _signal(self, number: int) -> None:
@@ -388,7 +388,7 @@ class _Line:
                 os.killpg(self._process, number)
 
     async def _read_printed(self, printed: int) -> None:
-        """Log the beginning of what it prints, and read on in small bites."""
+        """Logs the beginning of the process's output and discards the rest slowly."""
         loop, reader = asyncio.get_running_loop(), asyncio.StreamReader(limit=_PRINTED_BYTES)
         with os.fdopen(printed, "rb", buffering=0) as end:
             transport, _ = await loop.connect_read_pipe(lambda: asyncio.StreamReaderProtocol(reader), end)
@@ -404,7 +404,7 @@ class _Line:
 
 
 class _Planners:
-    """The thread that looks after all processes, and how many there may be."""
+    """The thread that manages all planners' processes, and the limits on their number."""
 
     def __init__(self) -> None:
         self._loop = asyncio.new_event_loop()
@@ -413,66 +413,66 @@ class _Planners:
         self._start = asyncio.Semaphore(MOST_STARTING)
         self._room = asyncio.Condition()
         self._with_process: dict[Worker, None] = {}
-        """the one that was asked longest ago first"""
-        self.wanted = 0
-        """how many wait for room"""
+        """least recently asked first"""
+        self.waiting = 0
+        """number of workers that wait for a process"""
         self._ended = False
-        self._telling: asyncio.Task[None] | None = None
+        self._announcing: asyncio.Task[None] | None = None
         self._thread = threading.Thread(target=self._run, name="planners", daemon=True)
         self._thread.start()
 
-    def begin(self, work: Coroutine[Any, Any, Result]) -> Future[Result]:
-        """Do this on the thread."""
+    def submit(self, work: Coroutine[Any, Any, Result]) -> Future[Result]:
+        """Runs a coroutine on the thread."""
         return asyncio.run_coroutine_threadsafe(work, self._loop)
 
     @asynccontextmanager
     async def starting(self, worker: Worker) -> AsyncIterator[None]:
-        """Room for one more process, and a turn to start it."""
+        """Waits for room for one more process, and for a turn to start it."""
         if self._ended:
-            raise SilentError("is asked no more, since the program ends")
+            raise NoAnswerError("is asked no more, since the program ends")
         async with self._room:
             if len(self._with_process) >= MOST_PROCESSES:
                 idle = next((each for each in self._with_process if each.idle), None)
                 if idle is not None:
-                    idle.leave()
-                self.wanted += 1
+                    idle.drop_process()
+                self.waiting += 1
                 try:
                     await self._room.wait_for(lambda: len(self._with_process) < MOST_PROCESSES)
                 finally:
-                    self.wanted -= 1
+                    self.waiting -= 1
             self._with_process[worker] = None
         try:
             async with self._start:
                 yield
         except BaseException:
-            self.gone(worker)
+            self.release(worker)
             raise
 
-    def used(self, worker: Worker) -> None:
-        """It is asked now."""
+    def mark_used(self, worker: Worker) -> None:
+        """Marks a worker as the most recently asked."""
         self._with_process.pop(worker, None)
         self._with_process[worker] = None
 
-    def gone(self, worker: Worker) -> None:
-        """It has no process any more."""
+    def release(self, worker: Worker) -> None:
+        """Frees the room of a worker whose process has ended."""
         if worker in self._with_process:
             del self._with_process[worker]
-            self._telling = self._loop.create_task(self._told_of_room())
+            self._announcing = self._loop.create_task(self._announce_room())
 
     def end(self) -> None:
-        """Kill every process, and start none any more."""
+        """Kills every process and starts no more."""
 
         async def ended() -> None:
             for worker in list(self._with_process):
-                worker.leave()
+                worker.drop_process()
             self.spawner.end()
 
         if not self._ended:
             self._ended = True
             with suppress(TimeoutError):
-                self.begin(ended()).result(5.0)
+                self.submit(ended()).result(5.0)
 
-    async def _told_of_room(self) -> None:
+    async def _announce_room(self) -> None:
         async with self._room:
             self._room.notify_all()
 
@@ -490,7 +490,7 @@ def _planners() -> _Planners:
 
 @cache
 def worker_of(name: str) -> Worker | None:
-    """The process of the installed planner of that name; None if there is none."""
+    """The worker of the installed planner of that name; None if there is none."""
     point = installed().get(name)
     return None if point is None else Worker(name, point.value)
 

@@ -1,8 +1,8 @@
-"""The process of one planner of another package: what is done in it, from its beginning to its end.
+"""The main program of a planner's process.
 
-Questions come and answers go on a socket of its own, a line each: a number, a space, JSON (`codec`,
-`answer`). What the planner prints goes elsewhere. Limits are set before anything of it is loaded. All
-that runs here is the planner's to spoil: whoever asks hears only what `answer` lets through.
+Questions and answers are lines on a socket: a number, a space, JSON (`codec`, `answer`). The planner's output
+goes to a pipe. Limits are set before the planner is loaded. The planner can break anything in this process;
+the other side accepts only what `answer` validates.
 """
 
 from __future__ import annotations
@@ -22,55 +22,55 @@ from sim.config import Config
 from sim.forecast import predict
 from sim.perceive import Percept
 from sim.plan.decision import Decision, Option
-from sim.plan.sandbox.answer import CodedError, checked_cost, clean, quoted
-from sim.plan.sandbox.codec import CHECKED, asked, percept_values
+from sim.plan.sandbox.answer import CodedError, check_cost, quote, sanitize
+from sim.plan.sandbox.codec import CHECKED, parse_question, percept_values
 from sim.planner_names import GROUP
 from sim.types import Move
 
 MOST_MEMORY: Final = 2**30
-"""Bytes of address space."""
+"""Most bytes of address space."""
 MOST_CPU_S: Final = 3_600
-"""Seconds of processor time in the life of one process; it is stopped while it is not asked."""
+"""Most processor time of one process in seconds; it is stopped while it is not asked."""
 MOST_FILE: Final = 64 * 2**20
-"""Bytes of a file that it writes."""
+"""Most bytes of a file that it writes."""
 MOST_FILES: Final = 256
 NICE: Final = 10
-"""So much later than the service is it given a processor where there are too few."""
+"""Scheduling priority below the service's (`os.nice`)."""
 MAX_HORIZON: Final = 10_000
 
 
 def serve(target: str, line: int, printing: int) -> None:
-    """Load the planner, then answer on the line until nobody asks any more. For a process of its own."""
-    line = _settle(line, printing)
+    """Loads the planner and answers questions on the socket `line` until it closes. For its own process."""
+    line = _confine(line, printing)
     with os.fdopen(os.dup(line), "rb") as questions:
         try:
             planner = EntryPoint("planner", target, GROUP).load()()
-        except BaseException as error:  # sys.exit() among them
-            _send(line, b"0", _told(_raised("unloadable", error)))
+        except BaseException as error:  # includes sys.exit()
+            _send(line, b"0", _fault_values(_fault_of_exception("unloadable", error)))
             return
         _send(line, b"0", {"ready": True})
         for each in questions:
             number, _, question = each.partition(b" ")
             in_full = question.startswith(CHECKED)
             work = partial(_answer, planner, question.removeprefix(CHECKED), in_full=in_full)
-            _send(line, number, fault_met(work))
+            _send(line, number, run_or_fault(work))
 
 
-def answered(planner: Any, percept: Percept, config: Config) -> object:
-    """What a planner decides of a forecast that reaches as far as it asks. Raises what it raises."""
+def ask_planner(planner: Any, percept: Percept, config: Config) -> object:
+    """Calls the planner with a forecast of the horizon it asks for. Raises whatever the planner raises."""
     horizon = planner.horizon(config)
     if isinstance(horizon, bool) or not isinstance(horizon, int) or not 1 <= horizon <= MAX_HORIZON:
-        raise CodedError("horizon", detail=quoted(horizon))
+        raise CodedError("horizon", detail=quote(horizon))
     return planner.decide(predict(percept, horizon), config)
 
 
-def told(decision: object, percept: Percept) -> dict[str, Any]:
-    """A decision's move and costs, as an answer. Raises `CodedError` where it is none for this moment."""
+def answer_values(decision: object, percept: Percept) -> dict[str, Any]:
+    """Extracts move and costs of a decision. Raises `CodedError` for anything but a decision on `percept`."""
     if not isinstance(decision, Decision):
-        raise CodedError("no-decision", detail=quoted(decision))
+        raise CodedError("no-decision", detail=quote(decision))
     move: object = decision.move
     if not isinstance(move, Move):
-        raise CodedError("no-move", detail=quoted(move))
+        raise CodedError("no-move", detail=quote(move))
     if (decision.tick, decision.av) != (percept.tick, percept.ego_id):
         raise CodedError("elsewhere")
     if predict(percept, 1).dynamics.target(percept.ego, move) is None:
@@ -86,15 +86,15 @@ def told(decision: object, percept: Percept) -> dict[str, Any]:
 
 
 def claims(planner: Any, decision: Decision) -> dict[str, Any]:
-    """What a decision says beyond the move and costs, for who compares it with what is so."""
+    """Lists what a decision claims besides move and costs, for the conformance check."""
     return {
-        "name": quoted(planner.name),
-        "planner": quoted(decision.planner),
+        "name": quote(planner.name),
+        "planner": quote(decision.planner),
         "options": {
             option.move.value: [
-                quoted(getattr(option.reason, "value", option.reason)),
-                quoted(option.cell),
-                quoted(tuple(sorted(option.causes))),
+                quote(getattr(option.reason, "value", option.reason)),
+                quote(option.cell),
+                quote(tuple(sorted(option.causes))),
                 option.cost is not None,
             ]
             for option in decision.options
@@ -102,14 +102,14 @@ def claims(planner: Any, decision: Decision) -> dict[str, Any]:
     }
 
 
-def witnessed(planner: Any, percept: Percept, config: Config) -> dict[str, Any]:
-    """An answer, with what the decision claims and whether the percept was changed. Raises `CodedError`."""
+def answer_with_claims(planner: Any, percept: Percept, config: Config) -> dict[str, Any]:
+    """Returns answer, claims, and whether the planner changed the percept. Raises `CodedError`."""
     shown = percept_values(percept)
     try:
-        decision = answered(planner, percept, config)
+        decision = ask_planner(planner, percept, config)
     except IndexError as error:
-        raise _raised("too-far" if "horizon" in str(error) else "raised", error) from error
-    answer = told(decision, percept)
+        raise _fault_of_exception("too-far" if "horizon" in str(error) else "raised", error) from error
+    answer = answer_values(decision, percept)
     assert isinstance(decision, Decision)  # else `told` raised
     return {
         "answer": answer,
@@ -118,40 +118,42 @@ def witnessed(planner: Any, percept: Percept, config: Config) -> dict[str, Any]:
     }
 
 
-def fault_met(work: Callable[[], dict[str, Any]]) -> dict[str, Any]:
-    """What the work results in, or the fault that was met instead, whatever was raised."""
+def run_or_fault(work: Callable[[], dict[str, Any]]) -> dict[str, Any]:
+    """Returns the result of `work`, or a fault for any exception."""
     try:
         return work()
     except CodedError as fault:
-        return _told(fault)
+        return _fault_values(fault)
     except BaseException as error:  # sys.exit() among them
-        return _told(_raised("raised", error))
+        return _fault_values(_fault_of_exception("raised", error))
 
 
 def _answer(planner: Any, asked_for: bytes, *, in_full: bool) -> dict[str, Any]:
-    percept, config = asked(asked_for)
+    percept, config = parse_question(asked_for)
     return (
-        witnessed(planner, percept, config) if in_full else told(answered(planner, percept, config), percept)
+        answer_with_claims(planner, percept, config)
+        if in_full
+        else answer_values(ask_planner(planner, percept, config), percept)
     )
 
 
 def _cost(option: Option) -> float | None:
     cost: Any = option.cost
     if isinstance(cost, numbers.Real) and type(cost).__module__ != "builtins":
-        cost = float(cost)  # of another library
-    return checked_cost(cost, option.move)
+        cost = float(cost)  # a number type of another library
+    return check_cost(cost, option.move)
 
 
-def _told(fault: CodedError) -> dict[str, Any]:
+def _fault_values(fault: CodedError) -> dict[str, Any]:
     return {"fault": fault.code, "kind": fault.kind, "detail": fault.detail}
 
 
-def _raised(code: str, error: BaseException) -> CodedError:
+def _fault_of_exception(code: str, error: BaseException) -> CodedError:
     try:
         text = str(error)
     except BaseException:  # whatever its own `__str__` does
         text = ""
-    return CodedError(code, type(error).__name__, clean(text))
+    return CodedError(code, type(error).__name__, sanitize(text))
 
 
 def _send(line: int, number: bytes, values: dict[str, Any]) -> None:
@@ -160,8 +162,8 @@ def _send(line: int, number: bytes, values: dict[str, Any]) -> None:
         data = data[os.write(line, data) :]
 
 
-def _settle(line: int, printing: int) -> int:
-    """Set the limits, and keep no file but these; answers the line's new number."""
+def _confine(line: int, printing: int) -> int:
+    """Sets the resource limits and closes all other files; returns the new descriptor of `line`."""
     kept = os.dup(line) if line < 4 else line
     with open(os.devnull, "rb") as nothing:
         os.dup2(nothing.fileno(), 0)
@@ -178,7 +180,7 @@ def _settle(line: int, printing: int) -> int:
     ):
         hard = resource.getrlimit(limit)[1]
         most = most if hard == resource.RLIM_INFINITY else min(most, hard)
-        with contextlib.suppress(OSError, ValueError):  # macOS knows no limit of address space
+        with contextlib.suppress(OSError, ValueError):  # macOS has no limit of address space
             resource.setrlimit(limit, (most, most))
     os.nice(NICE)
     end_with_parent()
@@ -186,7 +188,7 @@ def _settle(line: int, printing: int) -> int:
 
 
 def end_with_parent() -> None:
-    """On Linux, be killed when whoever asks has ended: who stands still would not see the line end."""
+    """On Linux, has this process killed when its parent ends; a stopped one would not see it."""
     if sys.platform == "linux":
         import ctypes
         import signal

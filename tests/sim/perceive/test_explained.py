@@ -29,6 +29,7 @@ from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.transition import next_world, step
 from sim.types import Kind, Move, Outcome
+from sim.world.boards import BOARDED
 from tests.sim.perceive.rides import rides
 from tests.sim.perceive.sensors import NAMES
 from tests.sim.roads import road, run_on
@@ -53,10 +54,12 @@ def seen_by(state: SimState, *, only: Iterable[str] | None = None, gone: Iterabl
             bit = 1 << state.world.road.index(thing.cell)
             table = "hazards" if thing.kind.fixed else "movers"
             names = {cell: name for cell, name in getattr(percept, table).items() if name != thing.id}
-            boards = ("potholes", "barriers") if thing.kind.fixed else ("right", "left", "pedestrians")
-            boards = boards if thing.kind.fixed else (*boards, "yielding", "attentive")
-            cleared = {board: getattr(percept, board) & ~bit for board in boards}
-            percept = replace(percept, **{table: names}, **cleared)
+            marks = () if thing.kind.fixed else ("right", "left", "yielding", "attentive")
+            cleared = {mark: getattr(percept, mark) & ~bit for mark in marks}
+            boards = percept.boards
+            if thing.kind in BOARDED:
+                boards = boards.with_kind(thing.kind, boards[thing.kind] & ~bit)
+            percept = replace(percept, boards=boards, **{table: names}, **cleared)
     return percept
 
 
@@ -88,7 +91,7 @@ def check_flips(state: SimState, explanation: Explanation) -> None:
 
 def same_proofs(state: SimState, made: Move) -> None:
     """Proofs come to the same whatever the sensor."""
-    clear = replace(state, config=state.config.with_parts(sensor="perfect"), belief=None)
+    clear = replace(state.with_ego(belief=None), config=state.config.with_parts(sensor="perfect"))
     for proof in (certify, least_ticks, least_cost, outlook):
         assert proof(state) == proof(clear)
     assert regret(state, made) == regret(clear, made)
@@ -152,7 +155,9 @@ def test_no_proof_believes_a_sensor_and_nothing_raises(sensor: str) -> None:
         assert real.real is not None
         assert (real.real.outcome, real.real.ticks) == (end.world.outcome, end.world.episode_tick)
         told = summary(end)
-        best = least_ticks((end.record.start and replace(end, world=end.record.start, belief=None)) or end)
+        best = least_ticks(
+            (end.record.start and replace(end.with_ego(belief=None), world=end.record.start)) or end
+        )
         assert told.best is None or told.best == best
 
 

@@ -87,7 +87,7 @@ def test_a_stateless_sensor_costs_no_look_when_moves_are_replayed(monkeypatch: p
     for _ in range(10):
         timeline.advance()
     looks: list[int] = []
-    monkeypatch.setattr("sim.state.perceive", lambda *_: looks.append(1))
+    monkeypatch.setattr("sim.decide.perceive", lambda *_: looks.append(1))
     list(timeline.between(0, 10))
     assert not looks
 

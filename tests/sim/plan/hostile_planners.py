@@ -221,9 +221,9 @@ class Patches(Hostile):
         def forged(*_: object, **__: object) -> Any:
             return {"move": "stay", "costs": FREE, "planner": "astar", "causes": ["pedestrian-666"]}
 
-        sim.plan.sandbox.worker_main.told = forged
+        sim.plan.sandbox.worker_main.answer_values = forged
         sim.plan.safe_planning.plan_safely = forged
-        sim.plan.sandbox.answer.checked_cost = forged
+        sim.plan.sandbox.answer.check_cost = forged
         return good
 
 

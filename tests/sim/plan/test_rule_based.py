@@ -223,6 +223,6 @@ def test_it_does_not_swing_left_and_right() -> None:
     for seed in range(200):
         state = driven(seed, None)
         assert state is not None
-        signs = "".join("s" if move in (Move.LEFT, Move.RIGHT) else "." for move in state.record.made())
+        signs = "".join("s" if move in (Move.LEFT, Move.RIGHT) else "." for move in state.record.move_list())
         swings += "ssssss" in signs
     assert swings <= 1

@@ -13,12 +13,12 @@ from sim.config import Config
 from sim.forecast import predict
 from sim.perceive import Percept, perceive_truth
 from sim.plan import traits_of
-from sim.plan.conformance import check_apart, claimed, moments
+from sim.plan.conformance import check_apart, moments, name_conflicts
 from sim.plan.decision import Measure
 from sim.plan.priority import PriorityPlanner
 from sim.plan.protocol import UNKNOWN
-from sim.plan.sandbox.answer import FaultError, decision_of, parsed
-from sim.plan.sandbox.codec import asked, percept_of, percept_values, question
+from sim.plan.sandbox.answer import FaultError, decision_of, parse_answer
+from sim.plan.sandbox.codec import parse_question, percept_of, percept_values, question
 from sim.state import SimState
 from sim.types import Move
 from tests.sim.plan import faulty_planners
@@ -34,8 +34,8 @@ def percept_and(config: Config) -> tuple[Percept, Config]:
 @pytest.mark.parametrize("config", [Config(seed=3), Config(columns=40, rows=300, pedestrians=9, seed=2**40)])
 def test_a_question_comes_back_as_it_was(config: Config) -> None:
     percept, config = percept_and(config.with_parts(preferences=("cautious",)))
-    assert asked(question(percept, config)) == (percept, config)
-    assert question(percept, config) == question(*asked(question(percept, config)))
+    assert parse_question(question(percept, config)) == (percept, config)
+    assert question(percept, config) == question(*parse_question(question(percept, config)))
 
 
 def test_numbers_of_any_size_and_sign_come_back() -> None:
@@ -46,7 +46,7 @@ def test_numbers_of_any_size_and_sign_come_back() -> None:
 
 
 def test_an_answer_is_a_move_and_six_costs() -> None:
-    answer = parsed(f'{{"move": "left", "costs": {{{COSTS}}}}}'.encode())
+    answer = parse_answer(f'{{"move": "left", "costs": {{{COSTS}}}}}'.encode())
     assert (answer.move, answer.costs) == (Move.LEFT, (1.0, 2.5, None, 4.0, 5.0, -6.0))
 
 
@@ -76,14 +76,14 @@ def test_an_answer_is_a_move_and_six_costs() -> None:
 )
 def test_anything_else_is_a_fault_in_our_words(line: bytes) -> None:
     with pytest.raises(FaultError) as fault:
-        parsed(line)
+        parse_answer(line)
     assert str(fault.value).startswith("answered ")
 
 
 def test_the_words_of_a_fault_are_not_the_planners() -> None:
     told = '{"fault": "raised", "kind": "Because of pedestrian-1", "detail": "\\u001b[2J pedestrian-1"}'
     with pytest.raises(FaultError) as fault:
-        parsed(told.encode())
+        parse_answer(told.encode())
     assert str(fault.value) == "raised something"
     assert "\x1b" not in fault.value.detail
 
@@ -93,7 +93,7 @@ def test_all_but_the_move_and_costs_is_made_here() -> None:
         percept = perceive_truth(state.world, state.config)
         config = state.config.with_parts(planner="priority")
         own = PriorityPlanner().decide(predict(percept, 1), config)
-        answer = parsed(f'{{"move": "{own.move}", "costs": {{{COSTS}}}}}'.encode())
+        answer = parse_answer(f'{{"move": "{own.move}", "costs": {{{COSTS}}}}}'.encode())
         made = decision_of(answer, percept, config)
         assert (made.tick, made.av, made.planner, made.measure) == (own.tick, own.av, "priority", Measure.OWN)
         for option in own.options:
@@ -139,9 +139,9 @@ def test_whatever_a_planner_does_the_checker_ends_and_finds_it(name: str, promis
 @pytest.mark.usefixtures("installed")
 def test_names_of_ours_are_not_to_be_had() -> None:
     assert set(planner_names.installed()) == set(HOSTILE)
-    assert "name is one of Roadtalk's own" in claimed("astar")[0].what
-    assert "name is one of Roadtalk's own" in claimed("AStar")[0].what
-    assert claimed("never") == []
+    assert "name is one of Roadtalk's own" in name_conflicts("astar")[0].what
+    assert "name is one of Roadtalk's own" in name_conflicts("AStar")[0].what
+    assert name_conflicts("never") == []
 
 
 @pytest.mark.usefixtures("installed")

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from PIL import Image
 
 from sim.config import Config
-from sim.render import MAX_SIDE_PX, VIEWS, eased, encode, render
+from sim.render import MAX_SIDE_PX, VIEWS, encode, render, smoothstep
 from sim.render.camera import camera_on
 from sim.state import SimState, StepResult
 from sim.transition import step
@@ -53,10 +53,10 @@ def colour_at(state: SimState, column: float, row: float, **parts: object) -> tu
 
 
 def test_ease_is_smooth_and_stays_within_its_ends() -> None:
-    assert [eased(t) for t in (-1, 0, 0.5, 1, 2)] == [0, 0, 0.5, 1, 1]
-    steps = [eased(n / 100) for n in range(101)]
+    assert [smoothstep(t) for t in (-1, 0, 0.5, 1, 2)] == [0, 0, 0.5, 1, 1]
+    steps = [smoothstep(n / 100) for n in range(101)]
     assert steps == sorted(steps)
-    assert eased(0.25) == pytest.approx(0.25**2 * (3 - 0.5))
+    assert smoothstep(0.25) == pytest.approx(0.25**2 * (3 - 0.5))
 
 
 @pytest.mark.parametrize("sign", ["o", "#", ">", "<", "(", ")"])
@@ -70,7 +70,7 @@ def test_the_vehicle_is_blue_wherever_it_glides() -> None:
     state = with_sign(3, 8, "A")
     tick = step(state)
     for phase in (0.0, 0.5, 1.0):
-        row = 8 - eased(phase)
+        row = 8 - smoothstep(phase)
         picture = render("road", tick.state, before=state.world, phase=phase)
         red, _, blue, _ = picture.get_at(camera_on(state.config, row, None).centre(3, row))
         assert blue > red + 60

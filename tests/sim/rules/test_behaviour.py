@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import pytest
 
 from sim.batch import Batch
 from sim.commit import commit
 from sim.config import Config
-from sim.forecast import predict
+from sim.forecast import Forecast
 from sim.oracle.certificate import Drivable, arrives, certify
 from sim.oracle.lower_bounds import least_ticks
-from sim.perceive import perceive
 from sim.rules import behaviour_registry
 from sim.rules.behaviour import Behaviour, Reactions, SidewaysTraffic
 from sim.rules.traffic import Motion
 from sim.state import SimState
-from sim.transition import transition
-from sim.types import MOVES, Move, Outcome
+from sim.transition import next_world
+from sim.types import MARKED, MOVES, Kind, Move, Outcome
 from sim.world import World
 from sim.world.grid import Board
 from tests.sim.roads import grid, road, run_on
@@ -37,7 +38,7 @@ class PatientPedestrians(SidewaysTraffic):
         self,
         right: Board,
         left: Board,
-        pedestrians: Board,
+        marked: Sequence[Board],
         disabled: Board,
         fixed: Board,
         left_edge: Board,
@@ -47,9 +48,10 @@ class PatientPedestrians(SidewaysTraffic):
         reactions: Reactions,
     ) -> Motion:
         beside = (vehicles & ~left_edge) >> 1 | (vehicles & ~right_edge) << 1
+        pedestrians = marked[MARKED.index(Kind.PEDESTRIAN)] if marked else 0
         waiting = disabled | pedestrians & beside
         return super().step(
-            right, left, pedestrians, waiting, fixed, left_edge, right_edge, episode_tick, vehicles, reactions
+            right, left, marked, waiting, fixed, left_edge, right_edge, episode_tick, vehicles, reactions
         )
 
 
@@ -92,10 +94,10 @@ def test_what_may_be_drawn_adds_up_and_can_be_drawn() -> None:
 def test_another_behaviour_holds_in_commit_and_forecast() -> None:
     world = road("....", "....", ".)A.", "....", tick=1)
     usual, patient = (run_on(world, behaviour=name).config for name in ("sideways", "patient"))
-    assert grid(commit(world, Move.FORWARD, usual))[2] == "..)."
-    after = commit(world, Move.FORWARD, patient)
+    assert grid(commit(world, (Move.FORWARD,), usual))[2] == "..)."
+    after = commit(world, (Move.FORWARD,), patient)
     assert grid(after)[2] == ".).."
-    assert predict(perceive(world, patient), 1).slices.movers(0) == after.movers
+    assert Forecast.of_truth(world, patient, 1).slices.movers(0) == after.movers
 
 
 def _least(world: World, config: Config, limit: int) -> int | None:
@@ -107,7 +109,7 @@ def _least(world: World, config: Config, limit: int) -> int | None:
             for move in MOVES:
                 if config.ego_dynamics(now.road).target(now.av, move) is None:
                     continue
-                after = transition(now, move, config)
+                after = next_world(now, (move,), config)
                 if after.outcome is Outcome.SUCCESS:
                     return tick
                 if after.outcome is Outcome.RUNNING:

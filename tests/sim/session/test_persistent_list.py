@@ -38,7 +38,7 @@ def test_many_chains_of_one_beginning_are_as_many_lists(moves: list[tuple[int, i
 def test_what_two_have_in_common(one: list[int], other: list[int], shared: int) -> None:
     base = PersistentList([7] * shared)
     first, second = base.plus(one), base.plus(other)
-    alike = first.alike(second)
+    alike = first.common_prefix_length(second)
     assert list(first)[:alike] == list(second)[:alike]
     assert alike in (len(first), len(second)) or first[alike] != second[alike]
     assert (first == second) == (one == other)

@@ -22,7 +22,7 @@ from sim.types import Outcome
 from sim.validation import validate_world
 from sim.world import World
 from sim.world.grid import Road
-from sim.world.layouts import has_barriers, lay_out, least_room, vehicles_on_average
+from sim.world.layouts import has_barriers, lay_out, min_free_cells, vehicles_on_average
 
 LAYOUTS: tuple[Layout, ...] = get_args(Layout)
 SIZES = ((3, 4), (3, 512), (64, 4), (64, 512), (5, 5), (8, 30), (17, 90))
@@ -93,7 +93,7 @@ def first_barriers(config: Config) -> int:
 @pytest.mark.parametrize("size", SIZES)
 def test_there_is_as_much_room_as_is_promised(layout: Layout, size: tuple[int, int]) -> None:
     road = Road.of(*size)
-    promised = least_room(layout, *size)
+    promised = min_free_cells(layout, *size)
     for seed in range(3 if size == (64, 512) else 40):
         barriers = lay_out(layout, road, Stream.of(seed, "room")).barriers
         assert not barriers & ~road.between
@@ -106,7 +106,7 @@ def test_there_is_as_much_room_as_is_promised(layout: Layout, size: tuple[int, i
 
 @pytest.mark.parametrize("layout", ["walls", "crossing"])
 def test_more_than_can_be_driven_through_is_refused_in_words(layout: Layout) -> None:
-    room = least_room(layout, 3, 5)
+    room = min_free_cells(layout, 3, 5)
     with pytest.raises(GenerationError, match="no drivable road"):
         SimState.start(Config(layout=layout, columns=3, rows=5, vehicles=0, potholes=room))
 
