@@ -127,22 +127,34 @@ class RollOut(Sequence[Motion]):
         percept, ahead = self.percept, len(self._slices)
         road = percept.road
         boards = self.boards(ahead - 1) if ahead else percept.boards
-        movers = (
-            self._behaviour,
-            self._right,
-            self._left,
-            boards.marked,
-            self._disabled,
-            self._fixed,
-            road.left_edge,
-            road.right_edge,
-            percept.episode_tick + ahead,
-        )
-        # Only the first tick is asked for again: when it comes.
         if ahead:
-            motion = self._behaviour.step(*movers[1:], 0, NOBODY)
+            motion = self._behaviour.step(
+                self._right,
+                self._left,
+                boards.marked,
+                self._disabled,
+                self._fixed,
+                road.left_edge,
+                road.right_edge,
+                percept.episode_tick + ahead,
+                0,
+                NOBODY,
+            )
         else:
-            motion = cached_step(*movers, percept.vehicles, self._reactions)
+            # Only the first tick is asked for again: when it comes.
+            motion = cached_step(
+                self._behaviour,
+                self._right,
+                self._left,
+                boards.marked,
+                self._disabled,
+                self._fixed,
+                road.left_edge,
+                road.right_edge,
+                percept.episode_tick,
+                percept.vehicles,
+                self._reactions,
+            )
             if self._stands:
                 motion = self._behaviour.brake(motion, 1 << percept.ego, self._reactions)
         if percept.egos:
