@@ -100,3 +100,21 @@ def test_what_a_step_sweeps_is_what_its_body_touches(move: Move, kind: Kind) -> 
 def test_one_object_for_the_same_road() -> None:
     assert dynamics_on(Road(5, 7)) is dynamics_on(Road.of(5, 7), "grid", True)
     assert dynamics_on(Road.of(5, 7), bodies=False).step(17, Move.FORWARD_LEFT) == (11, Swept((11,)))
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.data(), SIZES, st.booleans())
+def test_the_table_of_contacts_of_egos_says_what_bodies_on_straight_ways_say(
+    data: st.DataObject, size: tuple[int, int], bodies: bool
+) -> None:
+    road = Road.of(*size)
+    fast, slow = GridDynamics(road, bodies=bodies), CellByCell(road, bodies=bodies)
+    cell = data.draw(st.integers(0, road.columns * road.rows - 1))
+    move = data.draw(st.sampled_from(fast.actions(cell)))
+    assert fast.denied(cell, move) == slow.denied(cell, move)
+    theirs = cell, fast.target(cell, move) or 0
+    for start in range(road.columns * road.rows):
+        for own in fast.actions(start):
+            end = fast.target(start, own)
+            if end is not None and start != cell:
+                assert fast.egos_touch((start, end), theirs) == slow.egos_touch((start, end), theirs)
