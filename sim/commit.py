@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from sim.config import Config
 from sim.fast_replace import field_setter
-from sim.rules.kinds import resting_movers, shift_boards
-from sim.rules.traffic import brake
-from sim.rules.traffic_cache import cached_move_movers, cached_shift_table
-from sim.rules.yielding import attentive_movers, yielding_movers
+from sim.rules.dynamics import Dynamics
+from sim.rules.kinds import shift_boards
+from sim.rules.traffic_cache import cached_reactions, cached_shift_table, cached_step
 from sim.types import Move
 from sim.world import World
 from sim.world.grid import Board
@@ -21,30 +20,33 @@ def commit(world: World, moves: tuple[Move, ...], config: Config) -> World:
     `moves` are in the order of `World.avs`. Where there are several egos, one in row 0 has arrived and stays.
     Raises `ValueError` where a move leads off the road, and where there are not as many as egos.
     """
-    road = world.road
-    boards = world.boards
-    motion = cached_move_movers(
+    behaviour, road, boards = config.mover_behaviour, world.road, world.boards
+    reactions = cached_reactions(world, config)
+    motion = cached_step(
+        behaviour,
         world.right,
         world.left,
-        resting_movers(world.disabled, boards, world.episode_tick),
+        boards.marked,
+        world.disabled,
         boards.fixed,
-        yielding_movers(world, config),
-        world.driven,
         road.left_edge,
         road.right_edge,
+        world.episode_tick,
+        world.driven,
+        reactions,
     )
-    avs = world.avs
+    avs, dynamics = world.avs, config.ego_dynamics(road)
     if len(avs) == 1:
         (cell,), (move,) = avs, moves
-        target = road.moved(cell, move)
+        target = dynamics.target(cell, move)
         if target is None:
             raise ValueError(f"{move} leads off the road")
         targets: tuple[int, ...] = (target,)
         standing = 1 << cell if move is Move.STAY else 0
     else:
-        targets, standing = _several(world, moves)
+        targets, standing = _several(world, moves, dynamics)
     if standing and motion.occupied & standing:
-        motion = brake(motion, standing, attentive_movers(world, config))
+        motion = behaviour.brake(motion, standing, reactions)
     return _moved(
         world,
         world.tick + 1,
@@ -63,11 +65,11 @@ def moves_with(world: World, move: Move, number: int = 0) -> tuple[Move, ...]:
     return tuple(move if each == number else Move.STAY for each in range(len(world.avs)))
 
 
-def _several(world: World, moves: tuple[Move, ...]) -> tuple[tuple[int, ...], Board]:
+def _several(world: World, moves: tuple[Move, ...], dynamics: Dynamics) -> tuple[tuple[int, ...], Board]:
     """Where several egos go, and the cells of those that stay."""
     targets, standing = [], 0
     for cell, move in zip(world.avs, moves, strict=True):
-        target = cell if cell < world.road.columns else world.road.moved(cell, move)
+        target = cell if cell < world.road.columns else dynamics.target(cell, move)
         if target is None:
             raise ValueError(f"{move} leads off the road")
         targets.append(target)

@@ -15,6 +15,11 @@ from sim import planner_names, sensor_names
 from sim.actions import MAX_THINGS, Layout, Preference, RoadType, Traffic
 from sim.codes import PROBLEMS, check_facts, plain_text
 from sim.randomness import MAX_SEED
+from sim.rules.behaviour import DEFAULT_BEHAVIOUR, Behaviour
+from sim.rules.behaviour_registry import BEHAVIOURS
+from sim.rules.dynamics import DEFAULT_DYNAMICS, Dynamics
+from sim.rules.dynamics_registry import DYNAMICS, dynamics_on
+from sim.rules.limits import max_ticks
 from sim.rules.versions import RULES
 from sim.types import HAZARDS, KINDS, MOVERS, PLACEABLE, Kind
 from sim.world.grid import Road
@@ -78,12 +83,15 @@ CHOICES: Final[dict[str, tuple[str, ...]]] = {
     "road": get_args(RoadType),
     "layout": get_args(Layout),
     "traffic": get_args(Traffic),
+    "dynamics": tuple(DYNAMICS),
+    "behaviour": tuple(BEHAVIOURS),
 }
 """The words that may stand where a word is asked for."""
 
 PROMISED: Final[dict[str, tuple[str, ...]]] = {
     "planner": planner_names.PROMISED,
     "sensor": sensor_names.PROMISED,
+    "dynamics": ("continuous",),
 }
 """Values that people may ask for and this version has not."""
 
@@ -105,8 +113,26 @@ _SWITCHES: Final = frozenset(("solvable", "repetition"))
 _OPTIONAL: Final = frozenset(("potholes", "vehicles", "road", "layout", "traffic"))
 
 
+class Derived:
+    """What follows from the fields of a configuration. Worked out once, since every tick asks for it."""
+
+    __slots__ = ("_dynamics", "certain", "free_ways_hold", "max_ticks", "mover_behaviour", "reacting")
+
+    mover_behaviour: Behaviour
+    """how obstacle vehicles and pedestrians move"""
+    certain: bool
+    """whether the future is certain: nothing about the movers is left to chance once the road is drawn"""
+    reacting: bool
+    """whether movers react to the vehicle, so that where they go depends on where it is"""
+    free_ways_hold: bool
+    """whether a way that meets nothing in a forecast without reactions meets nothing when driven"""
+    max_ticks: int
+    """an episode that lasts longer is STUCK"""
+    _dynamics: Dynamics
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Config:
+class Config(Derived):
     """Everything a world is made from besides the seed's own draws.
 
     `potholes` and `vehicles` are exact numbers that replace their probabilities when given;
@@ -146,6 +172,10 @@ class Config:
     """cells around a mover that cost something to be in, for planners that weigh costs"""
     sensor: str = "perfect"
     """what the vehicle sees with (`sim.perceive`)"""
+    dynamics: str = DEFAULT_DYNAMICS
+    """how autonomous vehicles move (`sim.rules.dynamics`)"""
+    behaviour: str = DEFAULT_BEHAVIOUR
+    """how the other road users move, and whether they react (`sim.rules.behaviour_registry`)"""
     rules: int = RULES
     """version of the rules that defaults come from (`sim.rules.versions`)"""
     solvable: bool = False
@@ -157,6 +187,25 @@ class Config:
         problems = tuple(self._problems())
         if problems:
             raise ConfigError(problems)
+        self._derive()
+
+    def _derive(self) -> None:
+        behaviour = BEHAVIOURS[self.behaviour]
+        known = {
+            "mover_behaviour": behaviour,
+            "certain": behaviour.certain(self),
+            "reacting": behaviour.reads_egos(self),
+            "free_ways_hold": behaviour.free_ways_hold(self),
+            "max_ticks": max_ticks(self.rows),
+            "_dynamics": dynamics_on(self.geometry, self.dynamics, self.collision == "swept"),
+        }
+        for name, value in known.items():
+            object.__setattr__(self, name, value)
+
+    def __setstate__(self, values: list[Any]) -> None:
+        for field, value in zip(fields(self), values, strict=True):
+            object.__setattr__(self, field.name, value)
+        self._derive()
 
     def with_parts(self, **parts: Any) -> Config:
         """This configuration with some fields changed. Raises `ConfigError`."""
@@ -168,20 +217,12 @@ class Config:
             raise ConfigError(tuple(_unknown(name) for name in unknown))
         return replace(self, **parts)
 
-    @property
-    def certain(self) -> bool:
-        """Whether nothing about the movers is left to chance once the road is drawn."""
-        return self.courtesy == 0.0 and self.attentive in (0.0, 1.0)
-
-    @property
-    def reacting(self) -> bool:
-        """Whether movers react to the vehicle, so that where they go depends on where it is."""
-        return self.courtesy > 0.0 or self.attentive > 0.0
-
-    @property
-    def max_ticks(self) -> int:
-        """An episode that lasts longer is STUCK."""
-        return 10 * self.rows
+    def ego_dynamics(self, road: Road) -> Dynamics:
+        """How autonomous vehicles move on a road."""
+        motion = self._dynamics
+        if motion.road is road:
+            return motion
+        return dynamics_on(road, self.dynamics, self.collision == "swept")
 
     @property
     def reset_delay_ticks(self) -> int:

@@ -12,11 +12,10 @@ from enum import StrEnum
 from typing import Final
 
 from sim.fast_replace import fast_constructor
-from sim.types import Kind, Move, kind_of
+from sim.types import MOVES, Kind, Move, kind_of
 from sim.world import World
 
-_MOVES: Final = tuple(Move)
-_SIGNS: Final = {move: str(place) for place, move in enumerate(_MOVES)}
+_SIGNS: Final = {move: str(place) for place, move in enumerate(MOVES)}
 
 
 class DetourReason(StrEnum):
@@ -91,7 +90,7 @@ class EpisodeRecord:
 
     def move_list(self) -> tuple[Move, ...]:
         """Lists every move, in order."""
-        return tuple(_MOVES[int(sign)] for sign in self.moves)
+        return tuple(MOVES[int(sign)] for sign in self.moves)
 
 
 _extend = fast_constructor(EpisodeRecord, "start", "edits", "changed", "certain", "moves", "sakes", "last")

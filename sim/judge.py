@@ -9,17 +9,16 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from dataclasses import replace
 
-from sim.config import Collision
-from sim.rules.contacts import egos_touch
+from sim.rules.dynamics import Dynamics, Swept
 from sim.types import Kind, Outcome, ego_id, kind_of
 from sim.world import Cause, World
 
 
-def collisions(before: World, after: World, rule: Collision) -> tuple[Cause, ...]:
+def collisions(before: World, after: World, motion: Dynamics) -> tuple[Cause, ...]:
     """Every collision of an ego in the tick from `before` to `after`.
 
-    `swept`: two bodies of stated size that move linearly within the tick touch (`sim.rules.bodies` derives
-    the cases); `cell`: they are in one cell after it, or have changed places.
+    It is in a cell after the tick that something else is in, or has run into something on the way: what a
+    step sweeps, the motion says (`sim.rules.dynamics`).
     """
     found: list[Cause] = []
     known = 0
@@ -30,43 +29,43 @@ def collisions(before: World, after: World, rule: Collision) -> tuple[Cause, ...
         if end in after.movers:
             name = after.movers[end]
             found.append(Cause("hit", kind_of(name), (name,), after.road.cell(end)))
-        passed = after.movers.get(start)
-        if start != end and passed is not None and before.movers.get(end) == passed:
-            found.append(Cause("swap", kind_of(passed), (passed,), after.road.cell(end)))
-        if rule == "swept":
-            found += _crossings(before, after, start, end)
+        swept = motion.swept(start, end)
+        for cell in swept.cells[1:] if len(swept.cells) > 1 else ():
+            found += [
+                Cause("hit", kind_of(table[cell]), (table[cell],), after.road.cell(cell))
+                for table in (after.hazards, after.movers)
+                if cell in table
+            ]
+        if swept.from_left or swept.from_right:
+            found += _passed(before, after, start, end, swept)
         if number:
             found = [*found[:known], *(replace(each, ego=ego_id(number)) for each in found[known:])]
-            found += _between_egos(before, after, number, rule)
+            found += _between_egos(before, after, number, motion)
         known = len(found)
     return tuple(found)
 
 
-def _between_egos(before: World, after: World, number: int, rule: Collision) -> Iterator[Cause]:
+def _passed(before: World, after: World, start: int, end: int, swept: Swept) -> list[Cause]:
+    """Movers that the vehicle runs into on the way from `start` to `end`: those that come through it."""
+    road, found = after.road, []
+    aside = start // road.columns == end // road.columns
+    for cells, origin in ((swept.from_left, -1), (swept.from_right, 1)):
+        for cell in cells:
+            name = after.movers.get(cell)
+            if name is not None and before.movers.get(cell + origin) == name:
+                how, where = ("swap", end) if aside else ("cross", cell)
+                found.append(Cause(how, kind_of(name), (name,), road.cell(where)))
+    return found
+
+
+def _between_egos(before: World, after: World, number: int, motion: Dynamics) -> Iterator[Cause]:
     """Collisions of an ego with those before it, by id."""
     road, own = after.road, (before.avs[number], after.avs[number])
     for other in range(number):
         theirs = (before.avs[other], after.avs[other])
-        if egos_touch(road, own, theirs, rule):
+        if motion.egos_touch(own, theirs):
             how = "hit" if own[1] == theirs[1] else "swap" if own == theirs[::-1] else "cross"
             yield Cause(how, Kind.AV, (ego_id(other), ego_id(number)), road.cell(own[1]), ego_id(number))
-
-
-def _crossings(before: World, after: World, start: int, end: int) -> list[Cause]:
-    """Movers that a diagonal from `start` to `end` runs into on the way.
-
-    A vehicle that goes forward and to the left meets a mover that comes from the left into the cell it
-    leaves, or into the one straight ahead; to the right it is the mirror image.
-    """
-    ahead = start - after.road.columns
-    side = end - ahead
-    if side not in (-1, 1):
-        return []
-    return [
-        Cause("cross", kind_of(name), (name,), after.road.cell(cell))
-        for cell in (ahead, start)
-        if (name := after.movers.get(cell)) is not None and before.movers.get(cell + side) == name
-    ]
 
 
 def outcome(

@@ -18,6 +18,7 @@ from sim.judge import collisions, outcome
 from sim.perceive import NO_BELIEF, Belief, sensor_named
 from sim.plan import Decision, traits_of
 from sim.repetition import NOTHING_KEPT, Watch, update_watch
+from sim.rules.dynamics import DEFAULT_DYNAMICS
 from sim.state import FIRST, EgoStep, SimState, StepResult, hold_result
 from sim.types import Move, Outcome, ego_id
 from sim.world import World
@@ -43,7 +44,7 @@ def next_world(world: World, moves: tuple[Move, ...], config: Config, parked: Co
     Raises `ValueError` where a move leads off the road.
     """
     after = commit(world, moves, config)
-    crashes = collisions(world, after, config.collision)
+    crashes = collisions(world, after, config.ego_dynamics(world.road))
     result = outcome(after, crashes, config.max_ticks, parked)
     if result is Outcome.RUNNING:
         return after
@@ -124,6 +125,9 @@ def repeats_for_ever(config: Config, planner: str | None = None) -> bool:
 
     `planner`: None means that of the configuration.
     """
+    # A situation holds two rows (`sim.repetition`): all that matters where a move gains a row at most.
+    if config.dynamics != DEFAULT_DYNAMICS:
+        return False
     if not (config.certain and traits_of(planner or config.planner).local):
         return False
     return sensor_named(config.sensor).faithful

@@ -150,6 +150,9 @@ class Move(StrEnum):
         return _OFFSETS[self]
 
 
+MOVES = tuple(Move)
+"""Every move, in the one order that ties are broken in and that numbers of moves refer to."""
+
 _OFFSETS: dict[Move, Cell] = {
     Move.FORWARD: (0, -1),
     Move.LEFT: (-1, 0),

@@ -109,11 +109,11 @@ def _of_plan(world: World, plan: Iterable[Move], config: Config) -> Iterator[Def
     for move in plan:
         if arrived:
             yield Defect("after_the_end", world.tick)
-        if world.road.moved(world.av, move) is None:
+        if config.ego_dynamics(world.road).target(world.av, move) is None:
             yield Defect("off_road", world.tick, cell=world.road.cell(world.av))
             continue
         after = commit(world, moves_with(world, move), config)
-        for crash in collisions(world, after, config.collision):
+        for crash in collisions(world, after, config.ego_dynamics(world.road)):
             yield Defect(f"{crash.how}_{crash.kind}", after.tick, crash.ids, crash.cell)
         # What was hit is noted, the plan goes on.
         result = outcome(after, (), config.max_ticks, range(1, len(world.avs)))

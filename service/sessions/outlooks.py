@@ -118,4 +118,5 @@ def _road(run: SimState) -> Hashable:
     """Equal for states of one road between two changes that matter to the way."""
     world, config = run.world, run.config
     drawn = (world.episode, world.episode_start, run.edits, world.fixed)
-    return *drawn, config.courtesy, config.attentive, config.collision
+    movers = config.behaviour, config.courtesy, config.attentive
+    return *drawn, *movers, config.collision, config.dynamics

@@ -4,6 +4,16 @@ Structure: the exact search (`sim.batch.reachability`) gives one way; its cost b
 can be, so that a backward sweep over (tick, row, column) within that horizon is exact (dynamic programming in
 topological order; every step goes one tick on). Rows the vehicle cannot have reached yet are left out.
 The charges are those of `sim.search.costs`, in whole numbers. Guarantees and simplifications as there.
+
+Array arguments, besides those of `sim.batch.reachability` (words: those of a board; costs in charges):
+
+- `weights` (7; int64), a lane's row of `charges` (lanes, 7; int64): the charges of one step, see `TICK`;
+- `near` (2 + buffer, words; uint64): boards of the cells beside fixed hazards, of movers, and of the cells
+  within 1, 2, ... cells of a mover;
+- `value`, `entering` (rows, columns + 2; int32): the cost to go from a cell, and that of entering it now; the
+  outer columns are `FAR`, the edges of the road;
+- `totals` (6; int32): the cost of each move now with the cheapest way on, in the order of `MOVES`;
+- `moves` (lanes; uint8), `costs` (lanes; int64): the answers.
 """
 
 from __future__ import annotations
@@ -12,7 +22,7 @@ from typing import Final
 
 import numpy as np
 
-from sim.batch.compiled import beside, compiled
+from sim.batch.compiled import beside, compiled, max_ticks, steps_left
 from sim.batch.layout import CELL, EPISODE_TICK, LANES, OUTCOME, SWEPT
 from sim.batch.reachability import (
     ALL_FIXED,
@@ -33,7 +43,6 @@ from sim.batch.reachability import (
     search,
     someone_brakes,
     step_from,
-    steps_left,
 )
 
 TICK, SIDEWAYS, DIAGONAL, WAITING, NEAR_FIXED, NEAR_MOVER, BUFFER = range(7)
@@ -100,10 +109,13 @@ def _cost_of_way(layers, near, ticks, cell, last, weights, columns, left_edge, r
 
 
 @compiled
-def _sweep(
-    value, entering, near, layers, horizon, cell, last, weights, columns, left_edge, right_edge, totals
-):
-    """Cost-to-go backwards from `horizon` ticks ahead; writes the totals of the six moves now."""
+def _sweep(scratch, horizon, cell, last, weights, size):
+    """Cost-to-go backwards from `horizon` ticks ahead; writes the totals of the six moves now.
+
+    `scratch` and `size`: as for `_totals_of_way`.
+    """
+    _, layers, near, value, entering, totals = scratch
+    columns, left_edge, right_edge = size
     rows_per_word = 64 // columns
     start_row, start_column = cell // columns, cell % columns
     tick, side = np.int32(weights[TICK]), np.int32(weights[TICK] + weights[SIDEWAYS])
@@ -149,46 +161,20 @@ def _sweep(
 
 
 @compiled
-def _totals_of_way(
-    value,
-    entering,
-    near,
-    now,
-    layers,
-    ticks,
-    rolled,
-    cell,
-    last,
-    weights,
-    episode_tick,
-    limit,
-    columns,
-    left_edge,
-    right_edge,
-    swept,
-    totals,
-):
-    """The totals of the six moves now, of a search that has met the goal after `ticks`."""
+def _totals_of_way(scratch, ticks, rolled, cell, last, weights, episode_tick, limit, size, swept):
+    """Write the totals of the six moves now, of a search that has met the goal after `ticks`.
+
+    `scratch`: (now, layers, near, value, entering, totals); `size`: (columns, left_edge, right_edge).
+    """
+    now, layers, near = scratch[0], scratch[1], scratch[2]
+    columns, left_edge, right_edge = size
     keep_shortest(layers, ticks, cell // columns, last, columns, left_edge, right_edge)
     _around(now[ALL_FIXED], near[0], last, columns, left_edge, right_edge)
     bound = _cost_of_way(layers, near, ticks, cell, last, weights, columns, left_edge, right_edge)
     horizon = min(bound // weights[TICK], limit)
     for ahead in range(rolled, horizon):
         roll(now, layers, ahead, last, episode_tick, columns, left_edge, right_edge, swept, False)
-    _sweep(
-        value,
-        entering,
-        near,
-        layers,
-        horizon,
-        cell,
-        last,
-        weights,
-        columns,
-        left_edge,
-        right_edge,
-        totals,
-    )
+    _sweep(scratch, horizon, cell, last, weights, size)
 
 
 @compiled
@@ -196,11 +182,13 @@ def weighted_moves(state, lanes, shares, charges, columns, rows, left_edge, righ
     """For every lane the move of least cost to the goal and that cost (−1: no way)."""
     words = -(-rows // (64 // columns))
     now = np.empty((BOARDS, words), np.uint64)
-    layers = np.empty((10 * rows + 3, FIELDS, words), np.uint64)
+    layers = np.empty((max_ticks(rows) + 3, FIELDS, words), np.uint64)
     near = np.empty((2 + charges[:, BUFFER].max(), words), np.uint64)
     value = np.full((rows, columns + 2), FAR, np.int32)
     entering = np.full((rows, columns + 2), FAR, np.int32)
     totals = np.empty(6, np.int32)
+    scratch = now, layers, near, value, entering, totals
+    size = columns, left_edge, right_edge
     for lane in range(count):
         block, inner = state[lane // LANES], lane % LANES
         lane_block = lanes[lane // LANES]
@@ -211,7 +199,7 @@ def weighted_moves(state, lanes, shares, charges, columns, rows, left_edge, righ
         behind = max(1, weights[BUFFER])
         last = prepare(now, block, lane_block, inner, columns, rows, shares[lane], behind)
         episode_tick = np.int64(lane_block[EPISODE_TICK * LANES + inner])
-        limit = steps_left(lane_block, inner, rows)
+        limit = steps_left(rows, episode_tick)
         swept = lane_block[SWEPT * LANES + inner]
         cell = np.int64(lane_block[CELL * LANES + inner])
         row = cell // columns
@@ -227,25 +215,7 @@ def weighted_moves(state, lanes, shares, charges, columns, rows, left_edge, righ
                 now, layers, row, last, episode_tick, limit, columns, left_edge, right_edge, swept, stands
             )
             if ticks >= 0:
-                _totals_of_way(
-                    value,
-                    entering,
-                    near,
-                    now,
-                    layers,
-                    ticks,
-                    rolled,
-                    cell,
-                    last,
-                    weights,
-                    episode_tick,
-                    limit,
-                    columns,
-                    left_edge,
-                    right_edge,
-                    swept,
-                    totals,
-                )
+                _totals_of_way(scratch, ticks, rolled, cell, last, weights, episode_tick, limit, size, swept)
                 if stands:
                     totals[:STAY] = FAR
                 if totals.min() < least:

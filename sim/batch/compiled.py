@@ -1,6 +1,6 @@
 """Compiling the rules' own text for machine words, and keeping what was compiled.
 
-A function of `sim.rules.traffic` or `sim.randomness` is compiled as it stands, with the functions it calls
+A function of `sim.rules` or `sim.randomness` is compiled as it stands, with the functions it calls
 replaced by their compiled forms, so that there is one copy of every rule. Compiled code is kept
 in a folder named by a digest of everything it was made from: the usual check looks only at the file
 of the outermost function, and would go on using an old rule that had been compiled into it.
@@ -23,7 +23,7 @@ import numpy as np
 from numba.cpython.unsafe import numbers
 
 from sim import randomness
-from sim.rules import traffic as rules
+from sim.rules import ego_step, limits, traffic
 from sim.rules.kinds import PERIODS
 from sim.types import Kind
 
@@ -32,7 +32,15 @@ config: Any = numba.config
 _SIM: Final = Path(__file__).parent.parent
 _COMPILED_IN: Final = tuple(
     _SIM / name
-    for name in ("rules/traffic.py", "rules/kinds.py", "randomness.py", "generation.py", "types.py")
+    for name in (
+        "rules/ego_step.py",
+        "rules/kinds.py",
+        "rules/limits.py",
+        "rules/traffic.py",
+        "randomness.py",
+        "generation.py",
+        "types.py",
+    )
 )
 """Sources outside this package whose functions or constants are compiled into it."""
 _KEPT_VERSIONS: Final = 3
@@ -97,14 +105,17 @@ word_at = _with_names(randomness.word_at, "uint64(uint64, int64)", mix=mix)
 fraction = _with_names(randomness.fraction, "float64(uint64)")
 scaled = _with_names(randomness.scaled, "uint64(uint64, uint64)")
 
-steps_in_tick = _with_names(rules.steps_in_tick)
-move_movers = _with_names(rules.move_movers)
-brake = _with_names(rules.brake)
-followed_board = _with_names(rules.shift_board)
-free_steps = _with_names(rules.free_steps)
-spread = _with_names(rules.spread)
-spread_back = _with_names(rules.spread_back)
-beside = _with_names(rules.beside)
+steps_in_tick = _with_names(traffic.steps_in_tick)
+move_movers = _with_names(traffic.move_movers)
+brake = _with_names(traffic.brake)
+followed_board = _with_names(traffic.shift_board)
+cut_off = _with_names(ego_step.cut_off)
+free_steps = _with_names(ego_step.free_steps)
+spread = _with_names(ego_step.spread)
+spread_back = _with_names(ego_step.spread_back)
+beside = _with_names(ego_step.beside)
+max_ticks = _with_names(limits.max_ticks)
+steps_left = _with_names(limits.steps_left, max_ticks=max_ticks)
 
 
 _trailing_zeros: Any = numbers.trailing_zeros

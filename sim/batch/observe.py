@@ -14,7 +14,11 @@ _ONE: Final = np.uint64(1)
 
 @compiled
 def observe(state, lanes, count, columns, rows, out):
-    """Write every lane's planes into `out` (shape: lanes, 7, rows, columns; uint8)."""
+    """Write every lane's planes into `out` (shape: lanes, 7, rows, columns; uint8).
+
+    `state` (blocks, words · planes · lanes of a block; uint64) and `lanes` (blocks, lane planes · lanes of a
+    block; uint64): see `sim.batch.layout`. `count`: lanes; those that fill the last block up are left out.
+    """
     rows_per_word = 64 // columns
     for lane in range(count):
         block, inner = state[lane // LANES], lane % LANES

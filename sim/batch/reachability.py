@@ -10,6 +10,20 @@ that nobody gives way. Where no way leads to the goal, the move after which one 
 longest.
 
 The same as `sim.search.reachability`, which serves one live world with Python's integers.
+
+Array arguments, here and in `sim.batch.backward_dp` (words: those of a board, `Layout.words`):
+
+- `state` (blocks, words · `PLANES` · `LANES`; uint64) and `lanes` (blocks, `LANE_PLANES` · `LANES`; uint64);
+  `block` and `lane_block` are a row of each (`sim.batch.layout`), `lane` and `inner` a world's number in it;
+- `shares` (lanes, 4; float64), in functions of one lane its row: probabilities, by `COURTESY`, `ATTENTIVE`;
+- `now` (8, words; uint64): boards of the tick that is rolled out next, see `NOW_RIGHT`;
+- `layers` (ticks, 8, words; uint64): what is known of each tick, see `BLOCKED`;
+- `board` (words; uint64): one board;
+- `moves` (lanes; uint8), `ticks` (lanes; int64): the answers, a place in `MOVES` and a number of ticks.
+
+Numbers: `ahead`, `ticks`, `limit`, `rolled`, `episode_tick` are in ticks; `cell`, `row`, `columns`, `rows` on
+the road; `first`, `last`, `w` number words; `left_edge`, `right_edge` are the first and last column of a word
+(uint64); `swept` is all ones where bodies collide by what they sweep, else 0 (uint64).
 """
 
 from __future__ import annotations
@@ -21,13 +35,16 @@ import numpy as np
 from sim.batch.compiled import (
     brake,
     compiled,
+    cut_off,
     followed_board,
     fraction,
     free_steps,
+    max_ticks,
     move_movers,
     pedestrians_walk,
     spread,
     spread_back,
+    steps_left,
     word_at,
 )
 from sim.batch.layout import (
@@ -63,12 +80,6 @@ who brakes in the first tick, and the vehicle."""
 BLOCKED, CAME_RIGHT, CAME_LEFT, CUT_LEFT, CUT_RIGHT, MOVERS, REACHED, NEEDED = range(8)
 FIELDS: Final = 8
 """Planes of a roll-out (shape: ticks, 8, words); of tick k: after k + 1 ticks, the last two after k."""
-
-
-@compiled
-def steps_left(lane_block, lane, rows):
-    """How many steps may still be taken: arriving is judged before being stuck."""
-    return 10 * rows + 1 - np.int64(lane_block[EPISODE_TICK * LANES + lane])
 
 
 @compiled
@@ -147,13 +158,14 @@ def roll(now, layers, ahead, last, episode_tick, columns, left_edge, right_edge,
         layers[ahead, MOVERS, w] = motion.right | motion.left
         layers[ahead, CAME_RIGHT, w] = motion.came_right
         layers[ahead, CAME_LEFT, w] = motion.came_left
-        crossing, crossing_left = motion.came_right & swept, motion.came_left & swept
-        layers[ahead, CUT_LEFT, w] = crossing | crossing >> most >> _ONE
-        layers[ahead, CUT_RIGHT, w] = crossing_left | crossing_left >> most >> _ONE
+        right, left = motion.came_right & swept, motion.came_left & swept
+        cut_left, cut_right = cut_off(right, left, right >> most >> _ONE, left >> most >> _ONE)
+        layers[ahead, CUT_LEFT, w] = cut_left
+        layers[ahead, CUT_RIGHT, w] = cut_right
         if w > 0:
             # The first row of a word lies behind the last one of the word before.
-            layers[ahead, CUT_LEFT, w - 1] |= crossing << up >> unused
-            layers[ahead, CUT_RIGHT, w - 1] |= crossing_left << up >> unused
+            layers[ahead, CUT_LEFT, w - 1] |= right << up >> unused
+            layers[ahead, CUT_RIGHT, w - 1] |= left << up >> unused
 
 
 @compiled
@@ -364,7 +376,7 @@ def exact_moves(state, lanes, shares, columns, rows, left_edge, right_edge, coun
     """For every lane the move of the exact planner and the least ticks to the goal (−1: no way)."""
     words = -(-rows // (64 // columns))
     now = np.empty((BOARDS, words), np.uint64)
-    layers = np.empty((10 * rows + 3, FIELDS, words), np.uint64)
+    layers = np.empty((max_ticks(rows) + 3, FIELDS, words), np.uint64)
     for lane in range(count):
         block, inner = state[lane // LANES], lane % LANES
         lane_block = lanes[lane // LANES]
@@ -373,7 +385,7 @@ def exact_moves(state, lanes, shares, columns, rows, left_edge, right_edge, coun
             continue
         last = prepare(now, block, lane_block, inner, columns, rows, shares[lane], 0)
         episode_tick = np.int64(lane_block[EPISODE_TICK * LANES + inner])
-        limit = steps_left(lane_block, inner, rows)
+        limit = steps_left(rows, episode_tick)
         swept = lane_block[SWEPT * LANES + inner]
         cell = np.int64(lane_block[CELL * LANES + inner])
         row = cell // columns
@@ -407,11 +419,11 @@ def drivable(block, lane_block, lane, columns, rows, shares):
     for row in range(rows_per_word):
         first_column |= _ONE << np.uint64(row * columns)
     now = np.empty((BOARDS, words), np.uint64)
-    layers = np.empty((10 * rows + 3, FIELDS, words), np.uint64)
+    layers = np.empty((max_ticks(rows) + 3, FIELDS, words), np.uint64)
     last = prepare(now, block, lane_block, lane, columns, rows, shares, 0)
     row = np.int64(lane_block[CELL * LANES + lane]) // columns
     episode_tick = np.int64(lane_block[EPISODE_TICK * LANES + lane])
-    limit = steps_left(lane_block, lane, rows)
+    limit = steps_left(rows, episode_tick)
     last_column = first_column << np.uint64(columns - 1)
     swept = lane_block[SWEPT * LANES + lane]
     found = search(

@@ -2,6 +2,11 @@
 
 Furnishing a road is no rule of motion and is written twice, as boards there and as words here; what is
 drawn is written once, in `sim.randomness`. The tests compare digests of both over many configurations.
+
+Array arguments: `state`, `lanes`, `block`, `lane_block` (uint64) as in `sim.batch.layout`; `wholes`
+(lanes, 8; int64) and `shares` (lanes, 4; float64), in functions of one lane its row, by the columns named
+there; `chosen`, `taken` (rows; uint64): things of a row, a bit a column; in `renew`, `chosen` (lanes; uint8).
+Keys are uint64.
 """
 
 from __future__ import annotations

@@ -4,6 +4,14 @@ One text is specialised in several ways, so that a batch without pedestrians, co
 results does not pay for them. All loops over lanes are written so that a compiler turns them into
 instructions on several worlds at once; only what is rare is handled lane by lane: a mover that brakes, a
 situation to be kept or compared, the end of an episode.
+
+Array arguments of the kernel (lane planes are read at `PLANE * LANES + lane`, `sim.batch.layout`):
+
+- `state`, `first_state` (blocks, words · `PLANES` · `LANES`; uint64): boards now, and of the first roads;
+  `boards` is one block of them;
+- `lanes`, `first_lanes` (blocks, `LANE_PLANES` · `LANES`; uint64): what a world has once; `v` is one block;
+- `wholes` (lanes, 8; int64), `shares` (lanes, 4; float64): numbers and probabilities, by column;
+- `left_edge`, `right_edge` (uint64): the first and the last column of a word; `ticks`: how many are run.
 """
 
 from __future__ import annotations
@@ -16,10 +24,12 @@ import numpy as np
 from sim.batch.compiled import (
     brake,
     compiled,
+    cut_off,
     first_bit,
     followed_board,
     fraction,
     free_steps,
+    max_ticks,
     move_movers,
     pedestrians_walk,
     word_at,
@@ -173,7 +183,7 @@ def ticks_kernel(
         row_size = np.uint64(columns)
         top = np.uint64((rows_per_word - 1) * columns)
         last_bit = _ONE << np.uint64(columns - 1)
-        limit = np.uint64(10 * rows)
+        limit = np.uint64(max_ticks(rows))
         end_field = np.uint64(END_FIELD)
         sideways = _ONE << np.uint64(MOVE_FIELD)
         diagonal = _ONE << np.uint64(2 * MOVE_FIELD)
@@ -258,8 +268,12 @@ def ticks_kernel(
                     cut_left = cut_right = held_back = _ZERO
                     if bodily:
                         swept = v[SWEPT * LANES + i]
-                        cut_left = (came_right | v[CAME_RIGHT_AHEAD * LANES + i] >> shift_ahead) & swept
-                        cut_right = (came_left | v[CAME_LEFT_AHEAD * LANES + i] >> shift_ahead) & swept
+                        cut_left, cut_right = cut_off(
+                            v[CAME_RIGHT_AHEAD * LANES + i] >> shift_ahead & swept,
+                            v[CAME_LEFT_AHEAD * LANES + i] >> shift_ahead & swept,
+                            came_right & swept,
+                            came_left & swept,
+                        )
                         attentive = v[BRAKING * LANES + i]
                         if courteous:
                             draws = word_at(

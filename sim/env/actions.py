@@ -15,11 +15,10 @@ from numpy.typing import NDArray
 from sim.batch import Batch
 from sim.config import Config
 from sim.forecast import Forecast
-from sim.types import Move, Outcome
+from sim.types import MOVES, Move, Outcome
 from sim.world import World
 from sim.world.grid import Road
 
-MOVES: Final = tuple(Move)
 STAY: Final = MOVES.index(Move.STAY)
 _NAMES: Final = ", ".join(f"{number} {move}" for number, move in enumerate(MOVES))
 _WANTED: Final = f"a whole number from 0 to {len(MOVES) - 1} ({_NAMES})"
@@ -56,7 +55,7 @@ def action_mask(world: World, config: Config) -> Masks:
     if world.outcome is Outcome.RUNNING:
         forecast = Forecast.of_truth(world, config, 1)
         for number, move in enumerate(MOVES):
-            mask[number] = forecast.will_be_free(world.av, world.road.moved(world.av, move))
+            mask[number] = forecast.will_be_free(world.av, forecast.dynamics.target(world.av, move))
     return _never_empty(mask)
 
 

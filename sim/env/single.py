@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from sim.config import Config
 from sim.decide import sense
 from sim.env import saved_state as saving
-from sim.env.actions import MOVES, STAY, action_mask, checked_action
+from sim.env.actions import STAY, action_mask, checked_action
 from sim.env.observation import Observer
 from sim.env.options import boolean, one_of, refuse_unknown, reset_options, road_config
 from sim.env.reward import Rewards
@@ -21,7 +21,7 @@ from sim.env.seeds import DRAWN_BELOW, check_seed, fold_seed
 from sim.perceive.observe import observe
 from sim.state import FIRST, SimState, next_episode
 from sim.transition import transition
-from sim.types import Outcome
+from sim.types import MOVES, Outcome
 from sim.world import notation
 
 RENDER_MODES: Final = ("ansi", "rgb_array")
@@ -117,7 +117,7 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
         before = state.world
         if before.outcome is not Outcome.RUNNING:
             raise RuntimeError("the episode has ended; call reset")
-        if before.road.moved(before.av, MOVES[number]) is None:
+        if state.config.ego_dynamics(before.road).target(before.av, MOVES[number]) is None:
             number = STAY
         # Counts as a person's move, so that a repeated situation does not end the episode.
         self._run = transition(state, {FIRST: MOVES[number]}, by_person=(FIRST,)).state

@@ -21,7 +21,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from itertools import chain, combinations, count, product
+from itertools import count
 from typing import Final, TypeAlias
 
 from sim.config import Config
@@ -31,7 +31,6 @@ from sim.forecast import Forecast
 from sim.perceive import Belief, sensor_named
 from sim.plan import Decision, Traits, traits_of
 from sim.randomness import Stream
-from sim.rules.yielding import attentive_movers, yielding_movers
 from sim.search.costs import weights
 from sim.search.dead_ends import cells_that_may_arrive
 from sim.search.reachability import steps_left
@@ -40,8 +39,7 @@ from sim.state import FIRST, SimState, StepResult
 from sim.statistics import wilson
 from sim.transition import step
 from sim.types import Mode, Move, Outcome
-from sim.world import World
-from sim.world.grid import Board, bits, board_of
+from sim.world.grid import Board
 
 WALK_SHARE: Final = 2 / 3
 """How much of the work goes into walking the whole tree before futures are drawn instead."""
@@ -152,7 +150,7 @@ def confidence(timeline: Timeline) -> Confidence:
         end_ticks=(min(waited), max(waited)) if waited else None,
         futures=drawn,
         decisions=futures.work,
-        chance=0.0 < state.config.courtesy < 1.0 or 0.0 < state.config.attentive < 1.0,
+        chance=state.config.mover_behaviour.draws(state.config),
         by_hand=state.mode is Mode.MANUAL,
         clarity=_clarity(timeline),
     )
@@ -198,8 +196,8 @@ class _Futures:
     _faithful: bool = field(init=False)
     _buffer: int = field(init=False)
     _leading_on: list[Board] | None = None
-    _all: Config = field(init=False)
-    """everybody reacts who has a reason to"""
+    _unlike: Config = field(init=False)
+    """the configuration for ticks that are drawn one unlike the other"""
 
     def __post_init__(self) -> None:
         config = self.start.config
@@ -210,9 +208,7 @@ class _Futures:
         self._known = self._traits.forward_only and self._faithful
         self._buffer = weights(config).buffer if self._traits.weighs_costs else 0
         # A tick that is drawn to be certain proves nothing about those that come again.
-        self._all = config.with_parts(
-            courtesy=1.0, attentive=1.0, repetition=config.repetition and config.certain
-        )
+        self._unlike = config.with_parts(repetition=config.repetition and config.certain)
 
     def walked(self) -> Ends | None:
         """The chance of each end, by outcome and ticks from now; None if the tree is too large to walk."""
@@ -282,34 +278,23 @@ class _Futures:
         which is why the root has no ways to choose from.
         """
         world, config = state.world, state.config
-        giving = _drawn(yielding_movers(world, self._all), config.courtesy)
-        braking = _drawn(attentive_movers(world, self._all), config.attentive)
-        if len(giving) == len(braking) == 1:
+        behaviour = config.mover_behaviour
+        possible = behaviour.possible_reactions(world, config)
+        if len(possible) == 1:
             yield 1.0, config
             return
         ways: dict[object, tuple[float, Config]] = {}
-        for (gives, chance), (brakes, other) in product(giving, braking):
-            drawing = self._drawing(world, gives, brakes)
+        for drawn, chance in possible:
+            drawing = behaviour.drawing(world, self._unlike, drawn)
             if self._known:
                 forecast = Forecast.of_truth(world, drawing, 1)
                 standing = forecast.standing
                 key: object = forecast.slices[0], None if standing is None else standing.slices[0]
             else:
-                key = gives, brakes
+                key = drawn
             before, first = ways.get(key, (0.0, drawing))
-            ways[key] = before + chance * other, first
+            ways[key] = before + chance, first
         yield from (way for way in ways.values() if way[0] > 0.0)
-
-    def _drawing(self, world: World, gives: Board, brakes: Board) -> Config:
-        """A configuration under which exactly these movers give way, and these brake, in the coming tick."""
-        near = yielding_movers(world, self._all)
-        base = self._all.with_parts(courtesy=_share(gives, near), attentive=_share(brakes, near))
-        tried = (base.with_parts(seed=seed) for seed in count())
-        return next(
-            config
-            for config in tried
-            if (yielding_movers(world, config), attentive_movers(world, config)) == (gives, brakes)
-        )
 
     def _step(self, state: SimState, config: Config) -> _Node:
         self.work += 1
@@ -338,11 +323,8 @@ class _Futures:
             return tick, tick.state.belief
         percept, belief = sense(state)
         moving = percept.right | percept.left
-        seen = replace(
-            percept,
-            yielding=yielding_movers(state.world, config) & moving,
-            attentive=attentive_movers(state.world, config) & moving,
-        )
+        drawing = config.mover_behaviour.reactions(state.world, config)
+        seen = replace(percept, yielding=drawing.yielding & moving, attentive=drawing.attentive & moving)
         return step(drawn, {FIRST: decide_on(drawn, seen)}), belief
 
     def _key(self, state: SimState) -> tuple[int, ...]:
@@ -359,22 +341,6 @@ class _Futures:
             *world.avs,
             *(board & ahead for board in boards),
         )
-
-
-def _drawn(near: Board, share: float) -> list[tuple[Board, float]]:
-    """Which of the movers near may be drawn, each for itself with this chance, and the chance of it."""
-    if share in (0.0, 1.0) or not near:
-        return [(near if share == 1.0 else 0, 1.0)]
-    cells = list(bits(near))
-    chosen = chain.from_iterable(combinations(cells, size) for size in range(len(cells) + 1))
-    return [
-        (board_of(some), share ** len(some) * (1.0 - share) ** (len(cells) - len(some))) for some in chosen
-    ]
-
-
-def _share(drawn: Board, near: Board) -> float:
-    """A chance under which these of the movers near can be drawn."""
-    return 0.0 if not drawn else 1.0 if drawn == near else 0.5
 
 
 def _hopeful(state: SimState) -> list[Board]:

@@ -183,7 +183,7 @@ def _met(rerun: Intervention) -> tuple[Option, ...]:
     forecast = Forecast.of_truth(world, state.config, 1)
     met = []
     for option in options:
-        reason, causes = forecast.check_step(world.av, world.road.moved(world.av, option.move))
+        reason, causes = forecast.check_step(world.av, forecast.dynamics.target(world.av, option.move))
         met.append(replace(option, reason=reason, causes=causes))
     return tuple(met)
 

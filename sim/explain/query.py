@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from sim.explain.facts import Explanation, QuestionError
+from sim.explain.moments import state_at
 from sim.explain.why_causes import explain_why
 from sim.explain.why_not import explain_why_not
 from sim.plan import Decision
 from sim.session.timeline import SNAPSHOT_TICKS, Timeline
 from sim.state import SimState
-from sim.types import Move
+from sim.types import MOVES, Move
 
 LOOK_BACK_TICKS = 1_000
 """How far back a move that is asked about is looked for."""
@@ -43,16 +44,13 @@ def why_not(timeline: Timeline, move: Move, tick: int | None = None) -> Explanat
 
 def _decision_at(timeline: Timeline, tick: int | None) -> tuple[SimState, Decision]:
     if tick is None:
-        state, found = _latest(timeline, tuple(Move))
+        state, found = _latest(timeline, MOVES)
         if found is None:
             raise QuestionError("nothing_yet", tick=timeline.tick)
         return state, found
     if tick == timeline.tick:
         raise QuestionError("not_yet", tick=tick)
-    try:
-        state = timeline.at(tick)
-    except IndexError:
-        raise QuestionError("no_such_tick", tick=tick, now=timeline.tick) from None
+    state = state_at(timeline, tick)
     decision = timeline.decided(state)
     if decision is None:
         raise QuestionError("result_stood", tick=tick, outcome=state.world.outcome)

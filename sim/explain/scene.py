@@ -18,7 +18,6 @@ from sim.config import Config
 from sim.forecast import predict
 from sim.perceive import Percept
 from sim.types import Cell, Kind, Move
-from sim.world.grid import Road
 
 CERTAIN: Final[Mapping[str, float]] = MappingProxyType({})
 """The likelihoods of sensors that are always sure."""
@@ -114,17 +113,12 @@ def _meetings(percept: Percept, reach: int) -> dict[str, int]:
     met: dict[str, int] = {}
     here = percept.ego
     for ahead in range(reach):
-        then = _on(percept.road, here)
+        then = forecast.dynamics.target(here, Move.FORWARD)
+        assert then is not None  # there are `reach` rows ahead
         for name in forecast.check_step(here, then, ahead)[1]:
             met.setdefault(name, ahead + 1)
         here = then
     return met
-
-
-def _on(road: Road, here: int) -> int:
-    then = road.moved(here, Move.FORWARD)
-    assert then is not None  # there are `reach` rows ahead
-    return then
 
 
 def _nearest(thing: Detection) -> tuple[bool, int, int, int, bool, Cell]:

@@ -13,6 +13,7 @@ from sim.actions import WorldAction
 from sim.decide import sense
 from sim.explain.alternatives import after_move
 from sim.explain.facts import QuestionError
+from sim.explain.moments import state_at
 from sim.explain.rollout import EpisodeRollout, rollout, summarize
 from sim.forecast import predict
 from sim.plan import Decision
@@ -53,7 +54,7 @@ def compare_move(timeline: Timeline, tick: int, move: Move) -> SideBySide:
     After the move the planner goes on, in both. Raises `QuestionError`: `no_such_tick`, `no_decision`
     while a result stood, `off_road`, and `same_move` for the one that was made.
     """
-    state = _moment(timeline, tick)
+    state = state_at(timeline, tick)
     decision = timeline.decided(state)
     if decision is None:
         raise QuestionError("no_decision", tick=tick)
@@ -67,7 +68,7 @@ def compare_move(timeline: Timeline, tick: int, move: Move) -> SideBySide:
 
 def compare_change(timeline: Timeline, tick: int, change: Sequence[WorldAction]) -> SideBySide:
     """What comes of a change made at a tick. Raises `QuestionError` and `EditError`."""
-    state = changed = _moment(timeline, tick)
+    state = changed = state_at(timeline, tick)
     for action in change:
         changed = apply(changed, action).state
     sides = [
@@ -92,13 +93,6 @@ def _driven(state: SimState, decision: Decision, move: Move) -> Iterator[tuple[S
     yield state, StepResult(after, {decision.av: made}, ())
     if after.world.outcome is Outcome.RUNNING:
         yield from rollout(after)
-
-
-def _moment(timeline: Timeline, tick: int) -> SimState:
-    try:
-        return timeline.at(tick)
-    except IndexError:
-        raise QuestionError("no_such_tick", tick=tick, now=timeline.tick) from None
 
 
 def _said_since(timeline: Timeline, tick: int) -> int:

@@ -17,6 +17,7 @@ from sim.commit import moves_with
 from sim.episode_record import EpisodeRecord, Sake
 from sim.forecast import Forecast
 from sim.oracle.lower_bounds import can_arrive, least_ticks
+from sim.rules.dynamics import Dynamics
 from sim.search.reachability import steps_left
 from sim.search.reactive import ImpatientError
 from sim.state import SimState
@@ -135,7 +136,7 @@ def _open_until(state: SimState, course: EpisodeRecord) -> int | None:
     world = _at_first(state, course).world
     road, limit = world.road, steps_left(state.config, 0)
     forecast = Forecast.of_truth(world, state.config, limit)
-    cells = _cells(world.av, course.move_list(), road.columns)
+    cells = _cells(world.av, course.move_list(), state.config.ego_dynamics(road))
     goal = road.row(0)
     reaching = goal
     for tick in range(limit - 1, -1, -1):
@@ -161,10 +162,10 @@ def _open_until_reacting(state: SimState, course: EpisodeRecord) -> int | None:
     return first_closed - 1 if first_closed else None
 
 
-def _cells(start: int, moves: tuple[Move, ...], columns: int) -> list[int]:
+def _cells(start: int, moves: tuple[Move, ...], dynamics: Dynamics) -> list[int]:
     """The vehicle's cell at every tick."""
     cells = [start]
     for move in moves:
-        across, along = move.offset
-        cells.append(cells[-1] + across + along * columns)
+        end = dynamics.target(cells[-1], move)
+        cells.append(cells[-1] if end is None else end)
     return cells

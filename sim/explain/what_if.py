@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from sim.actions import Add, Drive, Remove, SetCount, WorldAction
 from sim.decide import decide_on, sense
-from sim.explain.facts import QuestionError
+from sim.explain.moments import state_at
 from sim.explain.rollout import EpisodeRollout, rollout, summarize
 from sim.oracle.lower_bounds import PATIENCE
 from sim.oracle.regret import Regret, regret
@@ -75,7 +75,7 @@ def what_if(
     Raises `QuestionError` for a tick that never was, and `EditError` for what cannot be done.
     The timeline is left as it is.
     """
-    state = _moment(timeline, tick)
+    state = state_at(timeline, tick)
     done, changed = [], state
     for action in change:
         applied = apply(changed, action)
@@ -96,15 +96,6 @@ def what_if(
     since = state.world.tick
     said_since = 0 if tick is None else sum(entry.tick > since for entry in timeline.entries)
     return WhatIf(state, tuple(done), real, other, same_road, difference, lost, certain, said_since)
-
-
-def _moment(timeline: Timeline, tick: int | None) -> SimState:
-    if tick is None:
-        return timeline.state
-    try:
-        return timeline.at(tick)
-    except IndexError:
-        raise QuestionError("no_such_tick", tick=tick, now=timeline.tick) from None
 
 
 def _new_road(done: Sequence[Applied]) -> bool:

@@ -8,20 +8,20 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from typing import Final, Literal
+from typing import Final
 
 from sim.config import Config
 from sim.fast_replace import fast_constructor
-from sim.forecast.rollout import RollOut
+from sim.forecast.rollout import RollOut, other_end
 from sim.perceive import OtherEgo, Percept, perceive_truth
-from sim.rules.contacts import Denied, denied_steps, egos_touch
-from sim.rules.traffic import Steps, free_steps, spread, spread_back, swap_conflicts
-from sim.types import HAZARDS, Kind, Move
+from sim.rules.contacts import Denied
+from sim.rules.dynamics import Dynamics
+from sim.rules.dynamics_registry import dynamics_on
+from sim.rules.ego_step import Steps
+from sim.types import HAZARDS, MOVES, Kind, Move
 from sim.world import World
 from sim.world.boards import Boards
 from sim.world.grid import Board, Road, bits, board_of
-
-_MOVES: Final = tuple(Move)
 
 
 class StepVerdict(StrEnum):
@@ -49,7 +49,7 @@ class StepVerdict(StrEnum):
         return self is not StepVerdict.FREE
 
 
-_VERDICTS = {kind: StepVerdict(kind) for kind in HAZARDS}
+_VERDICTS: Final = {kind: StepVerdict(kind) for kind in HAZARDS}
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,8 +64,8 @@ class Forecast:
     boards: Boards
     """which cells hold what kind of thing now"""
     disabled: Board
-    swept: bool
-    """whether bodies collide by what they sweep within a tick"""
+    dynamics: Dynamics
+    """how the vehicle moves, and what its steps sweep"""
     hazards: Mapping[int, str]
     slices: RollOut
     egos: tuple[OtherEgo, ...] = ()
@@ -104,10 +104,6 @@ class Forecast:
         return self.fixed | self.slices[ahead].occupied | (self.slices.standing if self.egos else 0)
 
     @property
-    def _rule(self) -> Literal["swept", "cell"]:
-        return "swept" if self.swept else "cell"
-
-    @property
     def parked(self) -> Board:
         """The cells of other egos that stay until a person asks for something."""
         return board_of([other.cell for other in self.egos if other.parked])
@@ -121,19 +117,16 @@ class Forecast:
             return 0
         if ahead:
             return self.slices.standing
-        ends = [self.road.moved(self.ego, move) for move in Move if self.meets_ego(move)]
+        ends = [self.dynamics.target(self.ego, move) for move in MOVES if self.meets_ego(move)]
         return board_of([end for end in ends if end is not None])
 
     def meets_ego(self, move: Move) -> bool:
         """Whether a move in the coming tick would touch another ego."""
-        return bool(self.egos) and bool(self._denied()[_MOVES.index(move)].starts >> self.ego & 1)
+        return bool(self.egos) and bool(self._denied()[MOVES.index(move)].starts >> self.ego & 1)
 
     def _denied(self) -> Sequence[Denied]:
         """For each move, in the order of `Move`, what the other egos deny in the coming tick."""
-        road = self.road
-        found = [
-            denied_steps(road.columns, road.rows, other.cell, other.move, self._rule) for other in self.egos
-        ]
+        found = [self.dynamics.denied(other.cell, other.move) for other in self.egos]
         return [
             Denied(_union(each.starts for each in of_move), _union(each.ends for each in of_move))
             for of_move in zip(*found, strict=True)
@@ -149,74 +142,42 @@ class Forecast:
         """The forecast that holds once the vehicle has made this move now."""
         return self.standing or self if move is Move.STAY else self
 
-    def cut_off(self, ahead: int = 0) -> tuple[Board, Board]:
-        """The cells straight ahead of vehicles whose diagonal to the left, or to the right, is cut off."""
-        if not self.swept:
-            return 0, 0
-        _, _, came_right, came_left = self.slices[ahead]
-        columns = self.road.columns
-        return came_right | came_right >> columns, came_left | came_left >> columns
-
     def spread(self, start: Board, ahead: int = 0) -> Board:
         """Every cell a vehicle in any cell of `start` may be in one tick later, `ahead` ticks from now.
 
         Nobody brakes: `standing` is the forecast for a vehicle that stays where it would be hit.
         """
-        road = self.road
         right, left, came_right, came_left = self.slices[ahead]
         if self.egos:
             if not ahead:
                 return _union(self.steps(start))
             right |= self.slices.standing
-        return spread(
-            start,
-            start >> road.columns,
-            self.boards.fixed | right | left,
-            came_right,
-            came_left,
-            *self.cut_off(ahead),
-            road.left_edge,
-            road.right_edge,
-        )
+        return self.dynamics.spread(start, self.boards.fixed | right | left, came_right, came_left)
 
     def spread_back(self, end: Board, ahead: int = 0) -> Board:
         """Every cell from which one move, made `ahead` ticks from now, leads into a cell of `end`.
 
         The cells of `end` are taken to be free.
         """
-        road = self.road
-        _, _, came_right, came_left = self.slices[ahead]
-        beside, on = spread_back(
-            end, came_right, came_left, *self.cut_off(ahead), road.left_edge, road.right_edge
-        )
-        found = beside | on << road.columns & road.all
+        right, left, came_right, came_left = self.slices[ahead]
+        found = self.dynamics.spread_back(end, self.boards.fixed | right | left, came_right, came_left)
         if not self.egos:
             return found
         return board_of([start for start in bits(found) if self.spread(1 << start, ahead) & end])
 
     def steps(self, start: Board, ahead: int = 0) -> Steps:
         """Where vehicles in `start` may be one tick later, `ahead` ticks from now. Nobody brakes."""
-        road = self.road
         right, left, came_right, came_left = self.slices[ahead]
         if self.egos and ahead:
             right |= self.slices.standing
-        found = free_steps(
-            start,
-            start >> road.columns,
-            self.boards.fixed | right | left,
-            came_right,
-            came_left,
-            *self.cut_off(ahead),
-            road.left_edge,
-            road.right_edge,
-        )
+        found = self.dynamics.steps(start, self.boards.fixed | right | left, came_right, came_left)
         return self._without_egos(start, found) if self.egos and not ahead else found
 
     def _without_egos(self, start: Board, steps: Steps) -> Steps:
         """The steps of the coming tick that touch no other ego."""
         free = []
         for board, (starts, ends) in zip(steps, self._denied(), strict=True):
-            # The ends of one move are its starts moved by one offset, so bits do not mix.
+            # One move leads from different cells to different ones, so bits do not mix.
             free.append(board & ~ends if start & starts else board)
         return Steps(*free)
 
@@ -237,29 +198,33 @@ class Forecast:
             return StepVerdict.OFF_ROAD, ()
         if start == end == self.ego and ahead == 0 and (standing := self.standing) is not None:
             return standing.check_step(start, end)
-        right, left, came_right, came_left = self.slices[ahead]
-        bit = 1 << end
+        motion = self.slices[ahead]
+        swept = self.dynamics.swept(start, end)
         verdict = StepVerdict.FREE
         who: tuple[str, ...] = ()
-        if swap_conflicts(1 << start, bit, came_right, came_left):
-            verdict, who = StepVerdict.MOVER_SWAPS, (self.slices.movers(ahead)[start],)
-        elif crossing := self._crossing(start, end, ahead):
-            verdict, who = (
-                StepVerdict.MOVER_CROSSES,
-                tuple(self.slices.movers(ahead)[cell] for cell in crossing),
-            )
-        if bit & (right | left):
-            who = (self.slices.movers(ahead)[end], *who)
-            if bit & self.disabled:
-                verdict = StepVerdict.DISABLED_MOVER
-            elif bit & (came_right | came_left):
-                verdict = StepVerdict.MOVER_ENTERS
-            else:
-                verdict = StepVerdict.MOVER_STAYS
-        if bit & self.boards.fixed:
-            who = (self.hazards[end], *who)
-            if not bit & self.disabled:
-                verdict = _VERDICTS[self.boards.fixed_kind(end)]
+        passed = None
+        if swept.from_left:
+            passed = [cell for cell in swept.from_left if motion.came_right >> cell & 1]
+        if swept.from_right:
+            passed = [cell for cell in swept.from_right if motion.came_left >> cell & 1] + (passed or [])
+        if passed:
+            aside = passed == [start] and start // self.road.columns == end // self.road.columns
+            verdict = StepVerdict.MOVER_SWAPS if aside else StepVerdict.MOVER_CROSSES
+            who = tuple(self.slices.movers(ahead)[cell] for cell in passed)
+        for cell in swept.cells:
+            bit = 1 << cell
+            if bit & (motion.right | motion.left):
+                who = (self.slices.movers(ahead)[cell], *who)
+                if bit & self.disabled:
+                    verdict = StepVerdict.DISABLED_MOVER
+                elif bit & (motion.came_right | motion.came_left):
+                    verdict = StepVerdict.MOVER_ENTERS
+                else:
+                    verdict = StepVerdict.MOVER_STAYS
+            if bit & self.boards.fixed:
+                who = (self.hazards[cell], *who)
+                if not bit & self.disabled:
+                    verdict = _VERDICTS[self.boards.fixed_kind(cell)]
         if self.egos and (others := self._met_egos(start, end, ahead)):
             who = (*who, *(other.id for other in others))
             if verdict is StepVerdict.FREE:
@@ -268,32 +233,23 @@ class Forecast:
 
     def _met_egos(self, start: int, end: int, ahead: int) -> list[OtherEgo]:
         """The other egos that a step touches, those first that end in the same cell."""
-        road = self.road
+        dynamics = self.dynamics
         if ahead:
-            return [other for other in self.egos if _end(road, other) == end]
+            return [other for other in self.egos if other_end(dynamics, other) == end]
         met = [
             other
             for other in self.egos
-            if egos_touch(road, (start, end), (other.cell, _end(road, other)), self._rule)
+            if dynamics.egos_touch((start, end), (other.cell, other_end(dynamics, other)))
         ]
-        return sorted(met, key=lambda other: _end(road, other) != end)
+        return sorted(met, key=lambda other: other_end(dynamics, other) != end)
 
     def _ego_verdict(self, start: int, end: int, ahead: int, other: OtherEgo) -> StepVerdict:
-        theirs = _end(self.road, other)
+        theirs = other_end(self.dynamics, other)
         if theirs == end:
             stays = ahead or other.move is Move.STAY
             return StepVerdict.EGO_STAYS if stays else StepVerdict.EGO_ENTERS
         swaps = other.cell == end and theirs == start
         return StepVerdict.EGO_SWAPS if swaps else StepVerdict.EGO_CROSSES
-
-    def _crossing(self, start: int, end: int, ahead: int) -> tuple[int, ...]:
-        """The cells of the movers that cut off a diagonal, after the tick; empty for any other step."""
-        on = start - self.road.columns
-        if not self.swept or end not in (on - 1, on + 1):
-            return ()
-        motion = self.slices[ahead]
-        came = motion.came_right if end < on else motion.came_left
-        return tuple(cell for cell in (on, start) if came >> cell & 1)
 
     def will_be_free(self, start: int, end: int | None, ahead: int = 0) -> bool:
         """Whether a step meets nothing."""
@@ -309,7 +265,7 @@ _expected = fast_constructor(
     "ego_id",
     "boards",
     "disabled",
-    "swept",
+    "dynamics",
     "hazards",
     "slices",
     "egos",
@@ -323,24 +279,18 @@ def _union(boards: Iterable[Board]) -> Board:
     return board
 
 
-def _end(road: Road, other: OtherEgo) -> int:
-    """The cell that another ego's announced move leads to."""
-    end = road.moved(other.cell, other.move)
-    return other.cell if end is None else end
-
-
 def predict(percept: Percept, horizon: int) -> Forecast:
     """What to expect of the next `horizon` ticks (at least one)."""
-    boards = percept.boards
+    road, boards = percept.road, percept.boards
     return _expected(
-        percept.road,
+        road,
         percept.tick,
         percept.episode_tick,
         percept.ego,
         percept.ego_id,
         boards,
         (percept.right | percept.left) & boards.holding,
-        percept.swept,
+        dynamics_on(road, percept.dynamics, percept.swept),
         percept.hazards,
         RollOut(percept, horizon),
         percept.egos,

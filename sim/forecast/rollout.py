@@ -1,9 +1,9 @@
 """Movers rolled out by the rules, as far ahead as is read and no further than was asked for.
 
 The roll-out assumes that movers do not react to the vehicle after the first tick: nobody gives way and
-nobody brakes, but for other egos. With perfect sight and no courtesy it *is* what happens along every way
-that meets nothing, since a mover only brakes for a vehicle that stands where it would be hit. `if_standing`
-is the roll-out where it brakes in the first tick.
+nobody brakes, but for other egos. With perfect sight it *is* what happens along every way that meets nothing,
+where movers leave alone who meets nothing (`Behaviour.free_ways_hold`). `if_standing` is the roll-out where a
+mover brakes in the first tick.
 
 Other egos make the move they have announced and then stand where it leads, as far as is known. Movers brake
 for those that stand: in the first tick those that are attentive then, later all. A mover that would not brake
@@ -15,10 +15,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import overload
 
-from sim.perceive import Percept
-from sim.rules.kinds import resting_movers, shift_boards
-from sim.rules.traffic import Motion, brake, move_movers
-from sim.rules.traffic_cache import cached_move_movers, cached_shift_table
+from sim.perceive import OtherEgo, Percept
+from sim.rules.behaviour import NOBODY, Reactions
+from sim.rules.behaviour_registry import BEHAVIOURS
+from sim.rules.dynamics import Dynamics
+from sim.rules.dynamics_registry import dynamics_on
+from sim.rules.kinds import shift_boards
+from sim.rules.traffic import Motion
+from sim.rules.traffic_cache import cached_shift_table, cached_step
 from sim.types import Move
 from sim.world.boards import Boards
 from sim.world.grid import Board, board_of
@@ -28,10 +32,12 @@ class RollOut(Sequence[Motion]):
     """`roll_out[k]` is expected k + 1 ticks from now. Ticks are computed when they are first read."""
 
     __slots__ = (
+        "_behaviour",
         "_disabled",
         "_fixed",
         "_horizon",
         "_left",
+        "_reactions",
         "_right",
         "_shifted",
         "_slices",
@@ -53,6 +59,9 @@ class RollOut(Sequence[Motion]):
         self._horizon = horizon
         self._stands = stands
         boards = percept.boards
+        self._behaviour = BEHAVIOURS[percept.behaviour]
+        yielding, attentive = percept.yielding, percept.attentive
+        self._reactions = Reactions(yielding, attentive) if yielding or attentive else NOBODY
         self._fixed = boards.fixed
         self._disabled = (percept.right | percept.left) & boards.holding
         self._slices: list[Motion] = []
@@ -103,38 +112,54 @@ class RollOut(Sequence[Motion]):
     def standing(self) -> Board:
         """The cells that other egos stand in after the first tick."""
         if self._standing is None:
-            road = self.percept.road
-            ends = [(other.cell, road.moved(other.cell, other.move)) for other in self.percept.egos]
-            self._standing = board_of([cell if end is None else end for cell, end in ends])
+            percept = self.percept
+            dynamics = dynamics_on(percept.road, percept.dynamics, percept.swept)
+            self._standing = board_of([other_end(dynamics, other) for other in percept.egos])
         return self._standing
 
     def if_standing(self) -> RollOut | None:
         """The roll-out where the vehicle does not move in the first tick; None where that changes nothing."""
-        percept, motion = self.percept, self[0]
-        held = percept.attentive & (motion.came_right >> 1 | motion.came_left << 1)
-        if self._stands or not held or not motion.occupied >> percept.ego & 1:
+        ego, motion = self.percept.ego, self[0]
+        if self._stands or not motion.occupied >> ego & 1:
             return None
-        other = RollOut(percept, self._horizon, stands=True)
-        return None if other[0] == motion else other
+        if self._behaviour.brake(motion, 1 << ego, self._reactions) == motion:
+            return None
+        return RollOut(self.percept, self._horizon, stands=True)
 
     def _next(self) -> Motion:
         percept, ahead = self.percept, len(self._slices)
         road = percept.road
         boards = self.boards(ahead - 1) if ahead else percept.boards
-        # Only the first tick is asked for again: when it comes.
-        move = move_movers if ahead else cached_move_movers
-        motion = move(
-            self._right,
-            self._left,
-            resting_movers(self._disabled, boards, percept.episode_tick + ahead),
-            self._fixed,
-            0 if ahead else percept.yielding,
-            percept.vehicles,
-            road.left_edge,
-            road.right_edge,
-        )
-        if self._stands and not ahead:
-            motion = brake(motion, 1 << percept.ego, percept.attentive)
+        if ahead:
+            motion = self._behaviour.step(
+                self._right,
+                self._left,
+                boards.marked,
+                self._disabled,
+                self._fixed,
+                road.left_edge,
+                road.right_edge,
+                percept.episode_tick + ahead,
+                0,
+                NOBODY,
+            )
+        else:
+            # Only the first tick is asked for again: when it comes.
+            motion = cached_step(
+                self._behaviour,
+                self._right,
+                self._left,
+                boards.marked,
+                self._disabled,
+                self._fixed,
+                road.left_edge,
+                road.right_edge,
+                percept.episode_tick,
+                percept.vehicles,
+                self._reactions,
+            )
+            if self._stands:
+                motion = self._behaviour.brake(motion, 1 << percept.ego, self._reactions)
         if percept.egos:
             motion = self._braked_for_egos(motion, ahead)
         self._right, self._left = motion.right, motion.left
@@ -144,6 +169,12 @@ class RollOut(Sequence[Motion]):
         """The motion of a tick with the movers that brake for other egos."""
         percept = self.percept
         if ahead:
-            return brake(motion, self.standing, percept.road.all)
+            return self._behaviour.brake(motion, self.standing, Reactions(attentive=percept.road.all))
         staying = board_of([other.cell for other in percept.egos if other.move is Move.STAY])
-        return brake(motion, staying, percept.attentive)
+        return self._behaviour.brake(motion, staying, self._reactions)
+
+
+def other_end(dynamics: Dynamics, other: OtherEgo) -> int:
+    """The cell that another ego's announced move leads to; its own where that is off the road."""
+    end = dynamics.target(other.cell, other.move)
+    return other.cell if end is None else end

@@ -25,7 +25,6 @@ from sim.commit import moves_with
 from sim.forecast import Forecast
 from sim.oracle.ddmin import ddmin
 from sim.oracle.lower_bounds import can_arrive, foreseen, quickest_plan
-from sim.rules.traffic import beside
 from sim.state import SimState
 from sim.transition import next_world
 from sim.types import Move, Outcome
@@ -76,7 +75,10 @@ def arrives(state: SimState, plan: Iterable[Move]) -> bool:
     """Whether playing these moves ends in row 0, judged tick by tick."""
     world = state.world
     for move in plan:
-        if world.outcome is not Outcome.RUNNING or world.road.moved(world.av, move) is None:
+        if (
+            world.outcome is not Outcome.RUNNING
+            or state.config.ego_dynamics(world.road).target(world.av, move) is None
+        ):
             return False
         world = next_world(world, moves_with(world, move), state.config, state.parked)
     return world.outcome is Outcome.SUCCESS
@@ -107,15 +109,9 @@ def thinned(candidate: Iterable[str], opens: Callable[[Sequence[str]], bool]) ->
     return tuple(kept) if smaller is None else smaller, True
 
 
-def _any_step(board: Board, forecast: Forecast) -> Board:
-    """Where the six moves lead, whatever is there."""
-    road = forecast.road
-    return beside(board | board >> road.columns, road.left_edge, road.right_edge)
-
-
 def met_least(forecast: Forecast, limit: int) -> set[str]:
     """The things that a way with the fewest collisions meets."""
-    goal = forecast.road.row(0)
+    goal, any_step = forecast.road.row(0), forecast.dynamics.ends_anywhere
     start = 1 << forecast.ego
     levels: list[list[Board]] = [[start]]
     for ahead in range(limit):
@@ -123,7 +119,7 @@ def met_least(forecast: Forecast, limit: int) -> set[str]:
     while True:
         below, layers = levels[-1], [start]
         for ahead in range(limit):
-            layers.append(forecast.spread(layers[-1], ahead) | _any_step(below[ahead], forecast))
+            layers.append(forecast.spread(layers[-1], ahead) | any_step(below[ahead]))
             if layers[-1] & goal:
                 return _traced(forecast, [*levels, layers], len(layers) - 1)
         levels.append(layers)
@@ -151,6 +147,5 @@ def _traced(forecast: Forecast, levels: list[list[Board]], tick: int) -> set[str
 
 def _from(forecast: Forecast, cell: int) -> list[int]:
     """The cells from which a move leads into this one."""
-    road = forecast.road
-    behind = 1 << cell | 1 << cell + road.columns
-    return list(bits(beside(behind, road.left_edge, road.right_edge) & road.all))
+    end = 1 << cell
+    return list(bits(forecast.dynamics.may_come_from(end, end)))

@@ -46,7 +46,7 @@ def least_ticks(state: SimState, patience: int | None = None) -> int | None:
     quicker = None
     if ticks is not None or _passable(forecast):
         quicker = ReactiveSearch(state.world, state.config, forecast, patience).least_ticks(bound)
-    return ticks if quicker is None and state.config.courtesy == 0.0 else quicker
+    return ticks if quicker is None and state.config.free_ways_hold else quicker
 
 
 def quickest_plan(state: SimState) -> tuple[Move, ...] | None:
@@ -63,7 +63,7 @@ def quickest_plan(state: SimState) -> tuple[Move, ...] | None:
     quicker = None
     if ticks is not None or _passable(forecast):
         quicker = ReactiveSearch(state.world, state.config, forecast).plan(bound)
-    return plan if quicker is None and state.config.courtesy == 0.0 else quicker
+    return plan if quicker is None and state.config.free_ways_hold else quicker
 
 
 def can_arrive(state: SimState, patience: int | None = None) -> bool:
@@ -71,7 +71,7 @@ def can_arrive(state: SimState, patience: int | None = None) -> bool:
     if state.world.outcome is not Outcome.RUNNING:
         return state.world.outcome is Outcome.SUCCESS
     forecast, limit = foreseen(state)
-    if state.config.courtesy == 0.0 and reachability(forecast, 1 << forecast.ego, limit).ticks is not None:
+    if state.config.free_ways_hold and reachability(forecast, 1 << forecast.ego, limit).ticks is not None:
         return True
     if not state.config.reacting or not _passable(forecast):
         return False
@@ -97,13 +97,14 @@ def _settled(state: SimState, ticks: int | None) -> bool:
     """Whether reactions of movers cannot lead to the goal sooner than a way found without them."""
     # A way that meets nothing in the roll-out without reactions causes none, unless movers give way. No way
     # takes less than a tick a row.
-    rows = state.world.av // state.world.road.columns
-    return not state.config.reacting or (state.config.courtesy == 0.0 and ticks == rows)
+    road = state.world.road
+    fewest = -(-(state.world.av // road.columns) // state.config.ego_dynamics(road).rows_a_tick)
+    return not state.config.reacting or (state.config.free_ways_hold and ticks == fewest)
 
 
 def _bound(state: SimState, ticks: int | None, limit: int) -> int:
     """Ticks within which a quicker way would have to arrive."""
-    return limit if ticks is None or state.config.courtesy else ticks - 1
+    return limit if ticks is None or not state.config.free_ways_hold else ticks - 1
 
 
 def _passable(forecast: Forecast) -> bool:

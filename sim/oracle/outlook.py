@@ -17,7 +17,7 @@ from typing import Final
 from sim.forecast import Forecast
 from sim.oracle.certificate import met_least, thinned
 from sim.oracle.lower_bounds import can_arrive, foreseen
-from sim.search.reachability import reachability
+from sim.search.reachability import reachability, steps_left
 from sim.search.reactive import ImpatientError
 from sim.state import SimState
 from sim.types import Outcome
@@ -61,9 +61,9 @@ def quickly_open(state: SimState) -> bool:
     """Whether a way is found within a fraction of a millisecond; where not, there may be one all the same."""
     world, config = state.world, state.config
     road = world.road
-    if config.courtesy or road.columns * road.rows > QUICK_CELLS:
+    if not config.free_ways_hold or road.columns * road.rows > QUICK_CELLS:
         return False
-    limit = min(config.max_ticks + 1 - world.episode_tick, 3 * road.rows // 2)
+    limit = min(steps_left(config, world.episode_tick), 3 * road.rows // 2)
     if limit < 1 or world.outcome is not Outcome.RUNNING:
         return False
     forecast = Forecast.of_truth(world, config, limit)

@@ -16,7 +16,7 @@ from sim.search.time_expanded import TimeExpandedGraph
 from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.transition import next_world
-from sim.types import Move, Outcome
+from sim.types import MOVES, Move, Outcome
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +45,7 @@ def regret(state: SimState, move: Move, patience: int | None = None) -> Regret:
         return Regret(None, None, lost=True)
     forecast, limit = foreseen(state)
     terrain = TimeExpandedGraph(forecast.after(move), weights(state.config), limit)
-    paid = next(cost for taken, _, cost in terrain.steps(terrain.start) if list(Move)[taken] is move)
+    paid = next(cost for taken, _, cost in terrain.steps(terrain.start) if MOVES[taken] is move)
     best, rest = least_cost(state), least_cost(after)
     lost = None if best is None or rest is None else max(0, paid + rest - best)
     return Regret(1 + ticks - best_ticks, lost, lost=False)

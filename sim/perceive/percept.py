@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from sim.fast_replace import field_setter
+from sim.rules.behaviour import DEFAULT_BEHAVIOUR
+from sim.rules.dynamics import DEFAULT_DYNAMICS
 from sim.types import Kind, Move
 from sim.world import Thing
 from sim.world.boards import Boards
@@ -48,6 +50,10 @@ class Percept:
     """whether bodies collide by what they sweep within a tick (`Config.collision`)"""
     movers: Mapping[int, str]
     hazards: Mapping[int, str]
+    dynamics: str = DEFAULT_DYNAMICS
+    """how autonomous vehicles move (`sim.rules.dynamics`)"""
+    behaviour: str = DEFAULT_BEHAVIOUR
+    """how the others move (`sim.rules.behaviour`)"""
     egos: tuple[OtherEgo, ...] = ()
     """the other egos, in the order of their ids"""
 

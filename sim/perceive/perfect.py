@@ -8,7 +8,7 @@ from sim.config import Config
 from sim.fast_replace import fast_constructor
 from sim.perceive.percept import OtherEgo, Percept
 from sim.perceive.sensor import NO_BELIEF, Belief
-from sim.rules.yielding import attentive_movers, yielding_movers
+from sim.rules.traffic_cache import cached_reactions
 from sim.types import Move, ego_id
 from sim.world import World
 
@@ -28,6 +28,8 @@ _seen = fast_constructor(
     "swept",
     "movers",
     "hazards",
+    "dynamics",
+    "behaviour",
     "egos",
 )
 _NOTHING: dict[int, Move] = {}
@@ -44,6 +46,7 @@ def perceive_truth(
 
     `announced`: the moves that other egos have told it of; `parked`: the egos that stay. Both by number.
     """
+    reactions = cached_reactions(world, config)
     return _seen(
         world.road,
         world.tick,
@@ -53,12 +56,14 @@ def perceive_truth(
         world.right,
         world.left,
         world.boards,
-        yielding_movers(world, config),
-        attentive_movers(world, config),
+        reactions.yielding,
+        reactions.attentive,
         world.driven,
         config.collision == "swept",
         world.movers,
         world.hazards,
+        config.dynamics,
+        config.behaviour,
         () if len(world.avs) == 1 else other_egos(world, ego, announced, parked),
     )
 

@@ -19,10 +19,10 @@ from sim.plan.decision import Decision, Measure
 from sim.plan.protocol import Traits
 from sim.search.astar import AdaptiveHeuristic, cheapest
 from sim.search.costs import weights
-from sim.search.reachability import MOVES, least_ticks_by_move, steps_left
+from sim.search.reachability import least_ticks_by_move, steps_left
 from sim.search.time_expanded import TimeExpandedGraph
 from sim.search.waiting_cost import cost_of_staying
-from sim.types import Move
+from sim.types import MOVES, Move
 
 STAY = MOVES.index(Move.STAY)
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from sim.forecast import Forecast
 from sim.plan.decision import Decision, Measure, Option
 from sim.search.reachability import first_longest, survival_by_move
-from sim.types import Move
+from sim.types import MOVES
 
 
 def decide_by_cost(
@@ -18,8 +18,8 @@ def decide_by_cost(
     `totals` are in the order of `Move`; None where the step is not free or no way leads on.
     """
     options = []
-    for move, total in zip(Move, totals, strict=True):
-        end = forecast.road.moved(forecast.ego, move)
+    for move, total in zip(MOVES, totals, strict=True):
+        end = forecast.dynamics.target(forecast.ego, move)
         reason, causes = forecast.check_step(forecast.ego, end)
         cell = None if end is None else forecast.road.cell(end)
         options.append(Option(move, cell, reason, None if total is None else float(total), causes))

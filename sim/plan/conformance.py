@@ -282,7 +282,7 @@ def _false_claims(name: str, witness: dict[str, Any], percept: Percept) -> Itera
             yield "itself", f"{who} {_short(claims.get(key))}, and not {name}"
     forecast = predict(percept, 1)
     for move in Move:
-        end = percept.road.moved(percept.ego, move)
+        end = forecast.dynamics.target(percept.ego, move)
         reason, causes = forecast.check_step(percept.ego, end)
         cell = None if end is None else percept.road.cell(end)
         said = claims["options"].get(move.value)

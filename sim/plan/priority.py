@@ -12,24 +12,14 @@ Source: the pygame study this project grew from; see "Planners" in the project's
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import Final
 
 from sim.config import Config
 from sim.fast_replace import fast_constructor
 from sim.forecast import Forecast, StepVerdict
 from sim.plan.decision import Decision, Option
 from sim.plan.protocol import SIMPLEST, Traits
-from sim.types import Move
-from sim.world.grid import Road
-
-ORDER: Final = (
-    Move.FORWARD,
-    Move.LEFT,
-    Move.RIGHT,
-    Move.FORWARD_LEFT,
-    Move.FORWARD_RIGHT,
-    Move.STAY,
-)
+from sim.rules.dynamics import Dynamics
+from sim.types import MOVES, Move
 
 _decided = fast_constructor(Decision, "tick", "av", "planner", "move", "options")
 _option = fast_constructor(Option, "move", "cell", "reason", "cost", "causes")
@@ -39,8 +29,7 @@ def options_in_order(forecast: Forecast) -> tuple[Option, ...]:
     """Every move with what it would meet; its cost is its place in the order."""
     # Most moves of most ticks are free: all that are, are found at once, and only the others looked into.
     steps = forecast.own_steps()
-    road = forecast.road
-    ready = _free_options(road.columns, road.rows, forecast.ego)
+    ready = _free_options(forecast.dynamics, forecast.ego)
     if all(steps):
         return ready
     return tuple(
@@ -56,21 +45,18 @@ def met_option(forecast: Forecast, free: Option) -> Option:
 
 
 @lru_cache(maxsize=4_096)
-def _free_options(columns: int, rows: int, index: int) -> tuple[Option, ...]:
-    """Every move from a cell as it is where nothing would be met, in the order of `ORDER` and of `Steps`."""
-    road = Road.of(
-        columns, rows
-    )  # by numbers, since looking up a road by itself takes longer than this saves
-    ends = [road.moved(index, move) for move in ORDER]
-    cells = [None if end is None else road.cell(end) for end in ends]
+def _free_options(dynamics: Dynamics, index: int) -> tuple[Option, ...]:
+    """Every move from a cell as it is where nothing would be met, in the order of `MOVES` and of `Steps`."""
+    ends = [dynamics.target(index, move) for move in MOVES]
+    cells = [None if end is None else dynamics.road.cell(end) for end in ends]
     return tuple(
         Option(move, cell, StepVerdict.FREE, float(rank), ())
-        for rank, (move, cell) in enumerate(zip(ORDER, cells, strict=True))
+        for rank, (move, cell) in enumerate(zip(MOVES, cells, strict=True))
     )
 
 
 class PriorityPlanner:
-    """The first move of `ORDER` whose cell will be free; staying when there is none."""
+    """The first move of `MOVES` whose cell will be free; staying when there is none."""
 
     name = "priority"
     traits = Traits(

@@ -33,11 +33,11 @@ from sim.config import Config
 from sim.fast_replace import fast_constructor
 from sim.forecast import Forecast, StepVerdict
 from sim.plan.decision import Decision, Option
-from sim.plan.priority import ORDER, met_option
+from sim.plan.priority import met_option
 from sim.plan.protocol import SIMPLEST, Traits
+from sim.rules.dynamics import Dynamics
 from sim.search.passages import Ways, locked_in, ways_past
-from sim.types import Move
-from sim.world.grid import Road
+from sim.types import MOVES, Move
 
 
 class Leads(StrEnum):
@@ -69,11 +69,11 @@ class Standing(NamedTuple):
     columns: int | None
     """columns to go aside from the vehicle's cell to a way on; None where none leads on"""
     prospects: tuple[Prospect | None, ...]
-    """of every move, in the order of `ORDER`; None off the road"""
+    """of every move, in the order of `MOVES`; None off the road"""
 
     def of(self, move: Move) -> Prospect | None:
         """What a move has to offer; None off the road."""
-        return self.prospects[ORDER.index(move)]
+        return self.prospects[MOVES.index(move)]
 
 
 _STRAIGHT: Final = Prospect(Leads.ON, 0)
@@ -108,8 +108,8 @@ class RulesPlanner:
 
     def decide(self, forecast: Forecast, config: Config) -> Decision:  # noqa: ARG002 - no preferences
         """The move and the six verdicts."""
-        road, ego = forecast.road, forecast.ego
-        places, options = _ranked(road.columns, road.rows, ego, _ranks(standing(forecast)))
+        ego = forecast.ego
+        places, options = _ranked(forecast.dynamics, ego, _ranks(standing(forecast)))
         steps = forecast.own_steps()
         if not all(steps):
             told = zip(places, options, strict=True)
@@ -131,7 +131,7 @@ def standing(forecast: Forecast) -> Standing:
     )
     straight, on = ways.levels[0], ways.open
     prospects: list[Prospect | None] = []
-    for end, sides in _ends(columns, road.rows, ego):
+    for end, sides in _ends(forecast.dynamics, ego):
         if end is None:
             prospects.append(None)
         elif straight >> end & 1:
@@ -176,7 +176,7 @@ def _nearness(prospect: Prospect) -> tuple[bool, int]:
 
 
 def _ranks(standing: Standing) -> tuple[int, ...]:
-    """The rank of every move, in the order of `ORDER`: the lowest comes first, among equals the earlier."""
+    """The rank of every move, in the order of `MOVES`: the lowest comes first, among equals the earlier."""
     forward, left, right, forward_left, forward_right, _ = standing.prospects
     below = standing.columns == 0
     return (
@@ -220,24 +220,22 @@ def _first(options: Sequence[Option]) -> Move:
 
 
 @lru_cache(maxsize=4_096)
-def _ends(columns: int, rows: int, index: int) -> tuple[tuple[int | None, tuple[int, ...]], ...]:
-    """Where every move leads, in the order of `ORDER`, and on which sides of it to look for a way on."""
-    road = Road.of(columns, rows)
+def _ends(dynamics: Dynamics, index: int) -> tuple[tuple[int | None, tuple[int, ...]], ...]:
+    """Where every move leads, in the order of `MOVES`, and on which sides of it to look for a way on."""
     sides = {Move.LEFT: (-1,), Move.RIGHT: (1,)}
-    return tuple((road.moved(index, move), sides.get(move, (-1, 1))) for move in ORDER)
+    return tuple((dynamics.target(index, move), sides.get(move, (-1, 1))) for move in MOVES)
 
 
 @lru_cache(maxsize=16_384)
 def _ranked(
-    columns: int, rows: int, index: int, ranks: tuple[int, ...]
+    dynamics: Dynamics, index: int, ranks: tuple[int, ...]
 ) -> tuple[tuple[int, ...], tuple[Option, ...]]:
-    """The moves by their ranks, as places in `ORDER` and as they are where nothing would be met."""
-    road = Road.of(columns, rows)
-    places = sorted(range(len(ORDER)), key=ranks.__getitem__)
+    """The moves by their ranks, as places in `MOVES` and as they are where nothing would be met."""
+    places = sorted(range(len(MOVES)), key=ranks.__getitem__)
     options = []
     for cost, place in enumerate(places):
-        end = road.moved(index, ORDER[place])
-        cell = None if end is None else road.cell(end)
+        end = dynamics.target(index, MOVES[place])
+        cell = None if end is None else dynamics.road.cell(end)
         on = _FIRST < ranks[place] < _LAST
-        options.append(Option(ORDER[place], cell, StepVerdict.FREE, float(cost) if on else None, ()))
+        options.append(Option(MOVES[place], cell, StepVerdict.FREE, float(cost) if on else None, ()))
     return tuple(places), tuple(options)

@@ -39,9 +39,14 @@ def ego_contacts(rule: Literal["swept", "cell"]) -> Mapping[Cell, frozenset[tupl
 
 def _touch(cell: Cell, own: Cell, other: Cell, rule: Literal["swept", "cell"]) -> bool:
     end = (cell[0] + other[0], cell[1] + other[1])
+    return paths_touch(((0, 0), own), (cell, end), rule)
+
+
+def paths_touch(one: tuple[Cell, Cell], other: tuple[Cell, Cell], rule: Literal["swept", "cell"]) -> bool:
+    """Whether two egos touch that go straight from a cell to another each, however far; (start, end)."""
     if rule == "cell":
-        return end == own or (end == (0, 0) and own == cell)
-    return first_contact(Path(Kind.AV, (0, 0), own), Path(Kind.AV, cell, end)) is not None
+        return one[1] == other[1] or (one[1] == other[0] and other[1] == one[0])
+    return first_contact(Path(Kind.AV, *one), Path(Kind.AV, *other)) is not None
 
 
 def egos_touch(

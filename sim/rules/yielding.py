@@ -6,10 +6,14 @@ episode change who reacts. Only a mover next to a vehicle can have a reason to.
 
 from __future__ import annotations
 
-from sim.config import Config
+from typing import TYPE_CHECKING
+
 from sim.randomness import Stream
-from sim.world import World
 from sim.world.grid import Board, bits, board_of
+
+if TYPE_CHECKING:
+    from sim.config import Config
+    from sim.world import World
 
 
 def yielding_movers(world: World, config: Config) -> Board:
@@ -22,9 +26,15 @@ def attentive_movers(world: World, config: Config) -> Board:
     return _drawn(world, config, "attentive", config.attentive) if config.attentive else 0
 
 
-def _drawn(world: World, config: Config, purpose: str, share: float) -> Board:
+def movers_beside(world: World) -> Board:
+    """The movers next to an autonomous vehicle, in its row: those that may have a reason to react."""
+    # Cells beside it across the edge of the road are in another row; a mover there meets no vehicle.
     vehicles = world.driven
-    near = (vehicles >> 1 | vehicles << 1) & world.moving
+    return (vehicles >> 1 | vehicles << 1) & (world.right | world.left)
+
+
+def _drawn(world: World, config: Config, purpose: str, share: float) -> Board:
+    near = movers_beside(world)
     if not near or share == 1.0:
         return near
     draws = Stream.of(config.seed, purpose, world.episode, world.episode_tick)

@@ -12,11 +12,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from sim.forecast import Forecast
+from sim.rules.grid_dynamics import GridDynamics, GridMasks
+from sim.search.astar import cheapest, no_heuristic
 from sim.search.costs import Weights
-from sim.search.reachability import MOVES, on_shortest, reachability
+from sim.search.reachability import on_shortest, reachability
 from sim.search.time_expanded import TimeExpandedGraph
 from sim.search.waiting_cost import cost_of_staying
-from sim.types import Move
+from sim.types import MOVES, Move
 from sim.world.grid import Board
 
 if TYPE_CHECKING:
@@ -30,6 +32,8 @@ FAR = 1 << 40
 def totals_by_move(forecast: Forecast, weights: Weights, limit: int) -> tuple[int | None, ...]:
     """What every move now costs with the cheapest way on, in the order of `Move`; None: no way."""
     terrain = TimeExpandedGraph(forecast, weights, limit)
+    if not isinstance(forecast.dynamics, GridDynamics):
+        return _searched_totals(forecast, terrain, limit)
     staying = cost_of_staying(forecast, weights, limit)
     horizon = _horizon(forecast, terrain, limit)
     if horizon == 0:
@@ -45,6 +49,17 @@ def totals_by_move(forecast: Forecast, weights: Weights, limit: int) -> tuple[in
         totals.append(total if total < FAR else None)
     if staying is not None:
         totals[MOVES.index(Move.STAY)] = staying
+    return tuple(totals)
+
+
+def _searched_totals(forecast: Forecast, terrain: TimeExpandedGraph, limit: int) -> tuple[int | None, ...]:
+    """The same for any motion: searched state by state, without a heuristic."""
+    totals: list[int | None] = [None] * len(MOVES)
+    for place, there, cost in terrain.steps(terrain.start):
+        way = cheapest(terrain, there, heuristic=no_heuristic)
+        totals[place] = None if way is None else cost + way.cost
+    if totals[-1] is None:
+        totals[-1] = cost_of_staying(forecast, terrain.weights, limit)
     return tuple(totals)
 
 
@@ -93,16 +108,16 @@ def _sweep(forecast: Forecast, terrain: TimeExpandedGraph, horizon: int) -> NDAr
         return flat[:, : rows * road.columns].reshape(len(boards), rows, road.columns).astype(np.bool_)
 
     entering = np.full((horizon, rows, road.columns + 2), FAR, np.int64)
+    masks: list[GridMasks] = [layer.obstacles for layer in layers]
     charges = np.zeros((horizon, rows, road.columns), np.int64)
     charges += weights.fixed * fields([terrain.near_fixed])
     for distance in range(len(layers[0].near)):
         charges += weights.mover * fields([layer.near[distance] for layer in layers])
-    charges[fields([layer.blocked for layer in layers])] = FAR
+    charges[fields([each.blocked for each in masks])] = FAR
     entering[inside] = charges
-    no_left = FAR * fields([layer.no_left & road.all for layer in layers]).astype(np.int64)
-    no_right = FAR * fields([layer.no_right & road.all for layer in layers]).astype(np.int64)
-    no_forward_left = FAR * fields([layer.no_forward_left & road.all for layer in layers]).astype(np.int64)
-    no_forward_right = FAR * fields([layer.no_forward_right & road.all for layer in layers]).astype(np.int64)
+    no_left, no_right, no_forward_left, no_forward_right = (
+        FAR * fields([each.closed[side] & road.all for each in masks]).astype(np.int64) for side in range(4)
+    )
 
     cost = {move: weights.of(move) for move in MOVES}
     value = np.full((rows, road.columns + 2), FAR, np.int64)

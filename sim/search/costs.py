@@ -19,7 +19,7 @@ from typing import Final
 
 from sim.actions import Preference
 from sim.config import Config
-from sim.types import Move
+from sim.types import MOVES, Move
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,11 +46,9 @@ class Weights:
                 self.diagonal,
                 self.diagonal,
                 self.stay,
-            )[_MOVES.index(move)]
+            )[MOVES.index(move)]
         )
 
-
-_MOVES: Final = tuple(Move)
 
 BALANCED: Final[dict[int, Weights]] = {
     1: Weights(tick=60, sideways=4, diagonal=3, stay=2, fixed=1, mover=2, buffer=0),

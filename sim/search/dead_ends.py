@@ -8,19 +8,16 @@ cell that is left out no way leads to the goal; from the others there may be non
 from __future__ import annotations
 
 from sim.forecast import Forecast
-from sim.rules.traffic import beside
 from sim.world.grid import Board
 
 
 def cells_that_may_arrive(forecast: Forecast, limit: int) -> list[Board]:
     """The cells from which the goal may be reached by `limit` ticks from now, by ticks from now."""
-    road = forecast.road
+    road, dynamics = forecast.road, forecast.dynamics
     free, goal = road.all & ~forecast.fixed, road.row(0)
     boards = [goal & free]
     for ahead in reversed(range(limit)):
         there = boards[-1]
         entered = there & ~forecast.slices[ahead].occupied
-        within = beside(there, road.left_edge, road.right_edge)
-        before = beside(entered, road.left_edge, road.right_edge) << road.columns
-        boards.append((goal | within | before) & free)
+        boards.append((goal | dynamics.may_come_from(there, entered)) & free)
     return boards[::-1]

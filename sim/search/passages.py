@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Final
 
-from sim.rules.traffic import beside
+from sim.rules.ego_step import beside
 from sim.world.grid import Board, Road
 
 KEPT: Final = 64

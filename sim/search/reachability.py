@@ -14,11 +14,9 @@ from dataclasses import dataclass
 
 from sim.config import Config
 from sim.forecast import Forecast
-from sim.rules.traffic import spread
-from sim.types import Move
+from sim.rules.limits import steps_left as steps_left_of
+from sim.types import MOVES, Move
 from sim.world.grid import Board
-
-MOVES = tuple(Move)
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +35,7 @@ class Reachability:
 
 def steps_left(config: Config, episode_tick: int) -> int:
     """How many steps an episode may still take: arriving is judged before being stuck."""
-    return max(0, config.max_ticks + 1 - episode_tick)
+    return steps_left_of(config.rows, episode_tick)
 
 
 def reachability(forecast: Forecast, start: Board, limit: int, *, after: int = 0) -> Reachability:
@@ -58,9 +56,9 @@ def reachability(forecast: Forecast, start: Board, limit: int, *, after: int = 0
 
 def flood_fill(forecast: Forecast, start: Board) -> Board:
     """Every cell that can be reached from `start` past the fixed hazards, were there no movers."""
-    road, fixed = forecast.road, forecast.fixed
+    dynamics, fixed = forecast.dynamics, forecast.fixed
     while True:
-        wider = spread(start, start >> road.columns, fixed, 0, 0, 0, 0, road.left_edge, road.right_edge)
+        wider = dynamics.spread(start, fixed, 0, 0)
         if wider | start == start:
             return start
         start |= wider
@@ -88,8 +86,8 @@ def shortest_plan(forecast: Forecast, limit: int) -> tuple[Move, ...] | None:
     needed = on_shortest(forecast, found)
     here, plan = 1 << forecast.ego, []
     for ahead in range(found.ticks):
-        there = here >> forecast.road.columns & needed[ahead + 1]
-        if there:  # what is needed is free, and a way forward is met by nobody
+        there = forecast.dynamics.unhindered(here) & needed[ahead + 1]
+        if there:  # what is needed is free
             plan.append(Move.FORWARD)
             here = there
             continue

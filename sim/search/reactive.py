@@ -11,21 +11,21 @@ search (Silver, "Cooperative pathfinding", 2005), with the part of the environme
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 from sim.config import Config
 from sim.forecast import Forecast
-from sim.rules.kinds import resting_marked, shift_marked
-from sim.rules.traffic import Motion, brake, free_steps, move_movers
-from sim.rules.yielding import attentive_movers, yielding_movers
+from sim.rules.behaviour import NOBODY, Reactions
+from sim.rules.dynamics import Dynamics
+from sim.rules.dynamics_registry import dynamics_on
+from sim.rules.kinds import shift_marked
+from sim.rules.traffic import Motion
 from sim.search.dead_ends import cells_that_may_arrive
-from sim.types import Move
+from sim.types import MOVES, Move
 from sim.world import World
 from sim.world.boards import Boards
-from sim.world.grid import Board, bits, board_of
-
-_MOVES = tuple(Move)
+from sim.world.grid import Board, Road, bits, board_of, union
 
 
 class ImpatientError(Exception):
@@ -55,6 +55,15 @@ class ReactiveSearch:
     forecast: Forecast
     patience: int | None = None
     """states that are looked at before it is given up; None: all there are"""
+    _windows: tuple[Dynamics, ...] = field(init=False)
+    """the motion on a road of so many rows ahead of the vehicle"""
+
+    def __post_init__(self) -> None:
+        dynamics, columns = self.forecast.dynamics, self.world.road.columns
+        self._windows = tuple(
+            dynamics_on(Road.of(columns, ahead + 1), dynamics.name, dynamics.bodies)
+            for ahead in range(dynamics.rows_a_tick + 1)
+        )
 
     def least_ticks(self, limit: int) -> int | None:
         """Ticks of a quickest way to row 0 within `limit` ticks; None if there is none.
@@ -71,12 +80,12 @@ class ReactiveSearch:
             return None
         row = next(row for row in layers[-1] if row.number == 0)
         column = next(bits(layers[-1][row]))
-        moves = []
+        moves, rows_a_tick = [], self.forecast.dynamics.rows_a_tick
         for ahead in range(len(layers) - 2, -1, -1):
             row, column, move = next(
-                (before, start, _MOVES[index])
+                (before, start, MOVES[index])
                 for before, columns in layers[ahead].items()
-                if before.number - row.number in (0, 1)
+                if 0 <= before.number - row.number <= rows_a_tick
                 for start in bits(columns)
                 for index, there, end in self._steps(before, start, ahead)
                 if there == row and end == column
@@ -123,63 +132,60 @@ class ReactiveSearch:
     def _steps(self, row: Row, column: int, ahead: int) -> Iterator[tuple[int, Row, int]]:
         """The moves that meet nothing: place in `Move`, the row after it, and the column."""
         columns = self.world.road.columns
-        bit, last = 1 << column, 1 << columns - 1
         fixed = self._fixed(row.number)
         moved, stood = self._motions(row, column, fixed, ahead)
-        swept = self.forecast.swept
-        slices = self.forecast.slices
-        below = row.number * columns
-        whole = (1 << columns) - 1
-        taken = self._taken(below + column, ahead)
-        on_start = below - columns
-        coming = slices[ahead]
-        on_right, on_left = coming.came_right >> on_start & whole, coming.came_left >> on_start & whole
-        cut_left = (moved.came_right | on_right) if swept else 0
-        cut_right = (moved.came_left | on_left) if swept else 0
-        blocked_on = self._fixed(row.number - 1) | (coming.occupied | taken) >> on_start & whole
-        blocked_own = fixed | taken >> below & whole
-        own = free_steps(
-            bit, 0, blocked_own | moved.occupied, moved.came_right, moved.came_left, 0, 0, 1, last
-        )
-        on = free_steps(0, bit, blocked_on, 0, 0, cut_left, cut_right, 1, last)
+        coming, world = self.forecast.slices[ahead], self.world
+        # The vehicle's row and those that a move may lead to, as a road of their own.
+        window = self._windows[min(row.number, len(self._windows) - 1)]
+        ahead_rows = (window.road.rows - 1) * columns
+        below, front = row.number * columns - ahead_rows, (1 << ahead_rows) - 1
+        came_right = coming.came_right >> below & front | moved.came_right << ahead_rows
+        came_left = coming.came_left >> below & front | moved.came_left << ahead_rows
+        unmoved = (world.fixed | self._taken(row.number * columns + column, ahead)) >> below
+        taken = coming.occupied >> below & front
+        start = 1 << ahead_rows + column
+        steps = window.steps(start, unmoved | taken | moved.occupied << ahead_rows, came_right, came_left)
         here = self._after(row, moved)
-        front = self._entered(row.number - 1, ahead)
-        for index, (there, end) in enumerate(
-            (
-                (front, on.forward),
-                (here, own.left),
-                (here, own.right),
-                (front, on.forward_left),
-                (front, on.forward_right),
-            )
-        ):
+        entered: dict[int, Row] = {row.number: here}
+        for index, end in enumerate(steps[:-1]):
             if end:
-                yield index, there, end.bit_length() - 1
-        if not bit & (blocked_own | stood.occupied):
-            yield len(_MOVES) - 1, self._after(row, stood), column
+                number, to = divmod(end.bit_length() - 1 + below, columns)
+                if number not in entered:
+                    entered[number] = self._entered(number, ahead)
+                yield index, entered[number], to
+        if stood is moved:
+            if steps.stay:
+                yield len(MOVES) - 1, here, column
+        elif window.steps(
+            start,
+            unmoved | taken | stood.occupied << ahead_rows,
+            coming.came_right >> below & front | stood.came_right << ahead_rows,
+            coming.came_left >> below & front | stood.came_left << ahead_rows,
+        ).stay:
+            yield len(MOVES) - 1, self._after(row, stood), column
 
     def _motions(self, row: Row, column: int, fixed: Board, ahead: int) -> tuple[Motion, Motion]:
         """The movers of the row in this tick while the vehicle leaves its cell, and while it stands."""
-        world, config = self.world, self.config
+        world, behaviour = self.world, self.config.mover_behaviour
         columns, bit = world.road.columns, 1 << column
         moving, whole = row.right | row.left, (1 << columns) - 1
-        disabled = moving & (world.boards.holding >> row.number * columns & whole)
-        giving = braking = 0
-        if moving & (bit << 1 | bit >> 1):
-            giving, braking = self._reacting(row, column, ahead)
-        moved = move_movers(
+        reactions = self._reactions(row, column, ahead) if moving & (bit << 1 | bit >> 1) else NOBODY
+        moved = behaviour.step(
             row.right,
             row.left,
-            disabled | resting_marked(row.marked, world.episode_tick + ahead) if row.marked else disabled,
+            row.marked,
+            moving & world.boards.holding >> row.number * columns,
             fixed,
-            giving,
-            bit if config.courtesy else 0,
             1,
             1 << columns - 1,
+            world.episode_tick + ahead,
+            bit,
+            reactions,
         )
         if self.forecast.egos:
-            moved = brake(moved, self._others_standing(row.number, ahead), whole)
-        return moved, brake(moved, bit, braking) if braking else moved
+            standing = self._others_standing(row.number, ahead)
+            moved = behaviour.brake(moved, standing, Reactions(attentive=whole))
+        return moved, behaviour.brake(moved, bit, reactions) if moved.occupied & bit else moved
 
     def _taken(self, cell: int, ahead: int) -> Board:
         """The cells that other egos keep the vehicle from entering, from a cell, in this tick."""
@@ -194,21 +200,19 @@ class ReactiveSearch:
             standing &= board_of([other.cell for other in forecast.egos])
         return standing >> number * columns & (1 << columns) - 1
 
-    def _reacting(self, row: Row, column: int, ahead: int) -> tuple[Board, Board]:
-        """The movers of the row that give way, and those that brake, in this tick: as they are drawn."""
+    def _reactions(self, row: Row, column: int, ahead: int) -> Reactions:
+        """Who of the row may react in this tick, as it is drawn."""
         world, below = self.world, row.number * self.world.road.columns
-        whole = (1 << world.road.columns) - 1
         there = replace(
             world,
             tick=world.tick + ahead,
             avs=(below + column,),
             right=row.right << below,
             left=row.left << below,
+            boards=_only(world.boards, row.marked, below),
         )
-        return (
-            yielding_movers(there, self.config) >> below & whole,
-            attentive_movers(there, self.config) >> below & whole,
-        )
+        found = self.config.mover_behaviour.reactions(there, self.config)
+        return Reactions(found.yielding >> below, found.attentive >> below)
 
     def _after(self, row: Row, motion: Motion) -> Row:
         return Row(row.number, motion.right, motion.left, shift_marked(row.marked, motion))
@@ -231,3 +235,11 @@ class ReactiveSearch:
 
 def _marked(boards: Boards) -> tuple[Board, ...]:
     return boards.marked if boards.others else ()
+
+
+def _only(boards: Boards, marked: tuple[Board, ...], below: int) -> Boards:
+    """The boards with the movers of one row alone, each kind's in `marked`, its first cell at `below`."""
+    if not boards.others:
+        return boards
+    here = tuple([board << below for board in marked]) or (0,) * len(boards.marked)
+    return replace(boards, marked=here, others=union(here))

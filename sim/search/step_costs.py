@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from sim.search.costs import Weights
-from sim.types import Move
+from sim.types import MOVES
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,4 +36,4 @@ def eight(straight: int = 1, diagonal: int = 1) -> MoveSet:
 
 def vehicle(weights: Weights) -> MoveSet:
     """The vehicle's six moves, in the order of `Move`."""
-    return tuple(Step(*move.offset, weights.of(move)) for move in Move)
+    return tuple(Step(*move.offset, weights.of(move)) for move in MOVES)

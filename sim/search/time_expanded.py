@@ -7,16 +7,15 @@ for are made once per tick, when the search first gets there.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 from sim.forecast import Forecast
-from sim.rules.traffic import beside
+from sim.rules.ego_step import beside
 from sim.search.costs import Weights
 from sim.search.graph import State
 from sim.search.step_costs import vehicle
 from sim.types import Move
 from sim.world.grid import Board, Road
-
-_FORWARD, _LEFT, _RIGHT, _FORWARD_LEFT, _FORWARD_RIGHT, _STAY = range(len(Move))
 
 
 def around(board: Board, road: Road) -> Board:
@@ -29,13 +28,8 @@ def around(board: Board, road: Road) -> Board:
 class Layer:
     """What the steps of one tick meet."""
 
-    blocked: Board
-    no_left: Board
-    """cells from which a step to the left leads off the road or through a mover"""
-    no_right: Board
-    no_forward_left: Board
-    """cells from which a diagonal to the left leads off the road or is cut off by a mover"""
-    no_forward_right: Board
+    obstacles: Any
+    """as the motion wants it (`Dynamics.obstacles`)"""
     near: tuple[Board, ...]
     """cells within 1, 2, … cells of a mover after the tick"""
 
@@ -55,7 +49,11 @@ class TimeExpandedGraph:
         self.near_fixed = around(forecast.fixed, forecast.road) if weights.fixed else 0
         self._layers: list[Layer] = []
         self._costs = [step.cost for step in self.moves]
-        self._ahead = min(self._costs[_FORWARD], self._costs[_FORWARD_LEFT], self._costs[_FORWARD_RIGHT])
+        ahead = min(weights.of(move) for move in Move if move.offset[1])
+        gained = forecast.dynamics.rows_a_tick
+        self._by_row = [-(-row // gained) * ahead for row in range(forecast.road.rows)]
+        self._window = (gained + 1) * self._columns
+        self._free_ends = forecast.dynamics.free_ends
 
     def layer(self, ahead: int) -> Layer:
         """What a step taken `ahead` ticks from now meets."""
@@ -76,31 +74,15 @@ class TimeExpandedGraph:
         ahead, cell = divmod(state, self._cells)
         if ahead >= self.limit:
             return []
-        layer, columns = self.layer(ahead), self._columns
-        # The two rows that matter, brought to the lowest bits: short numbers are quick.
-        low = cell - columns - 1 if cell > columns else 0
-        blocked = layer.blocked >> low
-        here = cell - low
-        on = here - columns
-        ends = []
-        if not blocked >> on & 1:
-            ends.append((_FORWARD, on))
-        if not (layer.no_left >> cell | blocked >> here - 1) & 1:
-            ends.append((_LEFT, here - 1))
-        if not (layer.no_right >> cell | blocked >> here + 1) & 1:
-            ends.append((_RIGHT, here + 1))
-        if not (layer.no_forward_left >> cell & 1) and not blocked >> on - 1 & 1:
-            ends.append((_FORWARD_LEFT, on - 1))
-        if not (layer.no_forward_right >> cell | blocked >> on + 1) & 1:
-            ends.append((_FORWARD_RIGHT, on + 1))
-        if not blocked >> here & 1:
-            ends.append((_STAY, here))
-        later = state - cell + self._cells + low
-        fixed, costs = self.near_fixed >> low, self._costs
-        charge_fixed, charge_mover = self.weights.fixed, self.weights.mover
+        layer = self.layer(ahead)
+        costs = self._costs
+        # The rows that matter, brought to the lowest bits: short numbers are quick.
+        low = cell - self._window if cell > self._window else 0
+        later, fixed = state - cell + self._cells + low, self.near_fixed >> low
         near = [board >> low for board in layer.near]
+        charge_fixed, charge_mover = self.weights.fixed, self.weights.mover
         found = []
-        for move, end in ends:
+        for move, end in self._free_ends(layer.obstacles, cell, low):
             cost = costs[move]
             if fixed >> end & 1:
                 cost += charge_fixed
@@ -115,8 +97,8 @@ class TimeExpandedGraph:
         return state % self._cells < self._columns
 
     def heuristic(self, state: State) -> int:
-        """A row takes one tick, and no step on costs less than the cheapest of them."""
-        return state % self._cells // self._columns * self._ahead
+        """A tick gains no more rows than the motion can, and no step on costs less than the cheapest."""
+        return self._by_row[state % self._cells // self._columns]
 
     def _made(self, ahead: int) -> Layer:
         forecast, road = self._forecast, self._forecast.road
@@ -125,12 +107,6 @@ class TimeExpandedGraph:
         for _ in range(self.weights.buffer if self.weights.mover else 0):
             spread = around(spread, road)
             near.append(spread)
-        cut_left, cut_right = forecast.cut_off(ahead)
-        return Layer(
-            forecast.fixed | motion.occupied | forecast.taken(ahead),
-            road.left_edge | motion.came_right,
-            road.right_edge | motion.came_left,
-            road.left_edge | cut_left << road.columns,
-            road.right_edge | cut_right << road.columns,
-            tuple(near),
-        )
+        blocked = forecast.fixed | motion.occupied | forecast.taken(ahead)
+        obstacles = forecast.dynamics.obstacles(blocked, motion.came_right, motion.came_left)
+        return Layer(obstacles, tuple(near))

@@ -11,9 +11,9 @@ from sim.search.astar import cheapest
 from sim.search.costs import Weights
 from sim.search.reachability import reachability
 from sim.search.time_expanded import TimeExpandedGraph
-from sim.types import Move
+from sim.types import MOVES, Move
 
-_STAY = tuple(Move).index(Move.STAY)
+_STAY = MOVES.index(Move.STAY)
 
 
 def cost_of_staying(forecast: Forecast, weights: Weights, limit: int) -> int | None:

@@ -31,7 +31,9 @@ from sim.world.grid import Road
 Part = TypeVar("Part")
 
 _CONFIG = tuple(field.name for field in fields(Config))
-_ALWAYS = {name for name in _CONFIG if name not in COUNTS.values()}
+_LATER = {*COUNTS.values(), "dynamics", "behaviour"}
+"""Fields of configurations that came later; where one is missing, it is at its default."""
+_ALWAYS = {*_CONFIG} - _LATER
 _METRICS = tuple(field.name for field in fields(Metrics))
 
 
@@ -177,7 +179,6 @@ def _config(config: Config) -> dict[str, Any]:
 
 
 def _read_config(parts: Mapping[str, Any]) -> Config:
-    # Counts of kinds that came later are at their defaults.
     if not _ALWAYS <= {*parts} <= set(_CONFIG):
         raise ValueError("a configuration has other fields")
     return Config(**{**parts, "preferences": tuple(parts["preferences"])})

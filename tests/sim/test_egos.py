@@ -193,8 +193,9 @@ def test_forecast_with_a_parked_ego_is_what_happens() -> None:
                 if end is None:
                     continue
                 after = transition(before, {FIRST: move}).state.world
-                met = [cause for cause in collisions(world, after, "swept") if cause.ego == FIRST]
-                met += [cause for cause in collisions(world, after, "swept") if cause.kind is Kind.AV]
+                motion = state.config.ego_dynamics(world.road)
+                met = [cause for cause in collisions(world, after, motion) if cause.ego == FIRST]
+                met += [cause for cause in collisions(world, after, motion) if cause.kind is Kind.AV]
                 assert bool(met) is verdict.blocks
                 assert (SECOND in ids) is any(cause.kind is Kind.AV for cause in met)
     assert StepVerdict.EGO_STAYS in said

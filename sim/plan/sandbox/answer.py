@@ -150,7 +150,7 @@ def decision_of(answer: Answer, percept: Percept, config: Config) -> Decision:
     Options are sorted by cost, those without a cost last. Raises `FaultError` for a move off the road or into
     another ego.
     """
-    if percept.road.moved(percept.ego, answer.move) is None:
+    if config.ego_dynamics(percept.road).target(percept.ego, answer.move) is None:
         raise CodedError("off-road", detail=answer.move)
     forecast = predict(percept, 1)
     if forecast.meets_ego(answer.move):

@@ -73,7 +73,7 @@ def answer_values(decision: object, percept: Percept) -> dict[str, Any]:
         raise CodedError("no-move", detail=quote(move))
     if (decision.tick, decision.av) != (percept.tick, percept.ego_id):
         raise CodedError("elsewhere")
-    if percept.road.moved(percept.ego, move) is None:
+    if predict(percept, 1).dynamics.target(percept.ego, move) is None:
         raise CodedError("off-road", detail=move)
     options: object = decision.options
     if (

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from sim.batch import Batch, batch
+from sim.batch import Batch, lanes
 from sim.config import Config
 from sim.state import SimState, next_episode
 from sim.types import Kind
@@ -98,7 +98,7 @@ def test_what_was_saved_is_restored() -> None:
 
 def test_a_kind_that_the_kernels_do_not_know_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     """As a kind that comes later would be."""
-    monkeypatch.setattr(batch, "_UNKNOWN", (Kind.PEDESTRIAN,))
+    monkeypatch.setattr(lanes, "_UNKNOWN", (Kind.PEDESTRIAN,))
     with pytest.raises(ValueError, match="and no pedestrians; run such roads one by one"):
         Batch(CONFIGS[:2])
     states = [SimState.start(config) for config in CONFIGS[:2]]

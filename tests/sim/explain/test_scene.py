@@ -29,7 +29,7 @@ def met_by_driving(state: SimState, reach: int) -> dict[str, int]:
     world = state.world
     for tick in range(1, reach + 1):
         after = commit(world, (Move.FORWARD,), state.config)
-        for cause in collisions(world, after, state.config.collision):
+        for cause in collisions(world, after, state.config.ego_dynamics(world.road)):
             for name in cause.ids:
                 met.setdefault(name, tick)
         world = after

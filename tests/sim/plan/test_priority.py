@@ -10,9 +10,9 @@ from sim.config import Config
 from sim.decide import decide
 from sim.forecast import Forecast, StepVerdict
 from sim.plan import Decision, planner_named, register
-from sim.plan.priority import ORDER, PriorityPlanner, options_in_order
+from sim.plan.priority import PriorityPlanner, options_in_order
 from sim.state import SimState
-from sim.types import Move, kind_of
+from sim.types import MOVES, Move, kind_of
 from sim.world import World
 from tests.sim.roads import road, run_on, worlds
 
@@ -49,7 +49,7 @@ def test_the_first_move_that_will_be_free(rows: tuple[str, ...], move: Move) -> 
 
 
 def test_the_order() -> None:
-    assert ORDER == (
+    assert MOVES == (
         Move.FORWARD,
         Move.LEFT,
         Move.RIGHT,
@@ -95,7 +95,7 @@ def test_off_the_road_is_a_verdict_of_its_own() -> None:
 def test_the_decision_follows_from_its_own_trace(world: World) -> None:
     decision = decided(world)
     assert (decision.tick, decision.av, decision.planner) == (world.tick, "av-1", "priority")
-    assert tuple(option.move for option in decision.options) == ORDER
+    assert tuple(option.move for option in decision.options) == MOVES
     free = [option for option in decision.options if option.verdict == "free"]
     assert decision.chosen is (free[0] if free else decision.option(Move.STAY))
     for option in decision.options:

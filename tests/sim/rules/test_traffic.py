@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 
 from sim.commit import commit
-from sim.rules.traffic import steps_in_tick, swap_conflicts
+from sim.rules.traffic import steps_in_tick
 from sim.types import Kind, Move
 from sim.world import World, notation
 from sim.world.grid import bits
@@ -145,15 +145,6 @@ def test_courtesy_is_drawn_for_one_mover_and_tick_at_a_time() -> None:
         moved = commit(lone, (Move.STAY,), run_on(lone, courtesy=0.25, seed=seed).config)
         entered += moved.moving >> moved.av & 1
     assert 0.75 * 400 - 45 < entered < 0.75 * 400 + 45
-
-
-def test_passing_through_a_mover_is_found_only_between_neighbours() -> None:
-    at = [1 << cell for cell in range(9)]
-    assert swap_conflicts(at[3], at[4], came_right=0, came_left=at[3]) == at[3]
-    assert swap_conflicts(at[4], at[3], came_right=at[4], came_left=0) == at[4]
-    assert swap_conflicts(at[4], at[3], came_right=0, came_left=at[4]) == 0
-    assert swap_conflicts(at[4], at[4], came_right=at[4], came_left=0) == 0
-    assert swap_conflicts(at[4], at[1], came_right=at[4], came_left=at[4]) == 0
 
 
 def step(world: World) -> World:

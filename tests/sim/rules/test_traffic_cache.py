@@ -5,8 +5,9 @@ from __future__ import annotations
 from sim.commit import commit
 from sim.config import Config
 from sim.forecast import Forecast
-from sim.rules.traffic import Motion, move_movers, shift_table
-from sim.rules.traffic_cache import cached_move_movers, cached_shift_table
+from sim.rules.behaviour import NOBODY, Behaviour, Reactions, SidewaysTraffic
+from sim.rules.traffic import Motion, shift_table
+from sim.rules.traffic_cache import cached_shift_table, cached_step
 from sim.state import SimState
 from sim.transition import step
 from sim.types import Move
@@ -25,12 +26,17 @@ def test_what_is_expected_is_what_comes_and_no_second_table_is_made() -> None:
 
 
 def test_the_latest_answer_is_for_its_own_question_only() -> None:
-    boards = (0b0010, 0b0100_0000, 0, 0, 0, 0, 0b0001_0001, 0b1000_1000)
-    motion = cached_move_movers(*boards)
-    assert motion == move_movers(*boards)
-    assert cached_move_movers(*boards) is motion
-    other = cached_move_movers(0b0001, *boards[1:])
-    assert other == move_movers(0b0001, *boards[1:]) != motion
+    behaviour = SidewaysTraffic()
+    movers = (0b0010, 0b0100_0000, 0, 0, 0, 0b0001_0001, 0b1000_1000, 0)
+    motion = cached_step(behaviour, *movers, 0, NOBODY)
+    assert motion == behaviour.step(*movers, 0, NOBODY)
+    assert cached_step(behaviour, *movers, 0, NOBODY) is motion
+    others = (0b0001, *movers[1:])
+    assert cached_step(behaviour, *others, 0, NOBODY) == behaviour.step(*others, 0, NOBODY) != motion
+    beside = Reactions(yielding=0b0010)
+    turned = cached_step(behaviour, *movers, 0b0100, beside)
+    assert turned == behaviour.step(*movers, 0b0100, beside) != motion
+    assert cached_step(Behaviour(), *movers, 0b0100, beside) is not turned
     table = {1: "vehicle-1", 6: "vehicle-2"}
     assert cached_shift_table(table, motion) == shift_table(table, motion) == {2: "vehicle-1", 5: "vehicle-2"}
     still = Motion(motion.right, motion.left, 0, 0)
