@@ -155,8 +155,8 @@ class Config(Derived):
     attentive: float = 1.0
     """chance that a mover brakes for a vehicle that stands still before it"""
     collision: Collision = "swept"
-    """`swept`: bodies of stated size that move linearly within a tick (`sim.rules.bodies`); `cell`: cells
-    alone"""
+    """`swept`: bodies of stated size that move linearly within a tick (`sim.rules.collision_geometry`);
+    `cell`: cells alone"""
     repetition: bool = True
     """whether a vehicle whose situation repeats is STUCK at once, and not at the limit of ticks"""
     reset_delay_s: float = 2.0

@@ -69,7 +69,7 @@ class KindSpec:
     """Everything that the code has to know about a kind."""
 
     size: Size
-    """the box that holds all of a body (`sim.rules.bodies`)"""
+    """the box that holds all of a body (`sim.rules.collision_geometry`)"""
     plural: str
     """the name of its count: of the field of `Config` and `Scenario`, where there is one, and in changes"""
     signs: tuple[str, ...]

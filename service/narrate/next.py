@@ -10,7 +10,7 @@ from service.narrate.sayings import Sayings
 from service.sessions.facts import Asked
 from service.wire.future import way_json
 from sim.episode_record import DetourReason
-from sim.explain.rollout import Detour, RouteAhead, route_ahead
+from sim.explain.episode_rollout import Detour, RouteAhead, route_ahead
 from sim.state import SimState
 from sim.types import Move, Outcome
 

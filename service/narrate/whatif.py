@@ -24,7 +24,7 @@ from sim.actions import (
     WorldAction,
 )
 from sim.explain import QuestionError
-from sim.explain.rollout import EpisodeRollout
+from sim.explain.episode_rollout import EpisodeRollout
 from sim.explain.what_if import Difference, WhatIf, what_if
 from sim.plan import traits_of
 from sim.session.edits import Applied

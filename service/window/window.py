@@ -27,7 +27,7 @@ from sim.config import Config
 from sim.generation import GenerationError
 from sim.render import MIN_SIDE_PX, render
 from sim.render.log_view import draw_log
-from sim.render.occupancy import draw_occupancy
+from sim.render.occupancy_view import draw_occupancy
 from sim.render.plan_view import draw_plan
 from sim.render.theme import MAX_SIDE_PX
 from sim.types import Mode

@@ -7,7 +7,7 @@ from typing import Any
 from service import actions as contract
 from service.actions import Action
 from service.wire.state import metrics_json
-from sim.explain.rollout import Detour, EpisodeRollout, RouteAhead
+from sim.explain.episode_rollout import Detour, EpisodeRollout, RouteAhead
 from sim.explain.what_if import WhatIf
 from sim.session.edits import Applied
 from sim.state import SimState

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 from sim.commit import moves_with
 from sim.decide import next_belief
-from sim.explain.rollout import rollout
+from sim.explain.episode_rollout import rollout
 from sim.oracle.lower_bounds import PATIENCE, least_ticks
 from sim.plan import Decision
 from sim.repetition import NOTHING_KEPT, Situation, situation

@@ -12,9 +12,9 @@ from dataclasses import dataclass, replace
 from sim.actions import WorldAction
 from sim.decide import sense
 from sim.explain.alternatives import after_move
+from sim.explain.episode_rollout import EpisodeRollout, rollout, summarize
 from sim.explain.facts import QuestionError
 from sim.explain.moments import state_at
-from sim.explain.rollout import EpisodeRollout, rollout, summarize
 from sim.forecast import predict
 from sim.plan import Decision
 from sim.session.edits import apply

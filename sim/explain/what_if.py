@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 from sim.actions import Add, Drive, Remove, SetCount, WorldAction
 from sim.decide import decide_on, sense
+from sim.explain.episode_rollout import EpisodeRollout, rollout, summarize
 from sim.explain.moments import state_at
-from sim.explain.rollout import EpisodeRollout, rollout, summarize
 from sim.oracle.lower_bounds import PATIENCE
 from sim.oracle.regret import Regret, regret
 from sim.plan import Decision

@@ -12,11 +12,11 @@ from typing import Final
 
 from sim.config import Config
 from sim.fast_replace import fast_constructor
-from sim.forecast.rollout import RollOut, other_end
+from sim.forecast.mover_rollout import RollOut, other_end
 from sim.perceive import OtherEgo, Percept, perceive_truth
-from sim.rules.contacts import Denied
 from sim.rules.dynamics import Dynamics
 from sim.rules.dynamics_registry import dynamics_on
+from sim.rules.ego_contacts import Denied
 from sim.rules.ego_step import Steps
 from sim.types import HAZARDS, MOVES, Kind, Move
 from sim.world import World

@@ -33,7 +33,7 @@ class Traits:
     """Charges by `sim.search.costs`, and so heeds preferences and the safety buffer."""
     plans_to_goal: bool = True
     """Searches as far as the goal, so that a decision takes the longer the larger the road is. Rollouts of
-    such a planner are limited (`sim.explain.rollout`)."""
+    such a planner are limited (`sim.explain.episode_rollout`)."""
     by_passages: bool = False
     """Ranks the moves by where `sim.plan.rule_based.standing` says that they lead, so that its decisions are
     explained by that."""

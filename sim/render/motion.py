@@ -1,8 +1,8 @@
 """Interpolates positions between two ticks, for windows, videos and measurements alike.
 
 Everything moves in a straight line from cell to cell, all at the same share of its way at the same time, as
-`sim.rules.bodies` judges collisions. In the tick of a crash everything stops at the first contact and stays
-there while the result is shown.
+`sim.rules.collision_geometry` judges collisions. In the tick of a crash everything stops at the first
+contact and stays there while the result is shown.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Final
 
-from sim.rules.bodies import SIZES, Path, first_contact
+from sim.rules.collision_geometry import SIZES, Path, first_contact
 from sim.state import SimState
 from sim.types import HAZARDS, Kind, Outcome
 from sim.world import Thing, World

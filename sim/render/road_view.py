@@ -13,7 +13,7 @@ from sim.render.ground import draw_ground
 from sim.render.hud import draw_figures, draw_verdict
 from sim.render.motion import Pose, glide_start, poses
 from sim.render.sprites import av_sprite, sprite_of
-from sim.rules.bodies import SIZES
+from sim.rules.collision_geometry import SIZES
 from sim.state import SimState
 from sim.types import Outcome
 from sim.world import World

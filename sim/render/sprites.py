@@ -1,8 +1,8 @@
 """Sprites of things from above, drawn once per size and look, and cached.
 
-Every sprite fills the box that its kind has in `sim.rules.bodies`; only a soft shadow lies outside it.
-Sprites are drawn at four times their size and scaled down, since pygame's shapes have hard edges. A pothole's
-rim and cracks depend on its id alone.
+Every sprite fills the box that its kind has in `sim.rules.collision_geometry`; only a soft shadow lies
+outside it. Sprites are drawn at four times their size and scaled down, since pygame's shapes have hard
+edges. A pothole's rim and cracks depend on its id alone.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import pygame
 from sim.randomness import Stream
 from sim.render import theme
 from sim.render.theme import Colour
-from sim.rules.bodies import SIZES
+from sim.rules.collision_geometry import SIZES
 from sim.types import KINDS, Kind
 from sim.world import Thing
 

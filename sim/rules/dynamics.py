@@ -16,7 +16,7 @@ from collections.abc import Callable
 from functools import lru_cache
 from typing import Any, ClassVar, Final, NamedTuple
 
-from sim.rules.contacts import Denied, paths_touch
+from sim.rules.ego_contacts import Denied, paths_touch
 from sim.rules.ego_step import Steps
 from sim.types import MOVES, Move
 from sim.world.grid import Board, Road, bits, board_of
@@ -29,7 +29,7 @@ NOTHING: Final[tuple[int, ...]] = ()
 class Swept(NamedTuple):
     """What a step sweeps, as cell indices. The step is free if none of it is met.
 
-    Bodies and times within the tick are accounted for already (`sim.rules.bodies`).
+    Bodies and times within the tick are accounted for already (`sim.rules.collision_geometry`).
     """
 
     cells: tuple[int, ...]

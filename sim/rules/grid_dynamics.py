@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from sim.rules.contacts import Denied, denied_steps, egos_touch
 from sim.rules.dynamics import DEFAULT_DYNAMICS, NOTHING, Dynamics, Swept
+from sim.rules.ego_contacts import Denied, denied_steps, egos_touch
 from sim.rules.ego_step import (
     ClosedStarts,
     Steps,
@@ -40,7 +40,7 @@ class GridDynamics(Dynamics):
         """See `Dynamics`. Aside, a mover that comes the other way is met; diagonally, one from that side.
 
         A diagonal meets a mover that comes from its side into the cell left or the one straight ahead
-        (`sim.rules.bodies` derives that); where only cells collide, it does not.
+        (`sim.rules.collision_geometry` derives that); where only cells collide, it does not.
         """
         end = self.road.moved(cell, move)
         if end is None:

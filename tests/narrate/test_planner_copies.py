@@ -25,7 +25,7 @@ from sim.explain import QuestionError, why, why_not
 from sim.explain.alternatives import stakes
 from sim.explain.confidence import confidence
 from sim.explain.crash import led_to_crash, why_crashed
-from sim.explain.rollout import route_ahead, story
+from sim.explain.episode_rollout import route_ahead, story
 from sim.explain.side_by_side import compare_change, compare_move
 from sim.explain.summary import summary
 from sim.explain.what_if import what_if

@@ -19,7 +19,7 @@ from pathlib import Path as FilePath
 from typing import Any, Final
 
 from sim.render.motion import poses
-from sim.rules.bodies import SIZES, Path, first_contact
+from sim.rules.collision_geometry import SIZES, Path, first_contact
 from sim.types import HAZARDS, MOVERS, Cell, Kind, Move, Outcome
 from sim.world import World
 from sim.world.boards import BOARDED, NO_BOARDS, Boards

@@ -13,7 +13,7 @@ from sim.render import theme
 from sim.render.motion import Pose, poses
 from sim.render.sprites import av_sprite, barrier_sprite, pedestrian_sprite, pothole_sprite, vehicle_sprite
 from sim.render.text import render_text
-from sim.rules.bodies import SIZES
+from sim.rules.collision_geometry import SIZES
 from sim.types import Kind, Move
 from tests.sim.contacts import MIDDLE, Case, worlds
 

@@ -14,7 +14,7 @@ from sim.forecast import Forecast, StepVerdict, predict
 from sim.generation import generate
 from sim.judge import collisions
 from sim.perceive import perceive_truth
-from sim.rules.contacts import REACH, ego_contacts
+from sim.rules.ego_contacts import REACH, ego_contacts
 from sim.search.reachability import reachability
 from sim.search.reactive import ReactiveSearch
 from sim.session.serialization import Packer, Unpacker

@@ -21,7 +21,7 @@ from sim.generation import generate
 from sim.perceive import perceive
 from sim.plan.sandbox import codec
 from sim.repetition import Watch, situation
-from sim.rules.bodies import clearance
+from sim.rules.collision_geometry import clearance
 from sim.rules.kinds import PERIODS
 from sim.session.edits import apply
 from sim.session.serialization import Packer, Unpacker

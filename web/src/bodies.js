@@ -2,7 +2,7 @@
 /**
  * How large things are on the road, and when two of them first touch within a tick.
  *
- * The numbers are those of the rules (`sim/rules/bodies.py`), of which a test holds these to be a copy; so is every
+ * The numbers are those of the rules (`sim/rules/collision_geometry.py`), of which a test holds these to be a copy; so is every
  * contact. A leaf: painters and motion read it.
  */
 

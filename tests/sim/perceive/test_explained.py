@@ -13,9 +13,9 @@ from sim.explain import QuestionError, why, why_not
 from sim.explain.alternatives import stakes
 from sim.explain.confidence import Method, confidence
 from sim.explain.crash import Crash, why_crashed
+from sim.explain.episode_rollout import route_ahead, story
 from sim.explain.facts import Explanation
 from sim.explain.misperception import misperception
-from sim.explain.rollout import route_ahead, story
 from sim.explain.side_by_side import compare_change, compare_move
 from sim.explain.summary import summary
 from sim.explain.what_if import what_if

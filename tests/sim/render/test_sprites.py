@@ -6,7 +6,7 @@ import pygame
 import pytest
 
 from sim.render import sprites
-from sim.rules.bodies import SIZES
+from sim.rules.collision_geometry import SIZES
 from sim.types import Kind
 from sim.world import Thing
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from sim.rules.bodies import Path, first_contact
+from sim.rules.collision_geometry import Path, first_contact
 from sim.rules.dynamics import Dynamics, Swept
 from sim.rules.dynamics_registry import dynamics_on
 from sim.rules.grid_dynamics import GridDynamics

@@ -1,6 +1,6 @@
 """When two egos touch within a tick: a table of where one is from the other, and both their moves.
 
-Derived from the bodies (`sim.rules.bodies`) once; the judge and the forecast read it.
+Derived from the bodies (`sim.rules.collision_geometry`) once; the judge and the forecast read it.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from functools import lru_cache
 from typing import Final, Literal, NamedTuple
 
-from sim.rules.bodies import Path, first_contact
+from sim.rules.collision_geometry import Path, first_contact
 from sim.types import Cell, Kind, Move
 from sim.world.grid import Board, Road
 

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sim.render.motion import STEP_FRAMES, poses
-from sim.rules.bodies import SIZES, Path, clearance, first_contact
+from sim.rules.collision_geometry import SIZES, Path, clearance, first_contact
 from sim.types import HAZARDS, MOVERS, Kind, Move, Outcome
 from tests.sim.contacts import TABLE, Case, cases, table, worlds, written
 

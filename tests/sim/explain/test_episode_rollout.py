@@ -7,7 +7,7 @@ import pytest
 from sim.actions import Add
 from sim.config import Config
 from sim.episode_record import DetourReason
-from sim.explain.rollout import route_ahead, story
+from sim.explain.episode_rollout import route_ahead, story
 from sim.explain.summary import long_to_tell, summary
 from sim.oracle import least_ticks
 from sim.session.timeline import Timeline
