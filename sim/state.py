@@ -18,6 +18,7 @@ from sim.perceive import NO_BELIEF, Belief, Percept
 from sim.plan import Decision
 from sim.repetition import NOTHING_KEPT, Watch
 from sim.types import Mode, Move, ego_id
+from sim.validation import validate_world
 from sim.world import World
 
 FIRST: Final = ego_id(0)
@@ -43,8 +44,11 @@ class SimState:
         """The first episode's beginning, on a given road or a generated one.
 
         `planners`: one for each ego of the road, in order; None and what is left out are the configuration's.
-        Raises `ConfigError` for a planner that is none, and `GenerationError` (`sim.generation`).
+        Raises `ConfigError` for an unknown planner, `ValueError` for an inconsistent world (`validation`),
+        and `GenerationError` (`sim.generation`).
         """
+        if world is not None and (defects := validate_world(world)):
+            raise ValueError("; ".join(f"{each.code} {' '.join(each.ids)}".strip() for each in defects))
         if world is None:
             world = generate(config, 1)
             if len(planners) > 1:

@@ -1,19 +1,13 @@
-"""Everything that is wrong with a state or a plan, listed; for tests, tools and worlds written by hand.
-
-It knows no planner and no forecast: a plan is played, and what happens is looked at. Nothing is repaired.
-"""
+"""Lists what is wrong with a world; for worlds written by hand, tools and tests. Nothing is repaired."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Iterator
+from dataclasses import dataclass
 from itertools import combinations
 
-from sim.commit import commit, moves_with
-from sim.config import Config
-from sim.judge import collisions, outcome
-from sim.types import HAZARDS, KINDS, MARKED, MOVERS, Cell, Move, Outcome, kind_of
+from sim.types import HAZARDS, KINDS, MARKED, MOVERS, Cell, Outcome, kind_of
 from sim.world import World
 from sim.world.grid import Board, bits, board_of
 
@@ -29,18 +23,8 @@ class Defect:
 
 
 def validate_world(world: World) -> tuple[Defect, ...]:
-    """Every way in which a world is none: what is where it cannot be, twice, or not as its tables say."""
+    """Lists every inconsistency of a world: cells off the road, duplicates, boards that differ from the id tables."""
     return tuple(_of_state(world))
-
-
-def validate_plan(world: World, plan: Iterable[Move], config: Config) -> tuple[Defect, ...]:
-    """Every way in which playing these moves is no way to row 0 for the first ego; others stay.
-
-    A step off the road is left out and the plan goes on; after a collision it goes on as well, so that
-    all that is wrong is listed. Codes: `off_road`; `hit_…`, `swap_…` and `cross_…` with what was met;
-    `after_the_end`, `too_long`, `not_at_goal`.
-    """
-    return tuple(_of_plan(world, plan, config))
 
 
 def _of_state(world: World) -> Iterator[Defect]:
@@ -102,27 +86,6 @@ def _of_state(world: World) -> Iterator[Defect]:
         yield Defect("not_at_goal", tick)
     if not 0 <= world.episode_start <= tick:
         yield Defect("began_later", tick)
-
-
-def _of_plan(world: World, plan: Iterable[Move], config: Config) -> Iterator[Defect]:
-    arrived = world.outcome is Outcome.SUCCESS
-    for move in plan:
-        if arrived:
-            yield Defect("after_the_end", world.tick)
-        if config.ego_dynamics(world.road).target(world.av, move) is None:
-            yield Defect("off_road", world.tick, cell=world.road.cell(world.av))
-            continue
-        after = commit(world, moves_with(world, move), config)
-        for crash in collisions(world, after, config.ego_dynamics(world.road)):
-            yield Defect(f"{crash.how}_{crash.kind}", after.tick, crash.ids, crash.cell)
-        # What was hit is noted, the plan goes on.
-        result = outcome(after, (), config.max_ticks, range(1, len(world.avs)))
-        if result is Outcome.STUCK and not arrived:
-            yield Defect("too_long", after.tick)
-        arrived = arrived or result is Outcome.SUCCESS
-        world = replace(after, outcome=Outcome.RUNNING)
-    if not arrived:
-        yield Defect("not_at_goal", world.tick, cell=world.road.cell(world.av))
 
 
 def _names(world: World, index: int) -> tuple[str, ...]:

@@ -25,11 +25,6 @@ _COMMON: Final = lcm(_BEAT, *(period for _, period in _SLOW))
 _shifted = field_setter(Boards, "marked", "others")
 
 
-def resting_movers(disabled: Board, boards: Boards, episode_tick: int) -> Board:
-    """The movers that keep cell and heading in this tick: the disabled, and those between two steps."""
-    return disabled | resting_marked(boards.marked, episode_tick) if boards.others else disabled
-
-
 def resting_marked(marked: Sequence[Board], episode_tick: int) -> Board:
     """Of the movers of each kind in `MARKED`, those that are between two steps in this tick."""
     resting = 0

@@ -13,7 +13,7 @@ from sim.forecast import Forecast
 from sim.rules.ego_step import beside
 from sim.search.costs import Weights
 from sim.search.graph import State
-from sim.search.step_costs import vehicle
+from sim.search.step_costs import ego_moves
 from sim.types import Move
 from sim.world.grid import Board, Road
 
@@ -39,7 +39,7 @@ class TimeExpandedGraph:
 
     def __init__(self, forecast: Forecast, weights: Weights, limit: int) -> None:
         """The way from the forecast's vehicle; the forecast must reach `limit` ticks ahead."""
-        self.moves = vehicle(weights)
+        self.moves = ego_moves(weights)
         self.limit = limit
         self.start: State = forecast.ego
         self.weights = weights

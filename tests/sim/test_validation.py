@@ -13,8 +13,9 @@ from sim.oracle import Drivable, certify
 from sim.state import SimState
 from sim.transition import step
 from sim.types import Kind, Move, Outcome
-from sim.validation import validate_plan, validate_world
+from sim.validation import validate_world
 from sim.world import Cause, World
+from tests.sim.plan_defects import validate_plan
 from tests.sim.roads import road, run_on, worlds
 
 SOUND = road("....", ".o#.", ".>(.", ".A..")

@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from sim.search.astar import cheapest, no_heuristic
-from sim.search.graph import Grid
-from sim.search.step_costs import FOUR, WAIT, MoveSet, eight
+from sim.search.step_costs import MoveSet
+from tests.sim.search.grid_map import FOUR, WAIT, Grid, eight
 
 MAPS = st.integers(2, 9).flatmap(
     lambda width: st.lists(
