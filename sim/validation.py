@@ -23,7 +23,7 @@ class Defect:
 
 
 def validate_world(world: World) -> tuple[Defect, ...]:
-    """Lists every inconsistency of a world: cells off the road, duplicates, boards that differ from the id tables."""
+    """Lists every inconsistency: cells off the road, duplicates, boards that differ from the id tables."""
     return tuple(_of_state(world))
 
 
