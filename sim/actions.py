@@ -144,22 +144,24 @@ class Reset:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SetMode:
-    """Who drives an ego, the first by default: a person or the planner."""
+    """Who drives: a person or the planner."""
 
     do: Literal["mode"] = "mode"
     mode: Mode
     ego: str | None = None
+    """the id of the ego that is meant; None: the first"""
 
     __pydantic_config__ = _STRICT
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Drive:
-    """One move by a person of an ego, the first by default; taken at the next tick that has none yet."""
+    """One move by a person, taken at the next tick that has none yet."""
 
     do: Literal["drive"] = "drive"
     move: Move
     ego: str | None = None
+    """the id of the ego that is meant; None: the first"""
 
     __pydantic_config__ = _STRICT
 

@@ -115,7 +115,7 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
         """
         state, number = self._begun(), checked_action(action)
         before = state.world
-        if before.outcome is not Outcome.RUNNING:
+        if before.outcome is not Outcome.RUNNING or before.av < before.road.columns:
             raise RuntimeError("the episode has ended; call reset")
         if before.road.moved(before.av, MOVES[number]) is None:
             number = STAY
@@ -176,7 +176,7 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
         world = state.world
         told: dict[str, Any] = {
             "outcome": str(world.outcome),
-            "is_success": world.outcome is Outcome.SUCCESS,
+            "is_success": world.av < world.road.columns and world.outcome is not Outcome.CRASH,
             "tick": world.episode_tick,
             "episode_number": world.episode,
             "seed": state.config.seed,
