@@ -71,7 +71,7 @@ def certify(state: SimState, *, ego: str | None = None) -> Certificate:
     if plan is not None:
         if not arrives(state, plan, ego):
             if forecast.egos:
-                raise UndeterminedError("a mover runs into an ego that stays")
+                raise UndeterminedError("hit")
             raise AssertionError("a plan that was searched does not arrive when it is played")
         return Drivable(plan)
     if limit == 0:

@@ -75,7 +75,7 @@ def _least_ticks_among_others(
     plan = quickest_plan(state, patience, ego=ego, gone=gone)
     if plan is not None and not arrives(state, plan, ego, gone):
         # A mover that does not brake for an ego that stays ends the episode; the search has it brake.
-        raise UndeterminedError("a mover runs into an ego that stays")
+        raise UndeterminedError("hit")
     return None if plan is None else len(plan)
 
 

@@ -19,7 +19,11 @@ from sim.world import World
 
 
 class UndeterminedError(ImpatientError):
-    """No answer: it hangs on what other egos do, or on movers that react to them."""
+    """No answer: it hangs on what other egos do, or on movers that react to them.
+
+    The arguments say which: `drives` and the id of the ego that does, `courtesy` where a mover may give way to
+    one that stays, `hit` where a mover runs into one.
+    """
 
 
 def check_others_stay(state: SimState, ego: str | None, gone: Collection[str] = ()) -> None:
@@ -33,14 +37,16 @@ def check_others_stay(state: SimState, ego: str | None, gone: Collection[str] = 
         if other == number or ego_id(other) in gone:
             continue
         if other not in parked and cell >= columns:
-            raise UndeterminedError(f"what {ego_id(other)} will do is not known")
+            raise UndeterminedError("drives", ego_id(other))
         rows |= world.road.row(cell // columns)
     if state.config.courtesy and world.moving & rows:
-        raise UndeterminedError("movers may give way to an ego that stays")
+        raise UndeterminedError("courtesy")
 
 
 def truth_for(state: SimState, horizon: int, ego: str | None = None, gone: Collection[str] = ()) -> Forecast:
     """What follows from what is, for an ego, the first by default; `gone`: other egos that are left out."""
+    if len(state.world.avs) == 1:
+        return Forecast.of_truth(state.world, state.config, horizon)
     number = state.number(ego)
     percept = perceive_truth(state.world, state.config, number, {}, state.parked)
     return predict(percept.without(gone) if gone else percept, horizon)

@@ -94,9 +94,10 @@ def poses(before: World, after: World, phase: float, number: int = 0) -> Scene:
         things = (*things, *(each for each in others if each.id != av.id))
     touch = None
     if after.outcome is Outcome.CRASH and before.outcome is Outcome.RUNNING:
-        crashed = av if after.cause is None or len(after.avs) == 1 else _ego(after, after.cause.ego)
-        begun = start if crashed is av else was[crashed.id]
-        around = things if crashed is av else (*(each for each in things if each.id != crashed.id), av)
+        several = len(after.avs) > 1 and after.cause is not None
+        crashed = _ego(after, after.cause.ego) if several and after.cause is not None else av
+        begun = was[crashed.id] if several else start
+        around = tuple(each for each in (*things, av) if each.id != crashed.id) if several else things
         struck = _first_contact(Path(Kind.AV, begun, crashed.cell), was, around)
         if struck is not None and share >= struck[0]:
             share = struck[0]
