@@ -43,7 +43,7 @@ class Outlook:
         self._decision = decision
         self._forecast = forecast
         self._standing = standing(self._forecast)
-        self._naming = Naming(sayings, run)
+        self._naming = Naming(sayings, run, ego=decision.av)
         self._straight = decision.option(Move.FORWARD)
 
     def reasons(self, tense: str) -> str:

@@ -101,4 +101,5 @@ def _end(state: SimState, ego: str) -> Future | None:
     world = last.world
     if world.outcome is Outcome.RUNNING:
         return None
-    return Future(world.outcome, world.episode_tick, world.cause.ids if world.cause else ())
+    ids = world.cause.ids if world.cause else ()
+    return Future(world.outcome, world.episode_tick, tuple(name for name in ids if name != ego))

@@ -122,7 +122,7 @@ def test_why_not_names_the_ego_in_the_way() -> None:
     assert found.stakes is not None
     assert found.stakes.would is not None
     assert found.stakes.would.outcome is Outcome.CRASH
-    assert found.stakes.would.ids == (FIRST, SECOND)
+    assert found.stakes.would.ids == (FIRST,)
     assert found.stakes.dead_end
     assert found.stakes.real is not None
     assert found.stakes.real.outcome is Outcome.SUCCESS
