@@ -148,6 +148,8 @@ class SetMode:
 
     do: Literal["mode"] = "mode"
     mode: Mode
+    ego: str | None = None
+    """the id of the ego that is meant; None: the first"""
 
     __pydantic_config__ = _STRICT
 
@@ -158,6 +160,8 @@ class Drive:
 
     do: Literal["drive"] = "drive"
     move: Move
+    ego: str | None = None
+    """the id of the ego that is meant; None: the first"""
 
     __pydantic_config__ = _STRICT
 

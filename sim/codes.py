@@ -50,6 +50,7 @@ EDITS: Final[Mapping[str, tuple[str, tuple[str, ...]]]] = MappingProxyType(
         "occupied": ("occupied", ("column", "row", "id")),
         "none_there": ("none-there", ("kind", "place")),
         "no_such_thing": ("none-there", ("id",)),
+        "no_such_ego": ("none-there", ("id",)),
         "of_another_kind": ("none-there", ("id", "kind")),
         "road_is_gone": ("none-there", ()),
         "too_few": ("too-few", ("count", "kind", "place")),

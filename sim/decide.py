@@ -7,7 +7,7 @@ no other: those before it are known, and those after it can at least stay.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Iterator, Mapping
 from functools import partial
 from typing import Final
 
@@ -52,19 +52,68 @@ def decide_each(state: SimState, decided: Mapping[str, Decision] = _NOTHING) -> 
     if len(world.avs) == 1:
         ego = state.ego()
         return {ego.id: decide_alone(state, ego, decided.get(ego.id))}
-    parked, announced = state.parked, dict[int, Move]()
-    steps: dict[str, EgoStep] = {}
-    for number in deciding_order(world.avs):
-        one = state.egos.get(ego_id(number))
-        move = Move.STAY
-        if one is not None and world.avs[number] >= world.road.columns:
-            own = state.config_of(one.id)
-            percept, belief = perceive(world, own, number, one.belief, announced, parked)
-            found = _step(one, percept, belief, own, decided.get(one.id))
-            steps[one.id] = step = _clear_of_egos(found, own)
-            move = step.decision.move
-        announced[number] = move
+    steps = dict(_in_order(state, decided))
     return {id: steps[id] for id in state.egos if id in steps}
+
+
+def announced_before(
+    state: SimState,
+    id: str | None = None,
+    decided: Mapping[str, Decision] = _NOTHING,
+    gone: Collection[str] = (),
+) -> dict[str, Move]:
+    """The moves that an ego (the first by default) knows when it decides: of those that decide before it.
+
+    `gone`: ids of things and egos that none of them sees.
+    """
+    world = state.world
+    if len(world.avs) == 1 or world.outcome is not Outcome.RUNNING:
+        return {}
+    return {
+        name: step.decision.move
+        for name, step in _in_order(state, decided, until=id or FIRST, gone=frozenset(gone))
+    }
+
+
+def moves_where(state: SimState, move: Move, id: str | None = None) -> dict[str, Move]:
+    """The moves of all egos where one of them (the first by default) makes this move, whatever it meets.
+
+    Those that decide after it know the move. The episode must not have ended.
+    """
+    name = id or FIRST
+    if len(state.world.avs) == 1:
+        return {name: move}
+    made = {name: move}
+    return {each: step.decision.move for each, step in _in_order(state, made=made)} | made
+
+
+def _in_order(
+    state: SimState,
+    decided: Mapping[str, Decision] = _NOTHING,
+    made: Mapping[str, Move] = _NO_MOVES,
+    until: str | None = None,
+    gone: frozenset[str] = frozenset(),
+) -> Iterator[tuple[str, EgoStep]]:
+    """What several egos decide, one after the other, up to and without the ego `until`.
+
+    Those in `made` make that move and are not asked; nobody sees what is `gone`.
+    """
+    world, parked, announced = state.world, state.parked, dict[int, Move]()
+    for number in deciding_order(world.avs):
+        name = ego_id(number)
+        if name == until:
+            return
+        one = state.egos.get(name)
+        move = made.get(name, Move.STAY)
+        driven = one is not None and name not in made and name not in gone
+        if one is not None and driven and world.avs[number] >= world.road.columns:
+            own = state.config_of(name)
+            percept, belief = perceive(world, own, number, one.belief, announced, parked)
+            found = _step(one, percept.without(gone) if gone else percept, belief, own, decided.get(name))
+            step = _clear_of_egos(found, own)
+            move = step.decision.move
+            yield name, step
+        announced[number] = move
 
 
 def decide_alone(state: SimState, ego: Ego, known: Decision | None = None) -> EgoStep:
@@ -77,9 +126,11 @@ def decide_alone(state: SimState, ego: Ego, known: Decision | None = None) -> Eg
     return _step(ego, percept, belief, config, known)
 
 
-def decide_on(state: SimState, percept: Percept) -> Decision:
-    """The first ego's decision where this is what it sees; the world has no part in it."""
-    return _step(state.ego(), percept, NO_BELIEF, state.config_of(), None).decision
+def decide_on(state: SimState, percept: Percept, id: str | None = None) -> Decision:
+    """The decision of an ego (the first by default) that sees this; the world has no part in it."""
+    config = state.config_of(id)
+    found = _step(state.ego(id), percept, NO_BELIEF, config, None)
+    return (_clear_of_egos(found, config) if percept.egos else found).decision
 
 
 def sense(

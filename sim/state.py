@@ -67,6 +67,13 @@ class SimState:
                 return ego
         return self.egos[id or FIRST]
 
+    def number(self, id: str | None = None) -> int:
+        """The place of an ego in `World.avs`, of the first by default. Raises `KeyError` if there is none."""
+        for number, each in enumerate(self.egos):
+            if id in (None, each):
+                return number if id is None else int(each.rpartition("-")[2]) - 1
+        raise KeyError(id)
+
     def with_ego(self, id: str | None = None, /, **parts: Any) -> SimState:
         """The same with some fields of an ego changed, those of the first by default."""
         ego = self.ego(id)

@@ -47,6 +47,11 @@ def ego_id(number: int) -> str:
     return f"{Kind.AV}-{number + 1}"
 
 
+def is_ego(name: str) -> bool:
+    """Whether this id is that of one of our vehicles."""
+    return name.startswith(f"{Kind.AV}-")
+
+
 def phantom_id(kind: Kind, number: int) -> str:
     """The id of something a sensor reports that is not there ("pothole-p1"): never that of a real thing."""
     return f"{kind}-p{number}"

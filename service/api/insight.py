@@ -23,9 +23,8 @@ from service.sessions.elsewhere import QUESTION_S, asks_others, off_loop
 from sim.decide import sense
 from sim.forecast import predict
 from sim.oracle.regret import regret
-from sim.plan import Decision as Taken
 from sim.session.timeline import Timeline
-from sim.state import SimState
+from sim.state import EgoStep, SimState
 from sim.types import Move
 
 router = APIRouter(tags=["watching"], route_class=StrictRoute)
@@ -95,8 +94,9 @@ async def forecast(
     way = session.timeline.copy()
     if tick is not None and tick > way.tick:
         raise invalid([FieldProblem("tick", f"has not come yet: it is tick {way.tick}")])
-    run, decision = await off_loop(asks_others(way), QUESTION_S, lambda: _decided(way, tick))
-    expected = predict(sense(run)[0], ticks)
+    run, step = await off_loop(asks_others(way), QUESTION_S, lambda: _decided(way, tick))
+    decision = None if step is None else step.decision
+    expected = predict(sense(run)[0] if step is None else step.percept, ticks)
     if decision is not None:
         expected = expected.after(decision.move)
     road, now = run.world.road, run.world.tick
@@ -148,6 +148,6 @@ def _judged(way: Timeline, first: int, stop: int) -> Iterator[dict[str, Any]]:
         }
 
 
-def _decided(way: Timeline, tick: int | None) -> tuple[SimState, Taken | None]:
+def _decided(way: Timeline, tick: int | None) -> tuple[SimState, EgoStep | None]:
     run = way.state if tick is None else way.at(tick)
-    return run, way.decided(run)
+    return run, way.taken(run)

@@ -49,6 +49,9 @@ WORDS: Final[dict[str, tuple[str, ...]]] = {
 }
 """Parameters that have words for values; all others have numbers."""
 
+_UNSPOKEN = frozenset(("ego",))
+"""Fields for programs: no sentence names an ego."""
+
 
 @cache
 def schema() -> str:
@@ -68,6 +71,7 @@ def _object(part: Json) -> str:
     fields = [
         f"{name}{'' if name in required or name == 'do' else '?'}: {_type(value)}"
         for name, value in part["properties"].items()
+        if name not in _UNSPOKEN
     ]
     return "{" + ", ".join(fields) + "}"
 

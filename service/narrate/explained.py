@@ -38,7 +38,7 @@ class _Telling:
         self._sayings = sayings
         self._explanation = explanation
         self._decision = explanation.decision
-        self._naming = Naming(sayings, explanation.moment)
+        self._naming = Naming(sayings, explanation.moment, ego=explanation.decision.av)
         self._outlook = outlook(sayings, explanation.decision, explanation.moment)
 
     def with_imagined(self, told: str) -> str:

@@ -21,12 +21,15 @@ from sim.types import Cell, Kind
 class Naming:
     """Names in one language, as seen in one moment."""
 
-    def __init__(self, sayings: Sayings, run: SimState, *, as_seen: bool = True) -> None:
-        """`run`: the moment; the vehicle stands where it stood then."""
+    def __init__(
+        self, sayings: Sayings, run: SimState, *, as_seen: bool = True, ego: str | None = None
+    ) -> None:
+        """`run`: the moment; the vehicle (`ego`, the first by default) stands where it stood then."""
         self._sayings = sayings
-        self._percept = None if sensor_named(run.config.sensor).faithful else sense(run)[0]
+        self._percept = None if sensor_named(run.config.sensor).faithful else sense(run, id=ego)[0]
         self._as_seen = as_seen
         self._world = run.world
+        self._own = run.world.avs[run.number(ego)]
         self._cell_m = run.config.cell_m
 
     def thing(self, name: str) -> str:
@@ -68,7 +71,7 @@ class Naming:
 
     def _seen(self, index: int) -> tuple[int, int, float]:
         """How far across and along a cell lies from the vehicle, in cells, and how long a cell is."""
-        columns, av = self._world.road.columns, self._world.av
+        columns, av = self._world.road.columns, self._own
         return index % columns - av % columns, av // columns - index // columns, self._cell_m
 
 

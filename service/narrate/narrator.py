@@ -16,6 +16,7 @@ from service.narrate.sayings import Sayings
 from service.sessions.facts import Answerable, Fact, Lesson
 from sim.decide import sense
 from sim.events import Event, EventType
+from sim.forecast import Forecast
 from sim.perceive import sensor_named
 from sim.plan import Decision, Measure, Option
 from sim.state import SimState
@@ -45,8 +46,11 @@ class Narrator:
         """A narrator of the language `code`."""
         return cls(Sayings.load(code, folder))
 
-    def decision(self, decision: Decision, run: SimState) -> str:
-        """What the vehicle does at a tick and why, in one line."""
+    def decision(self, decision: Decision, run: SimState, forecast: Forecast | None = None) -> str:
+        """What the vehicle does at a tick and why, in one line.
+
+        `forecast`: what it was decided by, where that is known already.
+        """
         if decision.fault is not None:
             return self._say("fault", planner=decision.planner, fault=decision.fault)
         asked, first = decision.asked, decision.options[0]
@@ -63,7 +67,7 @@ class Narrator:
         chosen = decision.chosen
         if first.reason.blocks and decision.move is not Move.STAY:
             return self._other(decision.move, first, naming)
-        ahead = outlook(self._sayings, decision, run)
+        ahead = outlook(self._sayings, decision, run, forecast)
         if ahead is not None and not chosen.reason.blocks:
             return self._say("other", move=self._named(decision.move), reason=ahead.reason("now"))
         if decision.move is not Move.STAY:

@@ -6,8 +6,8 @@ from __future__ import annotations
 
 from service.narrate.naming import Naming
 from service.narrate.sayings import Sayings
-from sim.decide import sense
-from sim.forecast import predict
+from sim.decide import announced_before, sense
+from sim.forecast import Forecast, predict
 from sim.plan import Decision, Option, traits_of
 from sim.plan.rule_based import Leads, Prospect, standing
 from sim.state import SimState
@@ -16,24 +16,34 @@ from sim.types import Move, kind_of
 _OTHER_SIDE = {Move.LEFT: Move.RIGHT, Move.RIGHT: Move.LEFT}
 
 
-def outlook(sayings: Sayings, decision: Decision, run: SimState) -> Outlook | None:
-    """What a decision taken in `run` went by; None unless by a planner that ranks as `rules` does."""
+def outlook(
+    sayings: Sayings, decision: Decision, run: SimState, forecast: Forecast | None = None
+) -> Outlook | None:
+    """What a decision taken in `run` went by; None unless by a planner that ranks as `rules` does.
+
+    `forecast`: what it was taken by, where that is known already.
+    """
     by_planner = decision.asked is None and decision.fault is None
     if not by_planner or not traits_of(decision.planner).by_passages:
         return None
-    return Outlook(sayings, decision, run)
+    return Outlook(sayings, decision, run, forecast)
 
 
 class Outlook:
     """One such decision on its way into words."""
 
-    def __init__(self, sayings: Sayings, decision: Decision, run: SimState) -> None:
+    def __init__(
+        self, sayings: Sayings, decision: Decision, run: SimState, forecast: Forecast | None = None
+    ) -> None:
         """`run`: the moment in which the decision was taken."""
+        if forecast is None:
+            ego = decision.av
+            forecast = predict(sense(run, announced_before(run, ego), ego)[0], 1)
         self._sayings = sayings
         self._decision = decision
-        self._forecast = predict(sense(run)[0], 1)
+        self._forecast = forecast
         self._standing = standing(self._forecast)
-        self._naming = Naming(sayings, run)
+        self._naming = Naming(sayings, run, ego=decision.av)
         self._straight = decision.option(Move.FORWARD)
 
     def reasons(self, tense: str) -> str:

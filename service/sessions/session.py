@@ -428,7 +428,8 @@ class Session:
     def _publish_tick(self, before: SimState, tick: StepResult, lines: Sequence[LogEvent]) -> None:
         def message() -> bytes:
             decision = tick.decision
-            narration = None if decision is None else self._around.words.decision(decision, before)
+            taken, words = tick.of(), self._around.words
+            narration = None if taken is None else words.decision(taken.decision, before, taken.forecast)
             return tick_message(
                 self.sequence, lambda: self.standing, before, tick.state, decision, narration, lines
             )

@@ -6,6 +6,7 @@ from typing import Any, Protocol
 
 from service.sessions.facts import Answerable, Fact, Lesson
 from sim.events import Event
+from sim.forecast import Forecast
 from sim.plan import Decision
 from sim.state import SimState
 
@@ -13,8 +14,11 @@ from sim.state import SimState
 class Words(Protocol):
     """Facts → words; nothing is said that is not in the facts."""
 
-    def decision(self, decision: Decision, run: SimState) -> str:
-        """What the vehicle does at a tick and why, `run` being the state it was decided in."""
+    def decision(self, decision: Decision, run: SimState, forecast: Forecast | None = None) -> str:
+        """What the vehicle does at a tick and why, `run` being the state it was decided in.
+
+        `forecast`: what it was decided by, where that is known already.
+        """
 
     def event(self, event: Event, run: SimState) -> str:
         """One line of the log."""

@@ -8,7 +8,6 @@ from service import actions as contract
 from service.wire.decision import option_json
 from sim.explain import Alternatives, Cause, Counterfactual, Explanation, Future
 from sim.explain.crash import Crash, LastAvoidance
-from sim.state import SimState
 
 Json = dict[str, Any]
 
@@ -21,7 +20,7 @@ def explanation_json(explanation: Explanation) -> Json:
         "tick": decision.tick,
         "move": decision.move,
         "foil": explanation.foil,
-        "causes": [_cause_json(cause, explanation.moment) for cause in explanation.causes],
+        "causes": [_cause_json(cause, explanation) for cause in explanation.causes],
         "alternatives": [option_json(option) for option in decision.options],
         "verified": {
             "necessary": verified.necessary,
@@ -62,12 +61,12 @@ def _saving_json(saving: LastAvoidance) -> Json:
     }
 
 
-def _cause_json(cause: Cause, moment: SimState) -> Json:
+def _cause_json(cause: Cause, explanation: Explanation) -> Json:
     return {
         "id": cause.id,
         "kind": cause.kind,
         "cell": cause.cell,
-        "distance_m": None if cause.cell is None else _distance(cause.cell, moment),
+        "distance_m": None if cause.cell is None else _distance(cause.cell, explanation),
         "role": cause.role,
         "moves": cause.moves,
         "necessary": cause.necessary,
@@ -77,9 +76,11 @@ def _cause_json(cause: Cause, moment: SimState) -> Json:
     }
 
 
-def _distance(cell: tuple[int, int], moment: SimState) -> float:
-    """Metres from the vehicle, lanes and rows alike."""
-    column, row = moment.world.road.cell(moment.world.av)
+def _distance(cell: tuple[int, int], explanation: Explanation) -> float:
+    """Metres from the vehicle that decided, lanes and rows alike."""
+    moment = explanation.moment
+    own = moment.world.avs[moment.number(explanation.decision.av)]
+    column, row = moment.world.road.cell(own)
     return max(abs(cell[0] - column), abs(cell[1] - row)) * moment.config.cell_m
 
 

@@ -11,7 +11,7 @@ from gymnasium import spaces
 from numpy.typing import NDArray
 
 from sim.config import Config
-from sim.decide import sense
+from sim.decide import moves_where, sense
 from sim.env import saved_state as saving
 from sim.env.actions import STAY, action_mask, checked_action
 from sim.env.observation import Observer
@@ -115,14 +115,16 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
         """
         state, number = self._begun(), checked_action(action)
         before = state.world
-        if before.outcome is not Outcome.RUNNING:
+        if before.outcome is not Outcome.RUNNING or before.av < before.road.columns:
             raise RuntimeError("the episode has ended; call reset")
         if state.config.ego_dynamics(before.road).target(before.av, MOVES[number]) is None:
             number = STAY
         # Counts as a person's move, so that a repeated situation does not end the episode.
-        self._run = transition(state, {FIRST: MOVES[number]}, by_person=(FIRST,)).state
+        moves = moves_where(state, MOVES[number])
+        self._run = transition(state, moves, by_person=(FIRST,)).state
         after = self._run.world
-        arrived, crashed = after.outcome is Outcome.SUCCESS, after.outcome is Outcome.CRASH
+        crashed = after.outcome is Outcome.CRASH
+        arrived = after.av < after.road.columns and not crashed
         columns = before.road.columns
         paid = self.rewards.step_reward(
             np.array([before.av // columns]),
@@ -174,7 +176,7 @@ class RoadEnv(gymnasium.Env[NDArray[np.uint8], np.int64]):
         world = state.world
         told: dict[str, Any] = {
             "outcome": str(world.outcome),
-            "is_success": world.outcome is Outcome.SUCCESS,
+            "is_success": world.av < world.road.columns and world.outcome is not Outcome.CRASH,
             "tick": world.episode_tick,
             "episode_number": world.episode,
             "seed": state.config.seed,

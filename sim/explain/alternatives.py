@@ -9,15 +9,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from sim.commit import moves_with
-from sim.decide import next_belief
+from sim.decide import moves_where, next_belief
 from sim.explain.episode_rollout import rollout
 from sim.oracle.lower_bounds import PATIENCE, least_ticks
 from sim.plan import Decision
 from sim.repetition import NOTHING_KEPT, Situation, situation
 from sim.search.reactive import ImpatientError
 from sim.state import SimState
-from sim.transition import next_world, repeats_for_ever
+from sim.transition import next_world, repeats_for_ever, transition
 from sim.types import Mode, Move, Outcome
 
 
@@ -52,15 +51,16 @@ def stakes(state: SimState, decision: Decision, foil: Move) -> Alternatives | No
     """What `foil` would have meant instead of the move of `decision`; None if it leads off the road."""
     if decision.option(foil).cell is None or foil is decision.move:
         return None
-    other, real = after_move(state, foil), after_move(state, decision.move)
-    ticks_lost, dead_end = _compared(other, real)
-    return Alternatives(foil, _end(other), _end(real), ticks_lost, dead_end)
+    ego = decision.av
+    other, real = after_move(state, foil, ego), after_move(state, decision.move, ego)
+    ticks_lost, dead_end = _compared(other, real, ego)
+    return Alternatives(foil, _end(other, ego), _end(real, ego), ticks_lost, dead_end)
 
 
-def _compared(other: SimState, real: SimState) -> tuple[int | None, bool]:
+def _compared(other: SimState, real: SimState, ego: str) -> tuple[int | None, bool]:
     """Ticks that the best way on is longer after the other move; whether only after that none leads on."""
     try:
-        rest_other, rest_real = least_ticks(other, PATIENCE), least_ticks(real, PATIENCE)
+        rest_other, rest_real = least_ticks(other, PATIENCE, ego), least_ticks(real, PATIENCE, ego)
     except ImpatientError:
         return None, False
     if rest_other is None or rest_real is None:
@@ -68,23 +68,30 @@ def _compared(other: SimState, real: SimState) -> tuple[int | None, bool]:
     return rest_other - rest_real, False
 
 
-def after_move(state: SimState, move: Move) -> SimState:
-    """The state after a move, judged."""
-    world = next_world(state.world, moves_with(state.world, move), state.config, state.parked)
+def after_move(state: SimState, move: Move, ego: str | None = None) -> SimState:
+    """The state after a move of an ego, the first by default, judged.
+
+    Others that decide before it move as they do; those after it know the move and decide anew.
+    """
+    if len(state.world.avs) > 1:
+        after = transition(state, moves_where(state, move, ego)).state
+        return after.with_ego(ego, queue=(), watch=NOTHING_KEPT)
+    world = next_world(state.world, (move,), state.config)
     belief = next_belief(state)
     return replace(state.with_ego(queue=(), watch=NOTHING_KEPT, belief=belief), world=world)
 
 
-def _end(state: SimState) -> Future | None:
+def _end(state: SimState, ego: str) -> Future | None:
     """How the episode ends if nobody says anything more; None if it waits for a person or is not told."""
-    if state.mode is Mode.MANUAL and state.world.outcome is Outcome.RUNNING:
+    if state.ego(ego).mode is Mode.MANUAL and state.world.outcome is Outcome.RUNNING:
         return None
-    # With `repetition` the run itself ends there.
-    recurs = repeats_for_ever(state.config) and not state.config.repetition
+    # With `repetition` the run itself ends there. Of several egos what repeats is not looked for.
+    alone = len(state.world.avs) == 1
+    recurs = alone and repeats_for_ever(state.config, state.ego().planner) and not state.config.repetition
     seen: set[Situation] = set()
     last = state
     if state.world.outcome is Outcome.RUNNING:
-        for before, tick in rollout(state):
+        for before, tick in rollout(state, ego=ego):
             if recurs:
                 now = situation(before.world)
                 if now in seen:
@@ -94,4 +101,5 @@ def _end(state: SimState) -> Future | None:
     world = last.world
     if world.outcome is Outcome.RUNNING:
         return None
-    return Future(world.outcome, world.episode_tick, world.cause.ids if world.cause else ())
+    ids = world.cause.ids if world.cause else ()
+    return Future(world.outcome, world.episode_tick, tuple(name for name in ids if name != ego))

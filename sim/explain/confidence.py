@@ -25,8 +25,8 @@ from itertools import count
 from typing import Final, TypeAlias
 
 from sim.config import Config
-from sim.decide import decide_on, sense
-from sim.explain.facts import QuestionError
+from sim.decide import INTO_ANOTHER, decide_on, sense
+from sim.explain.facts import QuestionError, check_ego
 from sim.forecast import Forecast
 from sim.perceive import Belief, sensor_named
 from sim.plan import Decision, Traits, traits_of
@@ -117,12 +117,17 @@ class Confidence:
         return (self.arrives * self.futures + 0.5) / (self.futures + 1)
 
 
-def confidence(timeline: Timeline) -> Confidence:
-    """How sure it is that the present episode ends with an arrival. Raises `QuestionError`."""
+def confidence(timeline: Timeline, *, ego: str | None = None) -> Confidence:
+    """How sure it is that the present episode ends with an arrival of an ego, the first by default.
+
+    Others go on as they do: a future ends with the arrival of that ego, or with the episode. Raises
+    `QuestionError`.
+    """
     state = timeline.state
+    check_ego(state, ego)
     if state.world.outcome is not Outcome.RUNNING:
         raise QuestionError("confidence_ended", outcome=state.world.outcome, tick=state.world.tick)
-    futures = _Futures(state)
+    futures = _Futures(state, ego or FIRST)
     ends = futures.walked()
     drawn = None
     if ends is None:
@@ -151,15 +156,15 @@ def confidence(timeline: Timeline) -> Confidence:
         futures=drawn,
         decisions=futures.work,
         chance=state.config.mover_behaviour.draws(state.config),
-        by_hand=state.mode is Mode.MANUAL,
-        clarity=_clarity(timeline),
+        by_hand=state.ego(ego).mode is Mode.MANUAL,
+        clarity=_clarity(timeline, ego),
     )
 
 
-def _clarity(timeline: Timeline) -> Clarity | None:
+def _clarity(timeline: Timeline, ego: str | None) -> Clarity | None:
     if timeline.state.world.episode_tick == 0:
         return None
-    decision = timeline.decision(timeline.tick - 1)
+    decision = timeline.decision(timeline.tick - 1, ego)
     if decision is None or decision.asked is not None or decision.fault is not None:
         return None
     cost = decision.chosen.cost
@@ -186,6 +191,7 @@ class _Futures:
     """The tree of futures of a moment, grown where it is looked at."""
 
     start: SimState
+    ego: str = FIRST
     work: int = 0
     branched: int = 0
     _nodes: dict[tuple[int, ...], list[_Node]] = field(default_factory=dict)
@@ -195,17 +201,23 @@ class _Futures:
     """whether what is decided hangs only on the rows from the vehicle on"""
     _faithful: bool = field(init=False)
     _buffer: int = field(init=False)
+    _number: int = field(init=False)
+    """the ego's place in `World.avs`"""
+    _several: bool = field(init=False)
+    """whether there are other egos, so that what lies behind this one may matter to them"""
     _leading_on: list[Board] | None = None
     _unlike: Config = field(init=False)
     """the configuration for ticks that are drawn one unlike the other"""
 
     def __post_init__(self) -> None:
         config = self.start.config
-        self._root = _Node(self.start.with_ego(mode=Mode.AUTO))
+        self._root = _Node(self.start.with_ego(self.ego, mode=Mode.AUTO))
+        self._number = self.start.number(self.ego)
+        self._several = len(self.start.world.avs) > 1
         # Sensors may show anything, but for those that show the truth.
-        self._traits = traits_of(config.planner)
+        self._traits = traits_of(self.start.config_of(self.ego).planner)
         self._faithful = sensor_named(config.sensor).faithful
-        self._known = self._traits.forward_only and self._faithful
+        self._known = self._traits.forward_only and self._faithful and not self._several
         self._buffer = weights(config).buffer if self._traits.weighs_costs else 0
         # A tick that is drawn to be certain proves nothing about those that come again.
         self._unlike = config.with_parts(repetition=config.repetition and config.certain)
@@ -256,8 +268,15 @@ class _Futures:
     def _end(self, node: _Node) -> End | None:
         world = node.state.world
         ticks = world.tick - self.start.world.tick
+        if self._several and world.avs[self._number] < world.road.columns:
+            return (Outcome.CRASH if world.outcome is Outcome.CRASH else Outcome.SUCCESS), ticks
         if world.outcome is not Outcome.RUNNING:
-            return world.outcome, ticks
+            # Where others have arrived the episode is over, and this ego has not.
+            return (
+                Outcome.STUCK if world.outcome is Outcome.SUCCESS and self._several else world.outcome
+            ), ticks
+        if self._several:
+            return None  # what is shut off depends on the other egos
         if self._traits.quick and self.work < PROOF_AFTER:
             return None  # most are done by now, and the proof would cost more than they did
         if self._leading_on is None:
@@ -299,15 +318,19 @@ class _Futures:
     def _step(self, state: SimState, config: Config) -> _Node:
         self.work += 1
         tick, belief = self._taken(state, config)
-        if tick.decision is not None and tick.decision.fault is not None:
-            # It may answer the next time, or cost a new process each time: neither is to be built upon.
-            raise QuestionError("confidence_fault", planner=tick.decision.planner, fault=tick.decision.fault)
+        for each in tick.steps.values():
+            if each.decision.fault not in (None, INTO_ANOTHER):
+                # It may answer the next time, or cost a new process each time: neither is to be built upon.
+                raise QuestionError(
+                    "confidence_fault", planner=each.decision.planner, fault=each.decision.fault
+                )
         after = replace(tick.state, config=self.start.config)
         if belief != after.belief:
             after = after.with_ego(belief=belief)
         alike = self._nodes.setdefault(self._key(after), [])
+        beliefs = [each.belief for each in after.egos.values()]
         for node in alike:
-            if node.state.belief == belief:
+            if [each.belief for each in node.state.egos.values()] == beliefs:
                 return node
         alike.append(_Node(after))
         return alike[-1]
@@ -315,10 +338,11 @@ class _Futures:
     def _taken(self, state: SimState, config: Config) -> tuple[StepResult, Belief]:
         """A tick in which movers react as this configuration draws it, and the belief after it.
 
-        The draws of a sensor are the session's own, not those of the seed that has these movers react.
+        The draws of a sensor are the session's own, not those of the seed that has these movers react; but of
+        several egos each looks anew.
         """
         drawn = replace(state, config=config)
-        if self._faithful or config is self.start.config:
+        if self._faithful or self._several or config is self.start.config:
             tick = step(drawn)
             return tick, tick.state.belief
         percept, belief = sense(state)

@@ -8,26 +8,32 @@ the road was changed meanwhile, nothing is claimed about earlier ticks.
 
 A crash may hang on what is there and was not detected, and on what was detected and is not there. So a thing
 is taken away from the road and from what is seen at once.
+
+Of several egos it is about the one that crashed. In the last tick, run again, the others make the moves that
+they made.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Final
 
+from sim.commit import commit
 from sim.explain.alternatives import after_move
 from sim.explain.factors import is_factor
-from sim.explain.facts import Explanation, QuestionError, Verified
+from sim.explain.facts import Explanation, QuestionError, Verified, check_ego
 from sim.explain.intervention import Intervention
 from sim.explain.why_causes import by_salience, minimal_sufficient_set, rank_causes
-from sim.forecast import Forecast
+from sim.forecast import predict
+from sim.judge import collisions
 from sim.oracle.lower_bounds import PATIENCE, least_ticks
-from sim.perceive import perceive_truth
+from sim.oracle.other_egos import ego_first
+from sim.perceive import Percept, perceive_truth
 from sim.plan import Option
 from sim.search.reactive import ImpatientError
 from sim.session.timeline import SNAPSHOT_TICKS, Timeline
-from sim.state import SimState
+from sim.state import FIRST, SimState
 from sim.types import Kind, Move, Outcome
 from sim.world import Cause, Thing, World
 
@@ -78,10 +84,11 @@ class Crash:
 class _LastTick:
     """The last tick again on roads that differ from its own: whether it ends in a crash."""
 
-    def __init__(self, state: SimState, rerun: Intervention) -> None:
-        """`rerun` is that of its decision."""
+    def __init__(self, state: SimState, rerun: Intervention, made: Mapping[str, Move]) -> None:
+        """`rerun` is that of its decision; `made`: the moves of all egos."""
         self._run = state
         self._rerun = rerun
+        self._made = made
         self._known: dict[tuple[str, frozenset[str]], bool] = {}
 
     def without(self, names: Iterable[str]) -> bool:
@@ -90,7 +97,7 @@ class _LastTick:
         key = ("without", gone)
         if key not in self._known:
             world = self._run.world.without(frozenset(name for name in gone if not is_factor(name)))
-            self._known[key] = self._crashes(world, self._rerun.never_there(gone))
+            self._known[key] = self._crashes(world, self._rerun.never_there(gone), gone)
         return self._known[key]
 
     def keeping(self, names: Iterable[str]) -> bool:
@@ -99,29 +106,40 @@ class _LastTick:
         key = ("keeping", kept)
         if key not in self._known:
             world = self._run.world.keeping(frozenset(name for name in kept if not is_factor(name)))
-            self._known[key] = self._crashes(world, self._rerun.only_there(kept))
+            others = [id for id in self._run.egos if id != self._rerun.ego and id not in kept]
+            self._known[key] = self._crashes(world, self._rerun.only_there(kept), others)
         return self._known[key]
 
-    def _crashes(self, world: World, move: Move) -> bool:
-        return after_move(replace(self._run, world=world), move).world.outcome is Outcome.CRASH
+    def _crashes(self, world: World, move: Move, gone: Collection[str]) -> bool:
+        there, ids = ego_first(replace(self._run, world=world), self._rerun.ego, gone)
+        moves = (move, *(self._made.get(id, Move.STAY) for id in ids[1:]))
+        after = commit(there, moves, self._run.config)
+        found = collisions(there, after, self._run.config.ego_dynamics(world.road))
+        return any(FIRST in (cause.ego, *cause.ids) for cause in found)
 
 
-def why_crashed(timeline: Timeline, tick: int | None = None) -> Crash:
+def why_crashed(timeline: Timeline, tick: int | None = None, *, ego: str | None = None) -> Crash:
     """Why the latest crash came about, or the one that the decision of a tick led to.
 
-    Raises `QuestionError`: `no_crash` with the number of episodes that have ended, `no_crash_lately`,
-    `no_such_tick`, and `no_crash_then`.
+    `ego`: the one that it is to be of; by default it is of the one that crashed. Raises `QuestionError`:
+    `no_crash` with the number of episodes that have ended, `no_crash_lately`, `no_such_tick`,
+    `no_crash_then`, and `no_such_ego`.
     """
+    check_ego(timeline.state, ego)
     state = _fatal(timeline) if tick is None else _at(timeline, tick)
-    decision = timeline.decided(state)
-    assert decision is not None
-    after = timeline.led_to(state).state.world
+    fatal = timeline.led_to(state)
+    after = fatal.state.world
     assert after.cause is not None
+    ego = ego or after.cause.ego
+    decision = timeline.decided(state, ego)
+    if decision is None or ego not in (after.cause.ego, *after.cause.ids):
+        raise QuestionError("no_crash_then", tick=after.tick)
     certain = state.config.certain
-    rerun = Intervention(state, decision)
+    rerun = Intervention(state, decision, timeline.announced(state, ego))
     met = _met(rerun)
-    explanation = _last_tick(rerun, met)
-    looked_back, whole, saving = _saving(timeline, state) if certain else (0, False, None)
+    made = {id: each.decision.move for id, each in fatal.steps.items()}
+    explanation = _last_tick(rerun, met, made)
+    looked_back, whole, saving = _saving(timeline, state, ego) if certain else (0, False, None)
     free = tuple(option.move for option in met if option.verdict == "free")
     involved = dict.fromkeys((*after.cause.ids, *(cause.id for cause in explanation.causes)))
     missed = tuple(name for name in involved if _missed(rerun, name))
@@ -176,16 +194,23 @@ def _fatal(timeline: Timeline) -> SimState:
 
 def _met(rerun: Intervention) -> tuple[Option, ...]:
     """The decision's options with what each move would really have met."""
-    state, options = rerun.state, rerun.decision.options
+    options = rerun.decision.options
     if rerun.faithful:
         return options
-    world = state.world
-    forecast = Forecast.of_truth(world, state.config, 1)
+    forecast = predict(_truth(rerun), 1)
+    own = forecast.ego
     met = []
     for option in options:
-        reason, causes = forecast.check_step(world.av, forecast.dynamics.target(world.av, option.move))
+        reason, causes = forecast.check_step(own, forecast.dynamics.target(own, option.move))
         met.append(replace(option, reason=reason, causes=causes))
     return tuple(met)
+
+
+def _truth(rerun: Intervention) -> Percept:
+    """What was there, with what the other egos told."""
+    state = rerun.state
+    truth = perceive_truth(state.world, state.config, state.number(rerun.ego))
+    return replace(truth, egos=rerun.percept.egos) if rerun.percept.egos else truth
 
 
 def _missed(rerun: Intervention, name: str) -> bool:
@@ -198,10 +223,10 @@ def _missed(rerun: Intervention, name: str) -> bool:
     return seen is None or (seen.kind, seen.cell) != (there.kind, there.cell)
 
 
-def _last_tick(rerun: Intervention, met: tuple[Option, ...]) -> Explanation:
+def _last_tick(rerun: Intervention, met: tuple[Option, ...], made: Mapping[str, Move]) -> Explanation:
     """What the crash hung on, as the explanation of the last decision."""
     state, decision = rerun.state, rerun.decision
-    tried = _LastTick(state, rerun)
+    tried = _LastTick(state, rerun, made)
     names = [*rerun.factors, *_by_salience(rerun, met)]
     enough, groups, minimal = minimal_sufficient_set(tried, True, names)
     made_first = sorted(met, key=lambda option: option.move is not decision.move)
@@ -234,13 +259,11 @@ def _by_salience(rerun: Intervention, met: tuple[Option, ...]) -> list[str]:
     seen = by_salience(rerun.percept, rerun.decision)
     if rerun.faithful:
         return seen
-    there = by_salience(
-        perceive_truth(rerun.state.world, rerun.state.config), replace(rerun.decision, options=met)
-    )
+    there = by_salience(_truth(rerun), replace(rerun.decision, options=met))
     return list(dict.fromkeys([*there, *seen]))
 
 
-def _saving(timeline: Timeline, fatal: SimState) -> tuple[int, bool, LastAvoidance | None]:
+def _saving(timeline: Timeline, fatal: SimState, ego: str) -> tuple[int, bool, LastAvoidance | None]:
     """The last move instead of which another would have led to the goal.
 
     With how many ticks before the crash were looked at, and whether the episode began with the first of them.
@@ -258,7 +281,7 @@ def _saving(timeline: Timeline, fatal: SimState) -> tuple[int, bool, LastAvoidan
             ):
                 return looked, False, None
             try:
-                saving = _saved(timeline, state)
+                saving = _saved(timeline, state, ego)
             except ImpatientError:
                 return looked, False, None
             looked += 1
@@ -268,16 +291,16 @@ def _saving(timeline: Timeline, fatal: SimState) -> tuple[int, bool, LastAvoidan
     return looked, oldest == start, None
 
 
-def _saved(timeline: Timeline, state: SimState) -> LastAvoidance | None:
+def _saved(timeline: Timeline, state: SimState, ego: str) -> LastAvoidance | None:
     """A move from which a way leads to the goal, with the quickest, if there is one."""
-    decision = timeline.decided(state)
-    if decision is None or least_ticks(state, PATIENCE) is None:
+    decision = timeline.decided(state, ego)
+    if decision is None or least_ticks(state, PATIENCE, ego) is None:
         return None
     ways = [
         (ticks, order, option.move)
         for order, option in enumerate(decision.options)
         if option.cell is not None and option.move is not decision.move
-        if (ticks := least_ticks(after_move(state, option.move), PATIENCE)) is not None
+        if (ticks := least_ticks(after_move(state, option.move, ego), PATIENCE, ego)) is not None
     ]
     if not ways:
         return None

@@ -12,7 +12,7 @@ from typing import Final
 
 from sim.episode_record import Sake, detour_reason
 from sim.plan import Decision, traits_of
-from sim.state import FIRST, SimState, StepResult
+from sim.state import SimState, StepResult
 from sim.transition import step
 from sim.types import Mode, Move, Outcome
 from sim.world import Cause
@@ -100,15 +100,17 @@ class RouteAhead:
     """whether what comes after the first move hangs on who gives way"""
 
 
-def story(state: SimState) -> EpisodeRollout:
-    """What comes of a run if nothing more is said."""
-    return summarize(state, list(rollout(state)))
+def story(state: SimState, *, ego: str | None = None) -> EpisodeRollout:
+    """What comes of a run if nothing more is said, told of an ego, the first by default."""
+    return summarize(state, list(rollout(state, ego=ego)), ego=ego)
 
 
-def rollout(state: SimState, first: Decision | None = None) -> Iterator[tuple[SimState, StepResult]]:
+def rollout(
+    state: SimState, first: Decision | None = None, *, ego: str | None = None
+) -> Iterator[tuple[SimState, StepResult]]:
     """Each tick to the end of the episode, with the run before it; a result that stands is waited out first.
 
-    `first`: what is decided in the first tick, where that is not what the state itself leads to.
+    `first`: what an ego decides in the first tick, where that is not what the state itself leads to.
 
     A tick whose planner did not answer in time is the last: a session would hand over to a person there.
     So is that of one that has failed `MAX_FAULTS` times running; and on long roads a planner that searches is
@@ -117,11 +119,12 @@ def rollout(state: SimState, first: Decision | None = None) -> Iterator[tuple[Si
     work = faults = 0
     started = state.world.outcome is Outcome.RUNNING
     while state.world.outcome is Outcome.RUNNING or not started:
-        tick = step(state) if first is None else step(state, {FIRST: first})
+        tick = step(state) if first is None else step(state, {first.av: first})
         first = None
         yield state, tick
-        faults = faults + 1 if tick.decision is not None and tick.decision.fault is not None else 0
-        if faults == MAX_FAULTS or (tick.decision is not None and tick.decision.timed_out):
+        decision = decided(tick, ego)
+        faults = faults + 1 if decision is not None and decision.fault is not None else 0
+        if faults == MAX_FAULTS or any(each.decision.timed_out for each in tick.steps.values()):
             return
         state = tick.state
         work += _work(state)
@@ -130,33 +133,48 @@ def rollout(state: SimState, first: Decision | None = None) -> Iterator[tuple[Si
         started = started or state.world.outcome is Outcome.RUNNING
 
 
+def decided(tick: StepResult, ego: str | None) -> Decision | None:
+    """What an ego decided in a tick, the first by default; None where it decided nothing."""
+    found = tick.of(ego)
+    return None if found is None else found.decision
+
+
 def _work(state: SimState) -> int:
     """How much is looked through in a tick of a run."""
     road = state.world.road
-    plans_to_goal = traits_of(state.config.planner).plans_to_goal
-    return road.columns * road.rows * road.rows if plans_to_goal else 0
+    planners = [ego.planner or state.config.planner for ego in state.egos.values()]
+    searching = sum(traits_of(planner).plans_to_goal for planner in planners)
+    return searching * road.columns * road.rows * road.rows
 
 
-def summarize(state: SimState, ticks: list[tuple[SimState, StepResult]]) -> EpisodeRollout:
-    """The story of ticks that were followed from a run."""
+def summarize(
+    state: SimState, ticks: list[tuple[SimState, StepResult]], *, ego: str | None = None
+) -> EpisodeRollout:
+    """The story of ticks that were followed from a run, told of an ego, the first by default.
+
+    The end is that of the episode; who has arrived before it waits for the others.
+    """
     path, detours, held_back = [], [], []
     last, silent = state, None
     for before, tick in ticks:
-        decision = tick.decision
-        if decision is not None and decision.timed_out:
-            silent = decision.fault
+        late = [each.decision for each in tick.steps.values() if each.decision.timed_out]
+        if late:
+            silent = late[0].fault
             break
+        decision = decided(tick, ego)
         last = tick.state
         if decision is not None:
             path.append(decision.move)
-            detours += find_detour(before, tick)
+            detours += find_detour(before, tick, ego=ego)
             held_back += [decision.tick] if decision.held_back else []
-    if last.world.outcome is Outcome.RUNNING and ticks and ticks[-1][1].decision is not None:
-        silent = silent or ticks[-1][1].decision.fault
-    first = next((tick.decision for _, tick in ticks if tick.decision is not None), None)
+    if last.world.outcome is Outcome.RUNNING and ticks:
+        final = decided(ticks[-1][1], ego)
+        silent = silent or (None if final is None else final.fault)
+    first = next((found for _, tick in ticks if (found := decided(tick, ego)) is not None), None)
+    own = state.ego(ego)
     return EpisodeRollout(
         tick=state.world.tick,
-        waited=sum(tick.decision is None for _, tick in ticks),
+        waited=sum(before.world.outcome is not Outcome.RUNNING for before, _ in ticks),
         episode=last.world.episode,
         end=last.world.tick,
         outcome=last.world.outcome,
@@ -164,35 +182,38 @@ def summarize(state: SimState, ticks: list[tuple[SimState, StepResult]]) -> Epis
         path=tuple(path),
         detours=tuple(detours),
         held_back=tuple(held_back),
-        by_hand=first is not None
-        and first.asked is not None
-        and state.mode is Mode.MANUAL
-        and not state.queue,
+        by_hand=first is not None and first.asked is not None and own.mode is Mode.MANUAL and not own.queue,
         silent=silent,
         digest=last.world.digest(),
     )
 
 
-def find_detour(before: SimState, tick: StepResult) -> list[Detour]:
-    """The detour of a tick, if it was one."""
-    decision = tick.decision
+def find_detour(before: SimState, tick: StepResult, *, ego: str | None = None) -> list[Detour]:
+    """The detour of an ego in a tick, if it was one."""
+    decision = decided(tick, ego)
     if decision is None or decision.move is Move.FORWARD:
         return []
     by_person, faulty = decision.asked is not None, decision.fault is not None
-    whose, ids = detour_reason(before.world, tick.state.world, by_person=by_person, faulty=faulty)
+    number = before.number(ego)
+    whose, ids = detour_reason(
+        before.world, tick.state.world, by_person=by_person, faulty=faulty, number=number
+    )
     return [Detour(decision.tick, decision.move, whose, ids)]
 
 
-def route_ahead(state: SimState, ticks: int = NEXT_TICKS) -> RouteAhead:
-    """The next decision and the way from there; empty while a result stands.
+def route_ahead(state: SimState, ticks: int = NEXT_TICKS, *, ego: str | None = None) -> RouteAhead:
+    """The next decision of an ego (the first by default) and the way from there.
+
+    Empty while a result stands, and where that ego has arrived.
 
     Where a person drives and has asked for nothing, it is what the planner would do, were it let. Movers
     that may give way or brake are a matter of chance that no driver knows beforehand, so then the way is
     not told beyond the next decision.
     """
-    offered = state.mode is Mode.MANUAL and not state.queue
+    own = state.ego(ego)
+    offered = own.mode is Mode.MANUAL and not own.queue
     chance = not state.config.certain
-    seen = state.with_ego(mode=Mode.AUTO) if offered else state
+    seen = state.with_ego(ego, mode=Mode.AUTO) if offered else state
     decisions: list[Decision] = []
     detours: list[Detour] = []
     after = seen
@@ -200,10 +221,11 @@ def route_ahead(state: SimState, ticks: int = NEXT_TICKS) -> RouteAhead:
         if after.world.outcome is not Outcome.RUNNING:
             break
         tick = step(after)
-        if tick.decision is None or tick.decision.timed_out:
+        decision = decided(tick, ego)
+        if decision is None or any(each.decision.timed_out for each in tick.steps.values()):
             break
-        decisions.append(tick.decision)
-        detours += find_detour(after, tick)
+        decisions.append(decision)
+        detours += find_detour(after, tick, ego=ego)
         after = tick.state
     outcome, cause = after.world.outcome, after.world.cause
     return RouteAhead(state, tuple(decisions), tuple(detours), outcome, cause, offered, chance)

@@ -25,6 +25,12 @@ class QuestionError(ValueError):
         self.facts = facts
 
 
+def check_ego(state: SimState, ego: str | None) -> None:
+    """Raises `QuestionError` for an ego that is not on the road."""
+    if ego is not None and ego not in state.egos:
+        raise QuestionError("no_such_ego", id=ego)
+
+
 class Role(StrEnum):
     """What part a thing has in a decision."""
 

@@ -3,23 +3,27 @@
 There are two kinds of intervention. One is on what is *seen*: something had not been detected, all else as
 it is. The other is on what *is*: something had never been there, or a person had changed the road first; then
 the sensor looks again, with the belief it had. With perfect sight both come to the same.
+
+Of several egos this is about the one that decided. What the others announced to it stands where something
+is not seen; on a road that is otherwise they decide anew. Another ego can be taken out of what is seen as a
+thing can, but no change of the road takes it away.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 from sim.actions import Add, Where, WorldAction
 from sim.config import Config
-from sim.decide import decide_on, sense
+from sim.decide import announced_before, decide_on, sense
 from sim.explain.factors import factors, is_factor, removal, without
 from sim.explain.facts import Counterfactual, QuestionError
 from sim.perceive import Percept, sensor_named
 from sim.plan import Decision
 from sim.session.edits import apply
 from sim.state import SimState
-from sim.types import Cell, Move
+from sim.types import Cell, Move, is_ego
 from sim.world import Thing, World
 
 
@@ -32,14 +36,22 @@ def wall(world: World, cell: Cell) -> Add:
 class Intervention:
     """Decisions of one moment that differ from its own by what is seen, by what there is, or by wishes."""
 
-    def __init__(self, state: SimState, decision: Decision) -> None:
-        """A moment in which a decision is taken (not while a result stands), and that decision."""
+    def __init__(
+        self, state: SimState, decision: Decision, announced: Mapping[str, Move] | None = None
+    ) -> None:
+        """A moment in which a decision is taken (not while a result stands), and that decision.
+
+        `announced`: the moves that its ego knew of, where they are known already.
+        """
         self.state = state
         self.decision = decision
-        self.percept = sense(state)[0]
+        self.ego = decision.av
+        announced = announced_before(state, self.ego) if announced is None else announced
+        self.percept = sense(state, announced, self.ego)[0]
         """what was seen when it was taken"""
-        self.faithful = sensor_named(state.config.sensor).faithful
-        self.factors = factors(state.config)
+        self.faithful = not announced and sensor_named(state.config.sensor).faithful
+        """whether not to be seen is the same as not to be there: for it and for who decides before it"""
+        self.factors = factors(state.config_of(self.ego))
         self.count = 0
         self._known: dict[tuple[str, frozenset[str]], Move] = {}
 
@@ -73,7 +85,7 @@ class Intervention:
         if key not in self._known:
             gone = _things(key[1])
             state = self._with(without(self.state.config, key[1]), self.state.world.without(gone))
-            self._known[key] = self._decide(state, sense(state)[0].without(gone)).move
+            self._known[key] = self._decide(state, self._look(state, gone).without(gone)).move
         return self._known[key]
 
     def only_there(self, names: Iterable[str]) -> Move:
@@ -85,7 +97,8 @@ class Intervention:
             kept = _things(key[1])
             gone = (name for name in self.factors if name not in key[1])
             state = self._with(without(self.state.config, gone), self.state.world.keeping(kept))
-            self._known[key] = self._decide(state, sense(state)[0].keeping(kept)).move
+            others = {each for each in state.egos if each != self.ego and each not in kept}
+            self._known[key] = self._decide(state, self._look(state, others).keeping(kept)).move
         return self._known[key]
 
     def after(self, change: Iterable[WorldAction], undetected: Iterable[str] = ()) -> Move:
@@ -96,7 +109,8 @@ class Intervention:
         state = self.state
         for action in change:
             state = apply(state, action).state
-        percept, gone = sense(state)[0], frozenset(undetected)
+        gone = frozenset(undetected)
+        percept = self._look(state, [name for name in gone if is_ego(name)])
         return self._decide(state, percept.without(gone) if gone else percept).move
 
     def counterfactual(self, names: Iterable[str], move: Move) -> Counterfactual:
@@ -105,11 +119,10 @@ class Intervention:
         It is a change of the road where one does the same; what is not there can only not be detected.
         """
         names = tuple(names)
-        change = removal(names, self.state.config)
-        if self.faithful:
-            return Counterfactual(change, move, names)
+        if self.faithful and not any(map(is_ego, names)):
+            return Counterfactual(removal(names, self.state.config), move, names)
         things = [name for name in names if not is_factor(name)]
-        phantoms = [name for name in things if self.state.world.index_of(name) is None]
+        phantoms = [name for name in things if not self._removable(name)]
         change = self.removal(names)
         for undetected in (phantoms, things):
             if self.after(change, undetected) is move:
@@ -119,16 +132,19 @@ class Intervention:
 
     def removal(self, names: Iterable[str]) -> tuple[WorldAction, ...]:
         """The actions that take these away, as far as they are there."""
-        world = self.state.world
-        there = (name for name in names if is_factor(name) or world.index_of(name) is not None)
+        there = (name for name in names if is_factor(name) or self._removable(name))
         return removal(there, self.state.config)
 
     def phantoms(self, names: Iterable[str]) -> tuple[str, ...]:
-        """Those of these things that are not there."""
-        if self.faithful:
-            return ()
-        world = self.state.world
-        return tuple(name for name in names if not is_factor(name) and world.index_of(name) is None)
+        """Those of these things that no action takes away: what is not there, and other egos."""
+        return tuple(name for name in names if not is_factor(name) and not self._removable(name))
+
+    def _removable(self, name: str) -> bool:
+        return not is_ego(name) and self.state.world.index_of(name) is not None
+
+    def _look(self, state: SimState, gone: Iterable[str] = ()) -> Percept:
+        """What the ego sees on another road, where the others decide anew without what is gone."""
+        return sense(state, announced_before(state, self.ego, gone=frozenset(gone)), self.ego)[0]
 
     def seen(self, name: str) -> tuple[Thing, bool] | None:
         """A thing as it was seen, and whether it was there; a thing that was not seen, as it was."""
@@ -148,7 +164,7 @@ class Intervention:
 
     def _decide(self, state: SimState, percept: Percept) -> Decision:
         self.count += 1
-        decision = decide_on(state, percept)
+        decision = decide_on(state, percept, self.ego)
         if decision.timed_out:  # nothing is proved by an answer that did not come
             raise QuestionError("no_answer", planner=decision.planner, fault=decision.fault)
         return decision

@@ -33,11 +33,11 @@ class Misperception:
 NONE = Misperception()
 
 
-def misperception(state: SimState) -> Misperception:
-    """What the vehicle's look at a state gets wrong; nothing with a faithful sensor."""
+def misperception(state: SimState, ego: str | None = None) -> Misperception:
+    """What the look of an ego (the first by default) gets wrong; nothing with a faithful sensor."""
     if sensor_named(state.config.sensor).faithful:
         return NONE
-    seen = {(thing.id, thing.kind, thing.cell): thing for thing in sense(state)[0].things()}
+    seen = {(thing.id, thing.kind, thing.cell): thing for thing in sense(state, id=ego)[0].things()}
     there = {(thing.id, thing.kind, thing.cell): thing for thing in state.world.things()}
     return Misperception(
         tuple(thing for key, thing in seen.items() if key not in there),

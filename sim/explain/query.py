@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from sim.explain.facts import Explanation, QuestionError
+from sim.explain.facts import Explanation, QuestionError, check_ego
 from sim.explain.moments import state_at
 from sim.explain.why_causes import explain_why
 from sim.explain.why_not import explain_why_not
 from sim.plan import Decision
 from sim.session.timeline import SNAPSHOT_TICKS, Timeline
-from sim.state import SimState
-from sim.types import MOVES, Move
+from sim.state import FIRST, SimState
+from sim.types import MOVES, Move, Outcome
 
 LOOK_BACK_TICKS = 1_000
 """How far back a move that is asked about is looked for."""
@@ -21,43 +21,54 @@ _SAID_OF = {
 """People call a diagonal to the left "left"."""
 
 
-def why(timeline: Timeline, tick: int | None = None, move: Move | None = None) -> Explanation:
-    """Why the latest decision, the one at a tick, or the latest with a move. Raises `QuestionError`."""
+def why(
+    timeline: Timeline, tick: int | None = None, move: Move | None = None, *, ego: str | None = None
+) -> Explanation:
+    """Why the latest decision, the one at a tick, or the latest with a move.
+
+    It is that of an ego, the first by default. Raises `QuestionError`.
+    """
+    check_ego(timeline.state, ego)
     if tick is None and move is not None:
-        state, decision = _latest(timeline, _SAID_OF.get(move, (move,)))
+        state, decision = _latest(timeline, _SAID_OF.get(move, (move,)), ego)
         if decision is None:
             raise QuestionError("never_made", move=move, ticks=min(timeline.tick, LOOK_BACK_TICKS))
-        return explain_why(state, decision)
-    state, decision = _decision_at(timeline, tick)
+        return explain_why(state, decision, timeline.announced(state, ego))
+    state, decision = _decision_at(timeline, tick, ego)
     if move is not None and decision.move not in _SAID_OF.get(move, (move,)):
         raise QuestionError("not_that_move", asked=move, made=decision.move, tick=decision.tick)
-    return explain_why(state, decision)
+    return explain_why(state, decision, timeline.announced(state, ego))
 
 
-def why_not(timeline: Timeline, move: Move, tick: int | None = None) -> Explanation:
-    """Why the latest decision, or the one at a tick, was not `move`. Raises `QuestionError`."""
-    state, decision = _decision_at(timeline, tick)
+def why_not(
+    timeline: Timeline, move: Move, tick: int | None = None, *, ego: str | None = None
+) -> Explanation:
+    """Why the latest decision of an ego, or the one at a tick, was not `move`. Raises `QuestionError`."""
+    check_ego(timeline.state, ego)
+    state, decision = _decision_at(timeline, tick, ego)
     if decision.move is move:
         raise QuestionError("was_made", move=move, tick=decision.tick)
-    return explain_why_not(state, decision, move)
+    return explain_why_not(state, decision, move, timeline.announced(state, ego))
 
 
-def _decision_at(timeline: Timeline, tick: int | None) -> tuple[SimState, Decision]:
+def _decision_at(timeline: Timeline, tick: int | None, ego: str | None) -> tuple[SimState, Decision]:
     if tick is None:
-        state, found = _latest(timeline, MOVES)
+        state, found = _latest(timeline, MOVES, ego)
         if found is None:
             raise QuestionError("nothing_yet", tick=timeline.tick)
         return state, found
     if tick == timeline.tick:
         raise QuestionError("not_yet", tick=tick)
     state = state_at(timeline, tick)
-    decision = timeline.decided(state)
+    decision = timeline.decided(state, ego)
+    if decision is None and state.world.outcome is Outcome.RUNNING:
+        raise QuestionError("had_arrived", tick=tick, id=ego or FIRST)
     if decision is None:
         raise QuestionError("result_stood", tick=tick, outcome=state.world.outcome)
     return state, decision
 
 
-def _latest(timeline: Timeline, moves: tuple[Move, ...]) -> tuple[SimState, Decision | None]:
+def _latest(timeline: Timeline, moves: tuple[Move, ...], ego: str | None) -> tuple[SimState, Decision | None]:
     """The latest decision that was one of these moves, looked for in spans that grow backwards."""
     stop, span = timeline.tick, 1
     oldest = max(0, timeline.tick - LOOK_BACK_TICKS)
@@ -65,7 +76,7 @@ def _latest(timeline: Timeline, moves: tuple[Move, ...]) -> tuple[SimState, Deci
         first = max(oldest, stop - span)
         runs = [timeline.at(first)] if span == 1 else list(timeline.between(first, stop))
         for state in reversed(runs):
-            decision = timeline.decided(state)
+            decision = timeline.decided(state, ego)
             if decision is not None and decision.move in moves:
                 return state, decision
         stop, span = first, min(4 * span, SNAPSHOT_TICKS)

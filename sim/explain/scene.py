@@ -103,6 +103,8 @@ def _things(percept: Percept) -> Iterator[tuple[int, str, Kind]]:
         yield index, name, percept.boards.fixed_kind(index)
     for index, name in percept.movers.items():
         yield index, name, percept.boards.mover_kind(index)
+    for other in percept.egos:
+        yield other.cell, other.id, Kind.AV
 
 
 def _meetings(percept: Percept, reach: int) -> dict[str, int]:

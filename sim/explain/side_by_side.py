@@ -10,10 +10,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from sim.actions import WorldAction
-from sim.decide import sense
+from sim.decide import announced_before, sense
 from sim.explain.alternatives import after_move
 from sim.explain.episode_rollout import EpisodeRollout, rollout, summarize
-from sim.explain.facts import QuestionError
+from sim.explain.facts import QuestionError, check_ego
 from sim.explain.moments import state_at
 from sim.forecast import predict
 from sim.plan import Decision
@@ -48,51 +48,62 @@ class SideBySide:
     """how many actions said after the moment are left out of both"""
 
 
-def compare_move(timeline: Timeline, tick: int, move: Move) -> SideBySide:
-    """What comes of another move than the one decided at a tick, whatever it meets.
+def compare_move(timeline: Timeline, tick: int, move: Move, *, ego: str | None = None) -> SideBySide:
+    """What comes of another move than the one an ego (the first by default) decided at a tick.
+
+    It is made whatever it meets.
 
     After the move the planner goes on, in both. Raises `QuestionError`: `no_such_tick`, `no_decision`
     while a result stood, `off_road`, and `same_move` for the one that was made.
     """
+    check_ego(timeline.state, ego)
     state = state_at(timeline, tick)
-    decision = timeline.decided(state)
+    decision = timeline.decided(state, ego)
     if decision is None:
         raise QuestionError("no_decision", tick=tick)
     if decision.option(move).cell is None:
         raise QuestionError("off_road", move=move)
     if decision.move is move:
         raise QuestionError("same_move", move=move)
-    real, changed = (_side(state, tuple(_driven(state, decision, each))) for each in (decision.move, move))
+    real, changed = (
+        _side(state, tuple(_driven(state, decision, each)), decision.av) for each in (decision.move, move)
+    )
     return SideBySide(tick, real, changed, decision.move, _said_since(timeline, tick))
 
 
-def compare_change(timeline: Timeline, tick: int, change: Sequence[WorldAction]) -> SideBySide:
-    """What comes of a change made at a tick. Raises `QuestionError` and `EditError`."""
+def compare_change(
+    timeline: Timeline, tick: int, change: Sequence[WorldAction], *, ego: str | None = None
+) -> SideBySide:
+    """What comes of a change made at a tick, told of an ego, the first by default.
+
+    Raises `QuestionError` and `EditError`.
+    """
+    check_ego(timeline.state, ego)
     state = changed = state_at(timeline, tick)
     for action in change:
         changed = apply(changed, action).state
     sides = [
-        Side(each, ticks, summarize(each, list(ticks))) for each in (state, changed) for ticks in [_all(each)]
+        Side(each, ticks, summarize(each, list(ticks), ego=ego))
+        for each in (state, changed)
+        for ticks in [tuple(rollout(each, ego=ego))]
     ]
     return SideBySide(tick, sides[0], sides[1], None, _said_since(timeline, tick))
 
 
-def _all(state: SimState) -> Ticks:
-    return tuple(rollout(state))
-
-
-def _side(state: SimState, ticks: Ticks) -> Side:
-    return Side(state, ticks, summarize(state.with_ego(mode=Mode.AUTO), list(ticks)))
+def _side(state: SimState, ticks: Ticks, ego: str) -> Side:
+    driven = state.with_ego(ego, mode=Mode.AUTO)
+    return Side(state, ticks, summarize(driven, list(ticks), ego=ego))
 
 
 def _driven(state: SimState, decision: Decision, move: Move) -> Iterator[tuple[SimState, StepResult]]:
     """A move made, and what comes of it."""
-    after = after_move(state, move).with_ego(mode=Mode.AUTO)
-    percept, belief = sense(state)
+    ego = decision.av
+    after = after_move(state, move, ego).with_ego(ego, mode=Mode.AUTO)
+    percept, belief = sense(state, announced_before(state, ego), ego)
     made = EgoStep(percept, predict(percept, 1), replace(decision, move=move), belief)
-    yield state, StepResult(after, {decision.av: made}, ())
+    yield state, StepResult(after, {ego: made}, ())
     if after.world.outcome is Outcome.RUNNING:
-        yield from rollout(after)
+        yield from rollout(after, ego=ego)
 
 
 def _said_since(timeline: Timeline, tick: int) -> int:

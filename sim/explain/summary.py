@@ -15,15 +15,17 @@ from typing import Final
 
 from sim.commit import moves_with
 from sim.episode_record import EpisodeRecord, Sake
-from sim.forecast import Forecast
+from sim.forecast import Forecast, predict
 from sim.oracle.lower_bounds import can_arrive, least_ticks
+from sim.oracle.other_egos import others_standing
+from sim.perceive import perceive_truth
 from sim.rules.dynamics import Dynamics
 from sim.search.reachability import steps_left
 from sim.search.reactive import ImpatientError
 from sim.state import SimState
 from sim.transition import next_world
-from sim.types import Move, Outcome
-from sim.world import Cause
+from sim.types import Mode, Move, Outcome
+from sim.world import Cause, World
 
 STATES: Final = 3_000
 """States that each search of reactions may look at; two tenths of a second."""
@@ -73,28 +75,37 @@ class Summary:
         return self.ticks - self.best
 
 
-def summary(state: SimState) -> Summary:
-    """How the episode went that has ended in this run. Raises `ValueError` while it goes on."""
-    world, course = state.world, state.record
+def summary(state: SimState, *, ego: str | None = None) -> Summary:
+    """How the episode went that has ended in this run, for an ego, the first by default.
+
+    Where other egos have moved, nothing is claimed of what would have been. Raises `ValueError` while it goes
+    on.
+    """
+    world, course = state.world, state.ego(ego).record
     if world.outcome is Outcome.RUNNING:
         raise ValueError("the episode goes on")
     whole = course.start is not None and course.start.tick == world.episode_start
-    certain = course.certain and whole and not course.changed
+    stayed = course.start is not None and _others_stayed(course.start, world, state.number(ego))
+    certain = course.certain and whole and not course.changed and stayed
+    if stayed:
+        state = _with_others_parked(state, ego)
     free = open_before = best = open_until = None
     open_known = False
     states = STATES if long_to_tell(state) else QUICK_STATES
     if course.start is not None and certain:
         with suppress(ImpatientError):
-            best = least_ticks(_at_first(state, course), states)
+            best = least_ticks(_at_first(state, course), states, ego)
     if world.outcome is Outcome.CRASH and course.last is not None:
         before = replace(state.with_ego(queue=()), world=course.last)
-        free = any(Forecast.of_truth(before.world, state.config, 1).own_steps())
+        free = any(_last_forecast(before.world, world, state, ego).own_steps())
         with suppress(ImpatientError):
-            open_before = can_arrive(before, states) if course.certain else None
+            open_before = can_arrive(before, states, ego) if course.certain and stayed else None
     if world.outcome is Outcome.STUCK and certain:
         with suppress(ImpatientError):
             open_until = (
-                _open_until_reacting(state, course) if state.config.reacting else _open_until(state, course)
+                _open_until_reacting(state, course, ego)
+                if state.config.reacting or len(world.avs) > 1
+                else _open_until(state, course)
             )
             open_known = True
     ticks = (world.tick if world.ended is None else world.ended) - world.episode_start
@@ -111,6 +122,32 @@ def summary(state: SimState) -> Summary:
         repeated=world.outcome is Outcome.STUCK and ticks <= state.config.max_ticks,
         certain=certain,
     )
+
+
+def _others_stayed(start: World, end: World, number: int) -> bool:
+    """Whether all egos but one are where they were when the episode began."""
+    return len(start.avs) == len(end.avs) and all(
+        was == now for other, (was, now) in enumerate(zip(start.avs, end.avs, strict=True)) if other != number
+    )
+
+
+def _with_others_parked(state: SimState, ego: str | None) -> SimState:
+    """The state in which all egos but one are to stay, as they have."""
+    for id in others_standing(state, ego):
+        if id in state.egos:
+            state = state.with_ego(id, mode=Mode.MANUAL, queue=())
+    return state
+
+
+def _last_forecast(before: World, after: World, state: SimState, ego: str | None) -> Forecast:
+    """What followed from what was in the last tick, with the moves that the other egos made."""
+    number = state.number(ego)
+    made = {
+        other: next(move for move in Move if before.road.moved(cell, move) == after.avs[other])
+        for other, cell in enumerate(before.avs)
+        if other != number
+    }
+    return predict(perceive_truth(before, state.config, number, made), 1)
 
 
 def long_to_tell(state: SimState) -> bool:
@@ -147,17 +184,20 @@ def _open_until(state: SimState, course: EpisodeRecord) -> int | None:
     return None
 
 
-def _open_until_reacting(state: SimState, course: EpisodeRecord) -> int | None:
+def _open_until_reacting(state: SimState, course: EpisodeRecord, ego: str | None) -> int | None:
     """The same where movers react: a way that is open at a tick of a drive was open at those before.
 
     Raises `ImpatientError`.
     """
     worlds = [_at_first(state, course).world]
     for move in course.move_list():
-        worlds.append(next_world(worlds[-1], moves_with(worlds[-1], move), state.config, state.parked))
+        moves = moves_with(worlds[-1], move, state.number(ego))
+        worlds.append(next_world(worlds[-1], moves, state.config, state.parked))
     worlds.pop()  # nothing was decided in it
     first_closed = bisect_left(
-        worlds, True, key=lambda world: not can_arrive(replace(state.with_ego(queue=()), world=world), STATES)
+        worlds,
+        True,
+        key=lambda world: not can_arrive(replace(state.with_ego(ego, queue=()), world=world), STATES, ego),
     )
     return first_closed - 1 if first_closed else None
 

@@ -11,8 +11,9 @@ from contextlib import suppress
 from dataclasses import dataclass
 
 from sim.actions import Add, Drive, Remove, SetCount, WorldAction
-from sim.decide import decide_on, sense
-from sim.explain.episode_rollout import EpisodeRollout, rollout, summarize
+from sim.decide import announced_before, decide_on, sense
+from sim.explain.episode_rollout import EpisodeRollout, decided, rollout, summarize
+from sim.explain.facts import check_ego
 from sim.explain.moments import state_at
 from sim.oracle.lower_bounds import PATIENCE
 from sim.oracle.regret import Regret, regret
@@ -68,13 +69,17 @@ def what_if(
     change: Sequence[WorldAction],
     tick: int | None = None,
     undetected: Collection[str] = (),
+    *,
+    ego: str | None = None,
 ) -> WhatIf:
     """What would come of the session were this done now, or had it been done at a tick.
 
-    `undetected`: ids that are taken out of what is seen at that tick, and stay on the road.
+    It is told of an ego, the first by default. `undetected`: ids that are taken out of what it sees at that
+    tick, and stay on the road.
     Raises `QuestionError` for a tick that never was, and `EditError` for what cannot be done.
     The timeline is left as it is.
     """
+    check_ego(timeline.state, ego)
     state = state_at(timeline, tick)
     done, changed = [], state
     for action in change:
@@ -83,16 +88,17 @@ def what_if(
         done.append(applied)
     first = None
     if undetected and changed.world.outcome is Outcome.RUNNING:
-        first = decide_on(changed, sense(changed)[0].without(undetected))
-    real_ticks, changed_ticks = list(rollout(state)), list(rollout(changed, first))
-    real, other = summarize(state, real_ticks), summarize(changed, changed_ticks)
+        percept = sense(changed, announced_before(changed, ego), ego)[0]
+        first = decide_on(changed, percept.without(undetected), ego)
+    real_ticks, changed_ticks = list(rollout(state, ego=ego)), list(rollout(changed, first, ego=ego))
+    real, other = summarize(state, real_ticks, ego=ego), summarize(changed, changed_ticks, ego=ego)
     same_road = not _new_road(done)
-    difference = _first_difference(real_ticks, changed_ticks) if same_road else None
+    difference = _first_difference(real_ticks, changed_ticks, ego) if same_road else None
     lost, certain = None, state.config.certain
     if difference is not None:
         before = next(state for state, _ in real_ticks if state.world.tick == difference.tick)
         with suppress(ImpatientError):
-            lost = regret(before, difference.real, PATIENCE)
+            lost = regret(before, difference.real, PATIENCE, ego=ego)
     since = state.world.tick
     said_since = 0 if tick is None else sum(entry.tick > since for entry in timeline.entries)
     return WhatIf(state, tuple(done), real, other, same_road, difference, lost, certain, said_since)
@@ -104,17 +110,19 @@ def _new_road(done: Sequence[Applied]) -> bool:
 
 
 def _first_difference(
-    real: Sequence[tuple[SimState, StepResult]], changed: Sequence[tuple[SimState, StepResult]]
+    real: Sequence[tuple[SimState, StepResult]],
+    changed: Sequence[tuple[SimState, StepResult]],
+    ego: str | None,
 ) -> Difference | None:
     """The first of the decisions, one by one from the moment on, in which the moves are not the same."""
-    mine, theirs = _taken(real), _taken(changed)
+    mine, theirs = _taken(real, ego), _taken(changed, ego)
     for ahead, (one, other) in enumerate(zip(mine, theirs, strict=False)):
         if one.move is not other.move:
             return Difference(one.tick, ahead, one.move, other.move)
     return None
 
 
-def _taken(ticks: Sequence[tuple[SimState, StepResult]]) -> list[Decision]:
-    """The decisions that led on; one that did not come in time leads nowhere."""
-    decisions = [tick.decision for _, tick in ticks if tick.decision is not None]
-    return [decision for decision in decisions if not decision.timed_out]
+def _taken(ticks: Sequence[tuple[SimState, StepResult]], ego: str | None) -> list[Decision]:
+    """The decisions of an ego that led on; one that did not come in time leads nowhere."""
+    found = [decided(tick, ego) for _, tick in ticks]
+    return [decision for decision in found if decision is not None and not decision.timed_out]

@@ -16,7 +16,7 @@ spared; whether any smaller part would do is then tried outright.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import combinations
 from typing import Protocol
 
@@ -39,9 +39,11 @@ MAX_GROUPS = 6
 """For so many causes that are not necessary alone it is found out what would have to go with them."""
 
 
-def explain_why(state: SimState, decision: Decision) -> Explanation:
-    """Why `decision` was taken in `run`."""
-    rerun = Intervention(state, decision)
+def explain_why(
+    state: SimState, decision: Decision, announced: Mapping[str, Move] | None = None
+) -> Explanation:
+    """Why `decision` was taken in a state, by its ego. `announced`: as for `Intervention`."""
+    rerun = Intervention(state, decision, announced)
     fact = decision.move
     enough, groups, minimal = minimal_sufficient_set(
         rerun, fact, [*rerun.factors, *by_salience(rerun.percept, decision)]
@@ -110,8 +112,9 @@ def _had_it_been_blocked(rerun: Intervention, decision: Decision) -> list[Counte
 def by_salience(percept: Percept, decision: Decision) -> list[str]:
     """The id of all that is seen: first what stands in the way, by order of preference; then the nearest."""
     direct = [name for option in decision.options for name in option.causes]
-    cells = nearest_to(percept.ego, {*percept.movers, *percept.hazards}, percept.road)
-    near = [table[cell] for cell in cells for table in (percept.movers, percept.hazards) if cell in table]
+    tables = percept.movers, percept.hazards, {other.cell: other.id for other in percept.egos}
+    cells = nearest_to(percept.ego, {cell for table in tables for cell in table}, percept.road)
+    near = [table[cell] for cell in cells for table in tables if cell in table]
     return list(dict.fromkeys([*direct, *near]))
 
 

@@ -8,7 +8,7 @@ the decision, run again with it, is the move asked about.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import get_args
 
 from sim.actions import Add, Prefer, Wish, WorldAction
@@ -26,9 +26,11 @@ MAX_ROUNDS = 8
 """How often clearing a cell may let another thing into it before clearing is given up."""
 
 
-def explain_why_not(state: SimState, decision: Decision, foil: Move) -> Explanation:
-    """Why `foil` was not the move of `decision` in `run`."""
-    rerun = Intervention(state, decision)
+def explain_why_not(
+    state: SimState, decision: Decision, foil: Move, announced: Mapping[str, Move] | None = None
+) -> Explanation:
+    """Why `foil` was not the move of `decision` in a state. `announced`: as for `Intervention`."""
+    rerun = Intervention(state, decision, announced)
     cleared = _cleared(rerun, decision, foil)
     freed = rerun.without(cleared) is foil
     if freed:
@@ -109,7 +111,7 @@ def _walls(rerun: Intervention, cleared: Sequence[str], foil: Move) -> list[Add]
     away, phantoms = rerun.removal(cleared), rerun.phantoms(cleared)
     before = seen.options[: seen.options.index(seen.option(foil))]
     cells = [option.cell for option in before if option.verdict == "free" and option.cell is not None]
-    if world.road.cell(world.av) in cells:
+    if world.road.cell(rerun.percept.ego) in cells:
         return []  # nothing can be put where the vehicle stands, so staying cannot be taken away
     walls = [wall(world, cell) for cell in cells]
     try:

@@ -10,6 +10,9 @@ The first candidate is the set of things that a way with the fewest collisions m
 search by sets of cells); where its removal does not open the road, all things are thinned out (Zeller &
 Hildebrandt, "Simplifying and isolating failure-inducing input", 2002).
 
+It is about one ego, the first by default. Others that stay are things that may block the road, and are named
+by their ids; where another one drives, nothing is certified (`sim.oracle.other_egos`).
+
 Movers that react to the vehicle, by giving way or by braking, are searched with their reactions
 (`sim.search.reactive`), so that both answers are proofs for them as well.
 """
@@ -21,13 +24,12 @@ from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import Final
 
-from sim.commit import moves_with
 from sim.forecast import Forecast
 from sim.oracle.ddmin import ddmin
 from sim.oracle.lower_bounds import can_arrive, foreseen, quickest_plan
+from sim.oracle.other_egos import UndeterminedError, arrives, others_standing
 from sim.state import SimState
-from sim.transition import next_world
-from sim.types import Move, Outcome
+from sim.types import Move, is_ego
 from sim.world.grid import Board, bits
 
 MAX_TRIED: Final = 8
@@ -58,45 +60,43 @@ class Blocked:
 Certificate = Drivable | Blocked
 
 
-def certify(state: SimState) -> Certificate:
-    """Prove that the goal can be reached from here, or that it cannot. Raises `ValueError` after the end."""
-    forecast, limit = foreseen(state)
-    plan = quickest_plan(state)
+def certify(state: SimState, *, ego: str | None = None) -> Certificate:
+    """Prove that an ego (the first by default) can reach the goal from here, or that it cannot.
+
+    Raises `ValueError` after the end, and `UndeterminedError` where another ego drives.
+    """
+    forecast, limit = foreseen(state, ego=ego)
+    plan = quickest_plan(state, ego=ego)
     if plan is not None:
-        if not arrives(state, plan):
+        if not arrives(state, plan, ego):
+            if forecast.egos:
+                raise UndeterminedError("hit")
             raise AssertionError("a plan that was searched does not arrive when it is played")
         return Drivable(plan)
     if limit == 0:
         return Blocked((), True)
-    return _blocked(state, forecast, limit)
+    return _blocked(state, forecast, limit, ego)
 
 
-def arrives(state: SimState, plan: Iterable[Move]) -> bool:
-    """Whether playing these moves ends in row 0, judged tick by tick."""
-    world = state.world
-    for move in plan:
-        if (
-            world.outcome is not Outcome.RUNNING
-            or state.config.ego_dynamics(world.road).target(world.av, move) is None
-        ):
-            return False
-        world = next_world(world, moves_with(world, move), state.config, state.parked)
-    return world.outcome is Outcome.SUCCESS
+def opens(state: SimState, ids: Iterable[str], ego: str | None = None, patience: int | None = None) -> bool:
+    """Whether the goal can be reached once these things and other egos are gone.
+
+    `patience`: as for `sim.oracle.lower_bounds.least_ticks`.
+    """
+    gone = frozenset(ids)
+    egos = frozenset(name for name in gone if is_ego(name))
+    return can_arrive(replace(state, world=state.world.without(gone)), patience, ego, egos)
 
 
-def opens(state: SimState, ids: Iterable[str]) -> bool:
-    """Whether the goal can be reached once these things are gone."""
-    return can_arrive(replace(state, world=state.world.without(frozenset(ids))))
-
-
-def _blocked(state: SimState, forecast: Forecast, limit: int) -> Blocked:
+def _blocked(state: SimState, forecast: Forecast, limit: int, ego: str | None) -> Blocked:
     names = sorted({*state.world.movers.values(), *state.world.hazards.values()})
-    if not opens(state, names):
+    names += others_standing(state, ego)
+    if not opens(state, names, ego):
         return Blocked((), True)  # not even an empty road is long enough in time
     candidate: Iterable[str] = met_least(forecast, limit)
-    if not opens(state, candidate):
-        candidate = ddmin(names, lambda gone: opens(state, gone))
-    return Blocked(*thinned(candidate, lambda gone: opens(state, gone)))
+    if not opens(state, candidate, ego):
+        candidate = ddmin(names, lambda gone: opens(state, gone, ego))
+    return Blocked(*thinned(candidate, lambda gone: opens(state, gone, ego)))
 
 
 def thinned(candidate: Iterable[str], opens: Callable[[Sequence[str]], bool]) -> tuple[tuple[str, ...], bool]:

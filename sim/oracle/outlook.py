@@ -15,12 +15,12 @@ from dataclasses import dataclass, field, replace
 from typing import Final
 
 from sim.forecast import Forecast
-from sim.oracle.certificate import met_least, thinned
+from sim.oracle.certificate import met_least, opens, thinned
 from sim.oracle.lower_bounds import can_arrive, foreseen
 from sim.search.reachability import reachability, steps_left
 from sim.search.reactive import ImpatientError
 from sim.state import SimState
-from sim.types import Outcome
+from sim.types import Outcome, is_ego
 
 STATES: Final = 1_500
 """States that are searched for a way where movers react; a tenth of a second."""
@@ -58,7 +58,10 @@ OPEN: Final = Outlook(True)
 
 
 def quickly_open(state: SimState) -> bool:
-    """Whether a way is found within a fraction of a millisecond; where not, there may be one all the same."""
+    """Whether a way is found within a fraction of a millisecond; where not, there may be one all the same.
+
+    Nothing is looked for at once where there are several egos.
+    """
     world, config = state.world, state.config
     road = world.road
     if not config.free_ways_hold or road.columns * road.rows > QUICK_CELLS:
@@ -66,27 +69,32 @@ def quickly_open(state: SimState) -> bool:
     limit = min(steps_left(config, world.episode_tick), 3 * road.rows // 2)
     if limit < 1 or world.outcome is not Outcome.RUNNING:
         return False
+    if len(world.avs) > 1:  # a way has to be played before it counts
+        return False
     forecast = Forecast.of_truth(world, config, limit)
     return reachability(forecast, 1 << forecast.ego, limit).ticks is not None
 
 
-def outlook(state: SimState) -> Outlook | None:
-    """Whether the goal can be reached from here in time; None where that is not found out, or has ended."""
+def outlook(state: SimState, *, ego: str | None = None) -> Outlook | None:
+    """Whether an ego (the first by default) can reach the goal from here in time.
+
+    None where that is not found out, as where another ego drives, or where the episode has ended.
+    """
     if state.world.outcome is not Outcome.RUNNING:
         return None
     if quickly_open(state):
         return OPEN
     try:
-        if can_arrive(state, STATES):
+        if can_arrive(state, STATES, ego):
             return OPEN
     except ImpatientError:
         return None
-    forecast, limit = foreseen(state)
+    forecast, limit = foreseen(state, ego=ego)
     road = forecast.road
     if road.cell(forecast.ego)[1] > limit:
         return Outlook(False, late=True)
     looks = min(LOOKS, LOOKED_OVER // (road.columns * road.rows * limit))
-    return _without(state, looks)
+    return _without(state, looks, ego)
 
 
 @dataclass(slots=True)
@@ -95,6 +103,7 @@ class _Looks:
 
     state: SimState
     left: int
+    ego: str | None = None
     best: tuple[str, ...] = ()
     sure: bool = True
     """whether every look has had an answer"""
@@ -114,20 +123,20 @@ class _Looks:
             self.sure = False
             return False
         self.left -= 1
-        without = _gone(self.state, gone)
         try:
-            return quickly_open(without) or can_arrive(without, STATES_WITHOUT)
+            return quickly_open(_gone(self.state, gone)) or opens(self.state, gone, self.ego, STATES_WITHOUT)
         except ImpatientError:
             self.sure = False
             return False
 
 
-def _without(state: SimState, most: int) -> Outlook:
+def _without(state: SimState, most: int, ego: str | None) -> Outlook:
     """What would have to go."""
-    looks = _Looks(state, most)
+    looks = _Looks(state, most, ego)
     candidate: set[str] = set()
     while looks.left > 0:
-        forecast, limit = foreseen(_gone(state, candidate))
+        egos = frozenset(name for name in candidate if is_ego(name))
+        forecast, limit = foreseen(_gone(state, candidate), ego=ego, gone=egos)
         more = met_least(forecast, limit)
         if more <= candidate:
             break  # it is not known to be open, though nothing is met where nobody reacts

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from sim.fast_replace import field_setter
@@ -12,7 +12,7 @@ from sim.rules.dynamics import DEFAULT_DYNAMICS
 from sim.types import Kind, Move
 from sim.world import Thing
 from sim.world.boards import Boards
-from sim.world.grid import Board, Road
+from sim.world.grid import Board, Road, board_of
 
 
 class OtherEgo(NamedTuple):
@@ -79,10 +79,13 @@ class Percept:
                 yield self._thing(index, table)
 
     def find(self, name: str) -> Thing | None:
-        """The thing with this id as it is seen, if it is."""
+        """The thing with this id as it is seen, or the other ego, if it is."""
+        for other in self.egos:
+            if other.id == name:
+                return Thing(name, Kind.AV, self.road.cell(other.cell))
         for table in (self.hazards, self.movers):
-            for index, other in table.items():
-                if other == name:
+            for index, found in table.items():
+                if found == name:
                     return self._thing(index, table)
         return None
 
@@ -106,6 +109,8 @@ class Percept:
         hazards = {index: name for index, name in self.hazards.items() if kept(name)}
         moving = sum(1 << index for index in movers)
         fixed = sum(1 << index for index in hazards)
+        if self.egos and not all(kept(other.id) for other in self.egos):
+            return self._without_egos(kept)._filtered(kept)
         return _cut_down(
             self,
             self.right & moving,
@@ -115,6 +120,19 @@ class Percept:
             self.attentive & moving,
             movers,
             hazards,
+        )
+
+    def _without_egos(self, kept: Callable[[str], bool]) -> Percept:
+        """The same with those other egos alone; nobody reacts to one that is not there."""
+        egos = tuple(other for other in self.egos if kept(other.id))
+        vehicles = 1 << self.ego | board_of([other.cell for other in egos])
+        near = vehicles << 1 | vehicles >> 1
+        return replace(
+            self,
+            egos=egos,
+            vehicles=vehicles,
+            yielding=self.yielding & near,
+            attentive=self.attentive & near,
         )
 
 

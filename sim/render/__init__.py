@@ -47,11 +47,13 @@ def render(
     decision: Decision | None = None,
     phase: float = 1.0,
     size: tuple[int, int] | None = None,
+    ego: str | None = None,
 ) -> pygame.Surface:
     """Draws a state in one of the `VIEWS`.
 
     `before` is the world one tick earlier: things glide from it to the present as `phase` goes from 0 to 1.
-    `decision` is the decision taken in `before`. `size` is the largest (width, height) in pixels; the picture
+    `decision` is the decision taken in `before`. `ego`: the one that the road view follows, the first by
+    default. `size` is the largest (width, height) in pixels; the picture
     keeps its aspect ratio. Raises `ValueError` for an unknown view and for a size out of range.
     """
     environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
@@ -61,7 +63,7 @@ def render(
     if size is not None and not all(MIN_SIDE_PX <= side <= MAX_SIDE_PX for side in size):
         raise ValueError(f"the sides of a picture are {MIN_SIDE_PX} to {MAX_SIDE_PX} pixels, not {size}")
     if view == "road":
-        return draw_road(state, before, decision, phase, size)
+        return draw_road(state, before, decision, phase, size, ego)
     if view == "schematic":
         return draw_schematic(state, size)
     raise ValueError(f"there is no view called {view!r}; there are {', '.join(VIEWS)}")

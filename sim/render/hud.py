@@ -16,10 +16,13 @@ MOST_PX = 42
 """Height range (px) of the strip of figures; the last figures are left out where the strip is too narrow."""
 
 
-def draw_figures(picture: pygame.Surface, state: SimState, unit_px: int) -> None:
-    """Draws tick, time, distance to the goal, episode and success rate along the upper edge."""
-    world, rate = state.world, state.metrics.success_rate
-    row = world.road.cell(world.av)[1]
+def draw_figures(picture: pygame.Surface, state: SimState, unit_px: int, *, ego: str | None = None) -> None:
+    """Draws tick, time, distance to the goal, episode and success rate along the upper edge.
+
+    Those of an ego, the first by default.
+    """
+    world, rate = state.world, state.ego(ego).metrics.success_rate
+    row = world.road.cell(world.avs[state.number(ego)])[1]
     figures = [
         ("tick", str(world.tick)),
         ("time", f"{world.tick * state.config.step_seconds:.1f} s"),
@@ -71,7 +74,10 @@ def _outcome_details(state: SimState) -> str:
     world = state.world
     if world.cause is not None:
         verb = {"swap": "through", "cross": "cut off by"}.get(world.cause.how, "into")
-        return f"{verb} {' and '.join(world.cause.ids)}"
+        if len(world.avs) == 1:
+            return f"{verb} {' and '.join(world.cause.ids)}"
+        met = [name for name in world.cause.ids if name != world.cause.ego]
+        return f"{world.cause.ego} {verb} {' and '.join(met)}"
     ticks = (world.ended or world.tick) - world.episode_start
     if world.outcome is Outcome.STUCK and ticks <= state.config.max_ticks:
         return f"the same again after {ticks} ticks"

@@ -12,7 +12,7 @@ from typing import Final
 
 from sim.rules.collision_geometry import SIZES, Path, first_contact
 from sim.state import SimState
-from sim.types import HAZARDS, Kind, Outcome
+from sim.types import HAZARDS, Kind, Outcome, ego_id
 from sim.world import Thing, World
 
 STEP_FRAMES: Final = 30
@@ -42,8 +42,9 @@ class Scene:
     """All poses at one moment."""
 
     av: Pose
+    """the ego that the view is about"""
     things: tuple[Pose, ...]
-    """in drawing order: fixed hazards first"""
+    """in drawing order: fixed hazards first, other egos last"""
     share: float
     """share of the tick's way that is done, from 0 to 1"""
     touch: tuple[float, float] | None = None
@@ -61,13 +62,15 @@ def lerp(start: float, end: float, share: float) -> float:
     return start + (end - start) * share
 
 
-def glide_start(state: SimState, before: World | None, phase: float) -> tuple[World, float]:
+def glide_start(
+    state: SimState, before: World | None, phase: float, *, ego: str | None = None
+) -> tuple[World, float]:
     """Returns the world from which things glide to the present one, and the phase of the motion.
 
     Nothing glides from a world of another episode, or without one. While the result of a crash is shown, the
     answer is the world before the crash with phase 1, so that the bodies stay where they touched.
     """
-    world, last = state.world, state.record.last
+    world, last = state.world, state.ego(ego).record.last
     if before is not None and before.episode_start != world.episode_start:
         before = None
     stands = world.outcome is Outcome.CRASH and (before is None or before.outcome is Outcome.CRASH)
@@ -76,23 +79,42 @@ def glide_start(state: SimState, before: World | None, phase: float) -> tuple[Wo
     return (world, 1.0) if before is None else (before, phase)
 
 
-def poses(before: World, after: World, phase: float) -> Scene:
+def poses(before: World, after: World, phase: float, number: int = 0) -> Scene:
     """Interpolates everything on the road at `phase` (share of the time) from one world to the next.
 
-    A thing that `before` lacks is drawn at its present cell.
+    A thing that `before` lacks is drawn at its present cell. `number`: the ego that the view is about.
     """
     share = smoothstep(phase)
-    av = Thing("av-1", Kind.AV, after.road.cell(after.av))
-    start = before.road.cell(before.av)
+    av = Thing(ego_id(number), Kind.AV, after.road.cell(after.avs[number]))
+    start = before.road.cell(before.avs[number])
     was, things = _cells(before), _things(after)
+    if len(after.avs) > 1:
+        others = _egos(after)
+        was = was | {each.id: each.cell for each in _egos(before)}
+        things = (*things, *(each for each in others if each.id != av.id))
     touch = None
     if after.outcome is Outcome.CRASH and before.outcome is Outcome.RUNNING:
-        struck = _first_contact(Path(Kind.AV, start, av.cell), was, things)
+        several = len(after.avs) > 1 and after.cause is not None
+        crashed = _ego(after, after.cause.ego) if several and after.cause is not None else av
+        begun = was[crashed.id] if several else start
+        around = tuple(each for each in (*things, av) if each.id != crashed.id) if several else things
+        struck = _first_contact(Path(Kind.AV, begun, crashed.cell), was, around)
         if struck is not None and share >= struck[0]:
             share = struck[0]
-            touch = _overlap_centre(_pose_at(av, start, share).box, _pose_at(struck[1], struck[2], share).box)
+            touch = _overlap_centre(
+                _pose_at(crashed, begun, share).box, _pose_at(struck[1], struck[2], share).box
+            )
     seen = tuple(_pose_at(thing, was.get(thing.id, thing.cell), share) for thing in things)
     return Scene(_pose_at(av, start, share), seen, share, touch)
+
+
+def _ego(world: World, name: str) -> Thing:
+    return next(each for each in _egos(world) if each.id == name)
+
+
+def _egos(world: World) -> tuple[Thing, ...]:
+    """All egos of a world, by their ids."""
+    return tuple(Thing(ego_id(n), Kind.AV, world.road.cell(cell)) for n, cell in enumerate(world.avs))
 
 
 def _pose_at(thing: Thing, start: tuple[int, int], share: float) -> Pose:

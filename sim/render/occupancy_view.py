@@ -10,7 +10,6 @@ from sim.render import theme
 from sim.render.text import render_text
 from sim.render.theme import MAX_SIDE_PX
 from sim.state import SimState
-from sim.types import Kind
 
 CELL_PX = 24
 MIN_DIGIT_PX = 8
@@ -25,9 +24,9 @@ def draw_occupancy(state: SimState, size: tuple[int, int] | None = None) -> pyga
     px = min(fitting, CELL_PX) if size is None else fitting
     picture = _zeros(road.columns, road.rows, px).copy()
     for thing in state.world.things():
-        _one(picture, thing.kind, thing.cell, px)
-    for index in state.world.avs:
-        _one(picture, Kind.AV, road.cell(index), px)
+        _one(picture, theme.colour_of(thing.kind), thing.cell, px)
+    for number, index in enumerate(state.world.avs):
+        _one(picture, theme.colour_of_ego(number), road.cell(index), px)
     return picture
 
 
@@ -41,8 +40,8 @@ def _zeros(columns: int, rows: int, px: int) -> pygame.Surface:
     return picture
 
 
-def _one(picture: pygame.Surface, kind: Kind, cell: tuple[int, int], px: int) -> None:
-    _digit(picture, "1", theme.ON_KIND, theme.colour_of(kind), cell, px)
+def _one(picture: pygame.Surface, colour: theme.Colour, cell: tuple[int, int], px: int) -> None:
+    _digit(picture, "1", theme.ON_KIND, colour, cell, px)
 
 
 def _digit(

@@ -12,15 +12,15 @@ from typing import Final
 
 import pygame
 
-from sim.decide import sense
-from sim.forecast import predict
+from sim.decide import announced_before, sense
+from sim.forecast import Forecast, predict
 from sim.plan import Decision, Measure, Option
 from sim.render import theme
 from sim.render.sprites import av_sprite, sprite_of
 from sim.render.text import render_text, text_width, truncate, wrap_text
 from sim.render.theme import Colour
 from sim.state import SimState
-from sim.types import HAZARDS, MARKED, MOVERS, Cell, Kind, Move
+from sim.types import HAZARDS, MARKED, MOVERS, Cell, Kind, Move, is_ego
 
 ACROSS: Final = 9
 """Cells along each side; the ego is in the middle."""
@@ -32,9 +32,21 @@ _HALF: Final = ACROSS // 2
 
 
 def draw_plan(
-    state: SimState, decision: Decision | None, size: tuple[int, int], narration: str | None = None
+    state: SimState,
+    decision: Decision | None,
+    size: tuple[int, int],
+    narration: str | None = None,
+    *,
+    ego: str | None = None,
+    forecast: Forecast | None = None,
 ) -> pygame.Surface:
-    """Draws the decision taken in `state` (None while a result is shown); the picture has `size` pixels."""
+    """Draws the decision taken in `state` (None while a result is shown); the picture has `size` pixels.
+
+    `ego`: the one that the view is about, by default the one that decided, or the first. `forecast`: what it
+    decided by, where that is known already (`EgoStep.forecast`).
+    """
+    if ego is None and decision is not None:
+        ego = decision.av
     width, height = size
     picture = pygame.Surface(size)
     picture.fill(theme.BODY)
@@ -48,7 +60,7 @@ def draw_plan(
         px = max(4, min(width // ACROSS, (height - LIST_ROWS * row_px - 12) // ACROSS))
         corner = ((width - px * ACROSS) // 2, 0)
         room = pygame.Rect(2, px * ACROSS + 8, width - 4, height - px * ACROSS - 8)
-    picture.blit(_grid(state, decision, px), corner)
+    picture.blit(_grid(state, decision, px, ego, forecast), corner)
     y = room.top if decision is None else _list(picture, decision, room, row_px)
     if narration:
         y = _draw_text(picture, narration, pygame.Rect(room.x, y + 8, room.width, room.bottom - y - 8))
@@ -56,10 +68,12 @@ def draw_plan(
     return picture
 
 
-def _grid(state: SimState, decision: Decision | None, px: int) -> pygame.Surface:
-    world = state.world
+def _grid(
+    state: SimState, decision: Decision | None, px: int, ego: str | None, forecast: Forecast | None
+) -> pygame.Surface:
+    world, number = state.world, state.number(ego)
     road = world.road
-    own = road.cell(world.av)
+    own = road.cell(world.avs[number])
     picture = _blank(px).copy()
 
     def box(cell: Cell) -> pygame.Rect:
@@ -81,17 +95,27 @@ def _grid(state: SimState, decision: Decision | None, px: int) -> pygame.Surface
         tint = theme.colour_of(thing.kind)
         pygame.draw.rect(picture, _faint(tint), spot.inflate(-1, -1))
         picture.blit(sprite, sprite.get_rect(center=spot.center))
+    for other, index in enumerate(world.avs):
+        if other != number and near(road.cell(index)):
+            _draw_other_ego(picture, box(road.cell(index)), other, symbol_px)
     if decision is not None:
-        ahead = predict(sense(state)[0], 1).slices.movers(0)
+        if forecast is None:
+            forecast = predict(sense(state, announced_before(state, ego), ego)[0], 1)
+        ahead = forecast.slices.movers(0)
         going = {name: road.cell(index) for index, name in ahead.items()}
         for thing in things:
             end = going.get(thing.id)
             if end is not None and near(end):
                 _draw_expected_step(picture, box(thing.cell), box(end), theme.colour_of(thing.kind))
+        for each in forecast.egos:
+            target = road.moved(each.cell, each.move)
+            if target is not None and target != each.cell and near(road.cell(target)):
+                tint = theme.colour_of_ego(int(each.id.rpartition("-")[2]) - 1)
+                _draw_expected_step(picture, box(road.cell(each.cell)), box(road.cell(target)), tint)
         for option in decision.options:
             if option.cell is not None and option.move is not decision.move and option.cost is None:
                 _cross(picture, box(option.cell))
-    own_sprite = av_sprite(_symbol(px))
+    own_sprite = av_sprite(_symbol(px), number)
     picture.blit(own_sprite, own_sprite.get_rect(center=box(own).center))
     if decision is not None:
         end = decision.chosen.cell or own
@@ -101,6 +125,17 @@ def _grid(state: SimState, decision: Decision | None, px: int) -> pygame.Surface
         else:
             _arrow(picture, theme.MOVE, box(own).center, box(end).center, px)
     return picture
+
+
+def _draw_other_ego(picture: pygame.Surface, spot: pygame.Rect, number: int, symbol_px: int) -> None:
+    """Draws another ego with its number in a corner of its cell."""
+    colour = theme.colour_of_ego(number)
+    pygame.draw.rect(picture, _faint(colour), spot.inflate(-1, -1))
+    sprite = av_sprite(symbol_px, number)
+    picture.blit(sprite, sprite.get_rect(center=spot.center))
+    if spot.width >= LEAST_ROW_PX:
+        sign = render_text(str(number + 1), max(10, spot.width // 3), colour)
+        picture.blit(sign, sign.get_rect(topright=(spot.right - 2, spot.top + 2)))
 
 
 @lru_cache(maxsize=8)
@@ -216,6 +251,9 @@ def reason_of(option: Option, decision: Decision) -> str:
     if option.reason.blocks:
         words = theme.REASONS[option.reason]
         movers = [name for name in option.causes if name.rpartition("-")[0] in MOVERS]
+        egos = [name for name in option.causes if is_ego(name)]
+        if egos and option.reason.startswith("ego"):
+            return f"{egos[0]} {words}"
         if movers and option.reason.startswith(("mover", "disabled")):
             return f"{movers[0].replace('vehicle', 'car')} {words}"
         return words

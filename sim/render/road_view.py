@@ -13,13 +13,16 @@ from sim.render.ground import draw_ground
 from sim.render.hud import draw_figures, draw_verdict
 from sim.render.motion import Pose, glide_start, poses
 from sim.render.sprites import av_sprite, sprite_of
+from sim.render.text import render_text
 from sim.rules.collision_geometry import SIZES
 from sim.state import SimState
-from sim.types import Outcome
+from sim.types import Kind, Outcome
 from sim.world import World
 
 BOX_FROM_PX = 48
 """Bounding boxes are drawn from this cell size on (pixels)."""
+LEAST_NUMBER_PX = 8
+"""Smaller numbers of egos are left out, since they could not be read."""
 
 
 def draw_road(
@@ -28,11 +31,12 @@ def draw_road(
     decision: Decision | None,
     phase: float,
     size: tuple[int, int] | None,
+    ego: str | None = None,
 ) -> pygame.Surface:
     """See `sim.render.render`."""
-    world = state.world
-    start, gone = glide_start(state, before, phase)
-    seen = poses(start, world, gone)
+    world, number = state.world, state.number(ego)
+    start, gone = glide_start(state, before, phase, ego=ego)
+    seen = poses(start, world, gone, number)
     camera = camera_on(state.config, seen.av.row, size)
     picture = pygame.Surface(camera.size)
     draw_ground(picture, camera, state.config.rows)
@@ -43,9 +47,13 @@ def draw_road(
         _draw_thing(picture, camera, pose)
     if decision is not None and world.outcome is Outcome.RUNNING:
         _draw_move(picture, camera, start, decision, seen.share)
-    _blit(picture, av_sprite(camera.cell_px), camera.centre(seen.av.column, seen.av.row))
-    _draw_box(picture, camera, seen.av, theme.AV)
-    draw_figures(picture, state, camera.cell_px)
+    _blit(picture, av_sprite(camera.cell_px, number), camera.centre(seen.av.column, seen.av.row))
+    _draw_box(picture, camera, seen.av, theme.colour_of_ego(number))
+    if len(world.avs) > 1:
+        for pose in (*seen.things, seen.av):
+            if pose.thing.kind is Kind.AV:
+                _draw_number(picture, camera, pose)
+    draw_figures(picture, state, camera.cell_px, ego=ego)
     draw_verdict(picture, state, camera.cell_px)
     return picture
 
@@ -71,6 +79,18 @@ def _draw_box(picture: pygame.Surface, camera: Camera, pose: Pose, colour: theme
             pygame.draw.line(picture, colour, corner, (corner[0], corner[1] - dy * arm))
 
 
+def _draw_number(picture: pygame.Surface, camera: Camera, pose: Pose) -> None:
+    """Draws the number of an ego beside it, where there are several and it can be read."""
+    px = camera.cell_px // 4
+    if px < LEAST_NUMBER_PX:
+        return
+    sign = render_text(pose.thing.id.rpartition("-")[2], px, theme.TEXT)
+    across, along = (float(side) * camera.cell_px / 2 for side in SIZES[Kind.AV])
+    x, y = camera.centre(pose.column, pose.row)
+    room = sign.get_rect(midleft=(x + round(across) + px // 3, y - round(along) + px // 2))
+    picture.blit(sign, room)
+
+
 def _draw_impact(picture: pygame.Surface, camera: Camera, touch: tuple[float, float]) -> None:
     """Draws a burst at the first contact, under the bodies."""
     x, y = camera.centre(*touch)
@@ -89,7 +109,7 @@ def _draw_move(
     columns, rows = decision.move.offset
     if (columns, rows) == (0, 0) or share >= 1.0:
         return
-    column, row = before.road.cell(before.av)
+    column, row = before.road.cell(before.avs[int(decision.av.rpartition("-")[2]) - 1])
     start, end = camera.centre(column, row), camera.centre(column + columns, row + rows)
     tip = camera.cell_px // 8
     room = pygame.Rect(start, (1, 1)).union(pygame.Rect(end, (1, 1))).inflate(2 * tip, 2 * tip)

@@ -7,7 +7,7 @@ from functools import lru_cache
 import pygame
 
 from sim.render import theme
-from sim.render.theme import MAX_SIDE_PX
+from sim.render.theme import MAX_SIDE_PX, Colour
 from sim.state import SimState
 from sim.types import KINDS, Kind
 
@@ -24,8 +24,9 @@ def draw_schematic(state: SimState, size: tuple[int, int] | None) -> pygame.Surf
     px = min(fitting, CELL_PX) if size is None else fitting
     picture = _empty(road.columns, road.rows, px).copy()
     for thing in state.world.things():
-        _spot(picture, thing.kind, thing.cell, px)
-    _spot(picture, Kind.AV, road.cell(state.world.av), px)
+        _spot(picture, thing.kind, thing.cell, px, theme.colour_of(thing.kind))
+    for number, index in enumerate(state.world.avs):
+        _spot(picture, Kind.AV, road.cell(index), px, theme.colour_of_ego(number))
     return picture
 
 
@@ -41,10 +42,10 @@ def _empty(columns: int, rows: int, px: int) -> pygame.Surface:
     return picture
 
 
-def _spot(picture: pygame.Surface, kind: Kind, cell: tuple[int, int], px: int) -> None:
+def _spot(picture: pygame.Surface, kind: Kind, cell: tuple[int, int], px: int, colour: Colour) -> None:
     inset = max(0, px // 8)
     spot = pygame.Rect(cell[0] * px, cell[1] * px, px, px).inflate(-2 * inset, -2 * inset)
     if KINDS[kind].sprite in _ROUND:
-        pygame.draw.ellipse(picture, theme.colour_of(kind), spot)
+        pygame.draw.ellipse(picture, colour, spot)
     else:
-        pygame.draw.rect(picture, theme.colour_of(kind), spot, border_radius=px // 5)
+        pygame.draw.rect(picture, colour, spot, border_radius=px // 5)

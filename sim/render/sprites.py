@@ -31,13 +31,14 @@ def sprite_of(thing: Thing, px: int) -> pygame.Surface:
 
 
 @lru_cache(maxsize=_SPRITES)
-def av_sprite(px: int) -> pygame.Surface:
-    """The ego, facing up the road, with its sensor on the roof."""
+def av_sprite(px: int, number: int = 0) -> pygame.Surface:
+    """An ego, facing up the road, with its sensor on the roof; `number` is its place in `World.avs`."""
     canvas, unit = _canvas(px)
-    _car(canvas, unit, Kind.AV, theme.AV, theme.AV_GLASS, lights=True)
+    paint = theme.colour_of_ego(number)
+    _car(canvas, unit, Kind.AV, paint, theme.AV_GLASS, lights=True)
     middle = canvas.get_rect().center
     sensor = (middle[0], middle[1] + unit * 0.1)
-    for size, colour in ((0.094, theme.AV_GLASS), (0.07, theme.SENSOR), (0.034, theme.AV)):
+    for size, colour in ((0.094, theme.AV_GLASS), (0.07, theme.SENSOR), (0.034, paint)):
         _ellipse(canvas, (*colour, 255), sensor, (unit * size, unit * size))
     return _add_shadow(_downscale(canvas, px))
 
@@ -265,7 +266,7 @@ def _look(thing: Thing) -> tuple[int, str, bool]:
 
 
 _DRAWN: Final[dict[str, Callable[[Thing, int], pygame.Surface]]] = {
-    "ego": lambda _, px: av_sprite(px),
+    "ego": lambda thing, px: av_sprite(px, int(thing.id.rpartition("-")[2]) - 1),
     "car": lambda thing, px: vehicle_sprite(px, *_look(thing)),
     "pedestrian": lambda thing, px: pedestrian_sprite(px, *_look(thing)),
     "pothole": lambda thing, px: pothole_sprite(px, thing.id),

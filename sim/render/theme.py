@@ -20,6 +20,8 @@ LANE_LINE: Final[Colour] = (112, 118, 127)
 FINISH: Final[tuple[Colour, Colour]] = ((238, 238, 234), (28, 30, 34))
 
 AV: Final[Colour] = (64, 132, 255)
+OTHER_AVS: Final[tuple[Colour, ...]] = ((150, 104, 255), (38, 188, 214), (246, 120, 190))
+"""egos beside the first, in the order of their ids"""
 AV_GLASS: Final[Colour] = (20, 38, 74)
 VEHICLES: Final[tuple[Colour, ...]] = (
     (222, 92, 84),
@@ -75,6 +77,11 @@ OTHER_KIND: Final[Colour] = (190, 130, 230)
 def colour_of(kind: str) -> Colour:
     """The colour of a kind where it is a mark and not a picture; one for all kinds without their own."""
     return SCHEMATIC.get(kind, OTHER_KIND)
+
+
+def colour_of_ego(number: int) -> Colour:
+    """The colour of an ego by its place in `World.avs`."""
+    return OTHER_AVS[(number - 1) % len(OTHER_AVS)] if number else AV
 
 
 REASONS: Final[dict[str, str]] = {

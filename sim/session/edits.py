@@ -24,6 +24,7 @@ from sim.actions import (
     WorldAction,
 )
 from sim.config import Config, ConfigError
+from sim.ego import Ego
 from sim.events import Event, EventType
 from sim.generation import GenerationError, assign_ids, lowest_ranked
 from sim.randomness import Stream
@@ -32,7 +33,7 @@ from sim.session.errors import EditError
 from sim.session.locate import nearest_first, place_for_adding, place_for_finding
 from sim.session.scenario import config_of_scenario, find_unavailable
 from sim.session.settings import NEEDS_A_NEW_ROAD, add_preference, change_setting, vehicles_for
-from sim.state import SimState, next_episode, reconfigure, restart_episode
+from sim.state import FIRST, SimState, next_episode, reconfigure, restart_episode
 from sim.types import KINDS, PLACEABLE, Kind, Outcome
 from sim.world import Thing, World
 from sim.world.boards import BOARDED
@@ -44,7 +45,10 @@ MAX_QUEUE = 100
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """One figure that differs: a count (`potholes`), a setting (`config.road`), `mode`, `queue`."""
+    """One figure that differs: a count (`potholes`), a setting (`config.road`), `mode`, `queue`.
+
+    Those of egos beside the first have its id before them (`av-2.mode`).
+    """
 
     path: str
     before: Any
@@ -93,15 +97,24 @@ def _apply(state: SimState, action: WorldAction) -> Applied:
             begun, event = restart_episode(state)
             return Applied(action, begun, events=(event,))
         case SetMode():
-            return Applied(action, state.with_ego(mode=action.mode, queue=()))
+            ego = _ego(state, action)
+            return Applied(action, state.with_ego(ego.id, mode=action.mode, queue=()))
         case Drive():
-            if len(state.queue) >= MAX_QUEUE:
+            ego = _ego(state, action)
+            if len(ego.queue) >= MAX_QUEUE:
                 raise EditError("too_many_moves", "move", most=MAX_QUEUE)
-            return Applied(action, state.with_ego(queue=(*state.queue, action.move)))
+            return Applied(action, state.with_ego(ego.id, queue=(*ego.queue, action.move)))
         case Prefer():
             return Applied(action, replace(state, config=add_preference(state.config, action.preference)))
         case Set() | Adjust():
             return _set(state, action)
+
+
+def _ego(state: SimState, action: SetMode | Drive) -> Ego:
+    """The ego that is meant, the first by default."""
+    if action.ego is not None and action.ego not in state.egos:
+        raise EditError("no_such_ego", "ego", id=action.ego)
+    return state.ego(action.ego)
 
 
 def _set(state: SimState, action: Set | Adjust) -> Applied:
@@ -303,8 +316,10 @@ def differences(before: SimState, after: SimState) -> tuple[Change, ...]:
             was, now = getattr(before.config, field.name), getattr(after.config, field.name)
             if was != now:
                 changes.append(Change(f"config.{field.name}", was, now))
-    if before.mode is not after.mode:
-        changes.append(Change("mode", before.mode, after.mode))
-    if before.queue != after.queue:
-        changes.append(Change("queue", before.queue, after.queue))
+    for was, ego in zip(before.egos.values(), after.egos.values(), strict=True):
+        path = "" if ego.id == FIRST else f"{ego.id}."
+        if was.mode is not ego.mode:
+            changes.append(Change(f"{path}mode", was.mode, ego.mode))
+        if was.queue != ego.queue:
+            changes.append(Change(f"{path}queue", was.queue, ego.queue))
     return tuple(changes)

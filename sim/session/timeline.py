@@ -15,15 +15,16 @@ from dataclasses import dataclass
 
 from sim.actions import WorldAction
 from sim.config import Config
-from sim.decide import decide, sense
+from sim.decide import announced_before, decide_each, sense
 from sim.events import Event, EventType
 from sim.plan import Decision, traits_of
 from sim.plan.safe_planning import failed_decision, is_foreign, recorded_decision
 from sim.session.edits import Applied, apply
 from sim.session.move_log import MoveLog
 from sim.session.persistent_list import PersistentList
-from sim.state import SimState, StepResult
+from sim.state import FIRST, EgoStep, SimState, StepResult
 from sim.transition import step
+from sim.types import Move
 
 SNAPSHOT_TICKS = 128
 """Work between two snapshots, in ticks that are driven again; twice that each time there are too many."""
@@ -266,7 +267,16 @@ class Timeline:
         Derived anew, but for that of a planner of another package: where its move is noted it is not asked
         again. In the present state it is what would be decided now.
         """
-        return decide(state, ego, self._noted(state))
+        step = self.taken(state, ego)
+        return None if step is None else step.decision
+
+    def taken(self, state: SimState, ego: str | None = None) -> EgoStep | None:
+        """The decision of `decided`, with what that ego saw and expected."""
+        return decide_each(state, self._noted(state)).get(ego or FIRST)
+
+    def announced(self, state: SimState, ego: str | None = None) -> dict[str, Move]:
+        """The moves that an ego knew of when it decided in a state of this timeline, by ego id."""
+        return announced_before(state, ego, self._noted(state)) if len(state.world.avs) > 1 else {}
 
     def led_to(self, state: SimState) -> StepResult:
         """The tick that a state of this timeline led to."""
