@@ -27,7 +27,6 @@ from sim.actions import (
     Reset,
     RoadType,
     Scenario,
-    SensorName,
     Set,
     SetCount,
     SetMode,
@@ -37,6 +36,7 @@ from sim.actions import (
     Where,
 )
 from sim.planner_names import PlannerName
+from sim.sensor_names import SensorName
 from sim.types import Move
 
 __all__ = ["ACTIONS", "Action", "Where", "dump", "load"]

@@ -17,6 +17,7 @@ from sim.config import Problem
 from sim.hazard_advice import NoAdviceError
 from sim.rules.versions import NewerRulesError
 from sim.session.errors import EditError
+from sim.types import KINDS, Kind
 
 
 @lru_cache(maxsize=16)
@@ -81,12 +82,21 @@ class Refusals:
         if isinstance(value, Problem):
             return self.problem(value)
         if name == "kind":
-            return self._data["things"][value]
+            return self._nouns(str(value))
         if isinstance(value, tuple):
             return ", ".join(map(str, value))
         if name in ("low", "high") and isinstance(value, float) and value.is_integer():
             return int(value)
         return value
+
+    def _nouns(self, kind: str) -> Mapping[str, str]:
+        """The words for a kind, made from its names where the language has none of its own."""
+        nouns: Mapping[str, str] | None = self._data["things"].get(kind)
+        if nouns is not None:
+            return nouns
+        other: Mapping[str, str] = self._data["things"]["other"]
+        plural = KINDS[Kind(kind)].plural
+        return {form: words.format(one=kind, many=plural) for form, words in other.items()}
 
 
 def _form(form: Mapping[str, str], value: object) -> str:

@@ -13,6 +13,7 @@ from typing import Annotated, Literal
 from annotated_types import Ge, Gt, Le
 
 from sim.planner_names import PlannerName
+from sim.sensor_names import SensorName
 from sim.types import Mode, Move
 
 PlaceableKind = Literal["pothole", "vehicle", "barrier", "pedestrian", "av"]
@@ -26,7 +27,6 @@ Preference = Literal["avoid_potholes", "smooth_ride", "fastest", "cautious"]
 """What a vehicle can be asked to mind; `balanced` is none of them."""
 Wish = Literal[Preference, "balanced"]
 """A preference as it is said."""
-SensorName = Literal["perfect", "camera", "lidar", "radar", "fusion"]
 
 Parameter = Literal[
     "weather",

@@ -170,7 +170,7 @@ class Config(Derived):
     """how planners that weigh costs should weigh them; the balance is in `sim.search.costs`"""
     safety_buffer: int = 1
     """cells around a mover that cost something to be in, for planners that weigh costs"""
-    sensor: str = "perfect"
+    sensor: str = sensor_names.DEFAULT_SENSOR
     """what the vehicle sees with (`sim.perceive`)"""
     dynamics: str = DEFAULT_DYNAMICS
     """how autonomous vehicles move (`sim.rules.dynamics`)"""

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Final, get_args
+from typing import Final, Literal, get_args
 
-from sim.actions import SensorName
-
-BUILT_IN: Final = ("perfect",)
+BuiltIn = Literal["perfect"]
 """Names of the sensors that come with the project (`sim.perceive`)."""
-PROMISED: Final = tuple(name for name in get_args(SensorName) if name not in BUILT_IN)
+Promised = Literal["camera", "lidar", "radar", "fusion"]
 """Names that people may say and this version has not."""
+SensorName = Literal[BuiltIn, Promised]
+"""What may be said in an action."""
+
+DEFAULT_SENSOR: Final = "perfect"
+BUILT_IN: Final[tuple[str, ...]] = get_args(BuiltIn)
+PROMISED: Final[tuple[str, ...]] = get_args(Promised)
 
 _registered: list[str] = []
 

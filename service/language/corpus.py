@@ -14,13 +14,13 @@ from sim.actions import (
     Layout,
     Parameter,
     RoadType,
-    SensorName,
     TimeOfDay,
     Traffic,
     Weather,
     Wish,
 )
 from sim.planner_names import BUILT_IN, PROMISED
+from sim.sensor_names import SensorName
 from sim.types import PLACEABLE, Move
 
 CHOICES: dict[str, tuple[str, ...]] = {

@@ -12,8 +12,9 @@ from functools import cache
 from typing import Any, Final, get_args
 
 from service.actions import ACTIONS
-from sim.actions import SensorName, TimeOfDay, Traffic, Weather
+from sim.actions import TimeOfDay, Traffic, Weather
 from sim.planner_names import ALIASES, BUILT_IN, PROMISED
+from sim.sensor_names import SensorName
 
 MAY: Final = frozenset(
     (

@@ -10,6 +10,7 @@ from service.sessions.facts import Asked
 from service.wire.confidence import confidence_json
 from sim.explain.confidence import Clarity, Confidence, Method, confidence
 from sim.explain.facts import QuestionError
+from sim.perceive import sensor_named
 from sim.plan import Measure
 from sim.state import SimState
 from sim.types import Outcome
@@ -64,7 +65,9 @@ class Confidences:
         if found.method is Method.ALL_FUTURES:
             return {1.0: "all_arrive", 0.0: "none_arrives"}.get(found.arrives, "exact")
         if found.arrives:
-            return "one_run_no_matter" if found.chance else "one_run_arrives"
+            if found.chance:
+                return "one_run_no_matter"
+            return "one_run_arrives" if sensor_named(run.config.sensor).faithful else "one_run_errs"
         if found.crashes:
             return "one_run_crashes"
         last = run.world.episode_tick + (found.end_ticks or (0, 0))[1]

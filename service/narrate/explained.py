@@ -70,6 +70,8 @@ class _Telling:
             fact = self._fact(hindered)
         if not hindered:
             told = self._say("clear", fact=fact, reason=self._reason(decision.chosen))
+            if self._explanation.causes:
+                return self._joined([told, *self._proofs()])
             return self._joined([told, *(self._blocked(flip) for flip in self._explanation.counterfactuals)])
         reasons = self._sayings.all_met(hindered, "then", self._naming)
         return self._joined([self._say("because", fact=fact, reasons=reasons), *self._proofs()])

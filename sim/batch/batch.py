@@ -48,6 +48,7 @@ from sim.generation import GenerationError
 from sim.planner_names import Alias, canonical
 from sim.rules.behaviour import DEFAULT_BEHAVIOUR
 from sim.rules.dynamics import DEFAULT_DYNAMICS
+from sim.sensor_names import DEFAULT_SENSOR
 from sim.state import SimState
 
 BatchPlanner = Literal["priority", "bfs", "weighted", "astar", "dijkstra", Alias]
@@ -73,7 +74,8 @@ class Batch(Lanes):
     def __init__(self, configs: Sequence[Config], *, after: After = "next") -> None:
         """Every lane at its first episode's beginning. Raises `ValueError` unless all roads have one size.
 
-        Raises `ValueError` as well for other dynamics than "grid" and another behaviour than "sideways".
+        Raises `ValueError` as well for other dynamics than "grid", another behaviour than "sideways" and
+        another sensor than "perfect".
         Raises `GenerationError` where a road must be drivable and none is found. What a configuration says of
         its planner is left aside: `run` names one.
         """
@@ -315,8 +317,9 @@ class Batch(Lanes):
 
 
 def _check_rules(configs: Sequence[Config]) -> None:
-    """Raises `ValueError` for a motion or a behaviour that is not compiled."""
-    for name, compiled in (("dynamics", DEFAULT_DYNAMICS), ("behaviour", DEFAULT_BEHAVIOUR)):
+    """Raises `ValueError` for a motion, a behaviour or a sensor that is not compiled."""
+    known = {"dynamics": DEFAULT_DYNAMICS, "behaviour": DEFAULT_BEHAVIOUR, "sensor": DEFAULT_SENSOR}
+    for name, compiled in known.items():
         for value in sorted({getattr(config, name) for config in configs} - {compiled}):
             raise ValueError(
                 f"a batch has {name} {compiled!r} only, not {value!r}; run such roads one by one"

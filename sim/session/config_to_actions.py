@@ -12,6 +12,7 @@ from typing import Any
 
 from sim.actions import Prefer, Scenario, Set, WorldAction
 from sim.config import COUNTS, Config
+from sim.sensor_names import DEFAULT_SENSOR
 from sim.session.errors import EditError
 from sim.session.scenario import ROADS, TRAFFIC, config_of_scenario, default_counts
 from sim.session.settings import add_preference, change_setting
@@ -92,5 +93,5 @@ def _scenario(config: Config) -> Scenario:
         traffic=config.traffic,
         **counts,
         planner=None if config.planner == Config().planner else config.planner,  # type: ignore[arg-type]
-        sensor=None if config.sensor == "perfect" else config.sensor,  # type: ignore[arg-type]
+        sensor=None if config.sensor == DEFAULT_SENSOR else config.sensor,  # type: ignore[arg-type]
     )

@@ -93,5 +93,5 @@ def config_of_scenario(config: Config, scenario: Scenario) -> Config:
         pothole_probability=preset.pothole_probability,
         **counts,
         planner=scenario.planner or default_under(config.rules, "planner", _PLANNER),
-        sensor=scenario.sensor or "perfect",
+        sensor=scenario.sensor or sensor_names.DEFAULT_SENSOR,
     )

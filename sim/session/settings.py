@@ -12,6 +12,8 @@ from typing import Any, Final, get_args
 from sim.actions import Adjust, Preference, Set, Traffic, Wish
 from sim.config import COUNTS, RANGES, Config, ConfigError
 from sim.planner_names import PROMISED
+from sim.rules.dynamics import DEFAULT_DYNAMICS
+from sim.sensor_names import DEFAULT_SENSOR
 from sim.session.errors import EditError
 from sim.session.scenario import TRAFFIC
 from sim.types import KINDS, Kind
@@ -31,7 +33,12 @@ STEPS: Final[dict[str, float]] = {
     "seed": 1,
 }
 """How far "up" and "down" go, for every number that can be set."""
-AS_IT_IS: Final = {"sensor": "perfect", "weather": "clear", "time_of_day": "day", "dynamics": "grid"}
+AS_IT_IS: Final = {
+    "sensor": DEFAULT_SENSOR,
+    "weather": "clear",
+    "time_of_day": "day",
+    "dynamics": DEFAULT_DYNAMICS,
+}
 """Settings that this version has in one form only."""
 _COUNTS: Final = {
     **{probability: name for kind, name in COUNTS.items() if (probability := KINDS[kind].probability)},

@@ -22,6 +22,7 @@ from sim.state import SimState
 from sim.types import Mode, Outcome
 from tests.narrate.test_narrator import ID, looks_like_sentences
 from tests.sim.explain.calibration import drawn_config
+from tests.sim.perceive.sensors import Missing, registered
 from tests.sim.roads import road, run_on
 
 SAYINGS = Sayings.load()
@@ -100,6 +101,14 @@ def test_no_more_is_stated_than_is_known(parts: dict[str, Any], beginning: str) 
     assert text.startswith(beginning), text
     assert looks_like_sentences(text)
     assert "100 %" not in text
+
+
+def test_nobody_claims_to_see_everything_who_may_not() -> None:
+    with registered(Missing(frozenset())):
+        told = answer(run_on(OPEN.world, sensor="missing"))["text"]
+    assert told.startswith("I am sure: nothing is left to chance, and whatever my sensor misses")
+    assert "see everything" not in told
+    assert looks_like_sentences(told)
 
 
 def test_how_it_ends_otherwise_is_told() -> None:

@@ -102,6 +102,18 @@ def test_every_kind_can_be_refused(language: str, kind: str, code: str) -> None:
     assert all(text.endswith(".") for text in texts)
 
 
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("code", [code for code, (_, facts) in EDITS.items() if "kind" in facts])
+def test_a_kind_without_words_goes_by_its_name(language: str, code: str) -> None:
+    """So that a new kind needs no words before it can be refused."""
+    path = prompts_folder() / "sayings" / language / "refusals.yaml"
+    data = yaml.safe_load(path.read_text("utf-8"))
+    del data["things"]["pedestrian"]
+    facts = {name: FACTS[name][0] for name in EDITS[code][1]} | {"kind": Kind.PEDESTRIAN}
+    for more in ({}, {"count": 1} if "count" in facts else {}):
+        assert "pedestrian" in told(Refusals(data), "edit", code, facts | more)
+
+
 def keys(data: Mapping[str, Any], path: str = "") -> Iterator[str]:
     """Every key under which a sentence stands."""
     for section in ("edits", "problems", "advice", "rules", "session", "pace"):

@@ -6,6 +6,7 @@ import pytest
 
 from service.sessions.snapshots import TooLargeError
 from sim import sensor_names
+from sim.batch import Batch
 from sim.config import Config, ConfigError
 from sim.decide import sense
 from sim.perceive import NO_BELIEF, perceive_truth, register_sensor, sensor_named, unregister_sensor
@@ -118,3 +119,13 @@ def test_sensors_say_what_they_are() -> None:
     assert {name for name, (stateless, _) in traits.items() if not stateless} == {Delayed.name, Dropping.name}
     assert not any(faithful for _, faithful in traits.values())
     assert Phantom((0, 0)).stateless
+
+
+@pytest.mark.parametrize("sensor", NAMES)
+def test_a_batch_sees_the_truth_and_refuses_what_does_not(sensor: str) -> None:
+    states = [SimState.start(Config(sensor=name)) for name in ("perfect", sensor)]
+    for configs in ([state.config for state in states], [states[1].config]):
+        with pytest.raises(ValueError, match=f"sensor 'perfect' only, not '{sensor}'"):
+            Batch(configs)
+    with pytest.raises(ValueError, match=f"sensor 'perfect' only, not '{sensor}'"):
+        Batch.of(states)
