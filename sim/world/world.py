@@ -8,10 +8,11 @@ is derived: a mover on a pothole is *disabled* for as long as the pothole is the
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from hashlib import blake2b
 from struct import Struct, pack
 
+from sim.fast_replace import field_setter
 from sim.types import PLACEABLE, Cell, Kind, Outcome
 from sim.world.boards import NO_BOARDS, Boards
 from sim.world.grid import Board, Road, bits
@@ -224,11 +225,14 @@ class World:
         hazards = {index: name for index, name in self.hazards.items() if kept(name)}
         moving = sum(1 << index for index in movers)
         fixed = sum(1 << index for index in hazards)
-        return replace(
+        return _cut_down(
             self,
-            right=self.right & moving,
-            left=self.left & moving,
-            boards=self.boards.within(fixed, moving),
-            movers=movers,
-            hazards=hazards,
+            self.right & moving,
+            self.left & moving,
+            self.boards.within(fixed, moving),
+            movers,
+            hazards,
         )
+
+
+_cut_down = field_setter(World, "right", "left", "boards", "movers", "hazards")
