@@ -5,7 +5,7 @@ Risk and preferences enter as further terms beside `fixed` and the slices.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Final
@@ -153,6 +153,19 @@ class Forecast:
                 return _union(self.steps(start))
             right |= self.slices.standing
         return self.dynamics.spread(start, self.boards.fixed | right | left, came_right, came_left)
+
+    def spreads(self, start: Board, first: int, stop: int) -> Iterator[Board]:
+        """`spread` again and again, from `first` until before `stop` ticks from now."""
+        if self.egos:
+            for ahead in range(first, stop):
+                start = self.spread(start, ahead)
+                yield start
+            return
+        fixed, slices, spread = self.boards.fixed, self.slices, self.dynamics.spread
+        for ahead in range(first, stop):
+            right, left, came_right, came_left = slices[ahead]
+            start = spread(start, fixed | right | left, came_right, came_left)
+            yield start
 
     def spread_back(self, end: Board, ahead: int = 0) -> Board:
         """Every cell from which one move, made `ahead` ticks from now, leads into a cell of `end`.
