@@ -5,13 +5,13 @@ Risk and preferences enter as further terms beside `fixed` and the slices.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from enum import StrEnum
 from typing import Final
 
 from sim.config import Config
-from sim.fast_replace import fast_constructor
+from sim.fast_replace import fast_constructor, field_setter
 from sim.forecast.mover_rollout import RollOut, other_end
 from sim.perceive import OtherEgo, Percept, perceive_truth
 from sim.rules.dynamics import Dynamics
@@ -136,7 +136,7 @@ class Forecast:
     def standing(self) -> Forecast | None:
         """What to expect if the vehicle stays now and a mover brakes for it; None where none would."""
         slices = self.slices.if_standing()
-        return None if slices is None else replace(self, slices=slices)
+        return None if slices is None else _rolled_out(self, slices)
 
     def after(self, move: Move) -> Forecast:
         """The forecast that holds once the vehicle has made this move now."""
@@ -154,6 +154,19 @@ class Forecast:
             right |= self.slices.standing
         return self.dynamics.spread(start, self.boards.fixed | right | left, came_right, came_left)
 
+    def spreads(self, start: Board, first: int, stop: int) -> Iterator[Board]:
+        """`spread` again and again, from `first` until before `stop` ticks from now."""
+        if self.egos:
+            for ahead in range(first, stop):
+                start = self.spread(start, ahead)
+                yield start
+            return
+        fixed, slices, spread = self.boards.fixed, self.slices, self.dynamics.spread
+        for ahead in range(first, stop):
+            right, left, came_right, came_left = slices[ahead]
+            start = spread(start, fixed | right | left, came_right, came_left)
+            yield start
+
     def spread_back(self, end: Board, ahead: int = 0) -> Board:
         """Every cell from which one move, made `ahead` ticks from now, leads into a cell of `end`.
 
@@ -168,10 +181,12 @@ class Forecast:
     def steps(self, start: Board, ahead: int = 0) -> Steps:
         """Where vehicles in `start` may be one tick later, `ahead` ticks from now. Nobody brakes."""
         right, left, came_right, came_left = self.slices[ahead]
-        if self.egos and ahead:
+        if not self.egos:
+            return self.dynamics.steps(start, self.boards.fixed | right | left, came_right, came_left)
+        if ahead:
             right |= self.slices.standing
         found = self.dynamics.steps(start, self.boards.fixed | right | left, came_right, came_left)
-        return self._without_egos(start, found) if self.egos and not ahead else found
+        return found if ahead else self._without_egos(start, found)
 
     def _without_egos(self, start: Board, steps: Steps) -> Steps:
         """The steps of the coming tick that touch no other ego."""
@@ -198,30 +213,31 @@ class Forecast:
             return StepVerdict.OFF_ROAD, ()
         if start == end == self.ego and ahead == 0 and (standing := self.standing) is not None:
             return standing.check_step(start, end)
-        motion = self.slices[ahead]
+        right, left, came_right, came_left = self.slices[ahead]
+        moving, fixed = right | left, self.boards.fixed
         swept = self.dynamics.swept(start, end)
         verdict = StepVerdict.FREE
         who: tuple[str, ...] = ()
         passed = None
         if swept.from_left:
-            passed = [cell for cell in swept.from_left if motion.came_right >> cell & 1]
+            passed = [cell for cell in swept.from_left if came_right >> cell & 1]
         if swept.from_right:
-            passed = [cell for cell in swept.from_right if motion.came_left >> cell & 1] + (passed or [])
+            passed = [cell for cell in swept.from_right if came_left >> cell & 1] + (passed or [])
         if passed:
             aside = passed == [start] and start // self.road.columns == end // self.road.columns
             verdict = StepVerdict.MOVER_SWAPS if aside else StepVerdict.MOVER_CROSSES
             who = tuple(self.slices.movers(ahead)[cell] for cell in passed)
         for cell in swept.cells:
             bit = 1 << cell
-            if bit & (motion.right | motion.left):
+            if bit & moving:
                 who = (self.slices.movers(ahead)[cell], *who)
                 if bit & self.disabled:
                     verdict = StepVerdict.DISABLED_MOVER
-                elif bit & (motion.came_right | motion.came_left):
+                elif bit & (came_right | came_left):
                     verdict = StepVerdict.MOVER_ENTERS
                 else:
                     verdict = StepVerdict.MOVER_STAYS
-            if bit & self.boards.fixed:
+            if bit & fixed:
                 who = (self.hazards[cell], *who)
                 if not bit & self.disabled:
                     verdict = _VERDICTS[self.boards.fixed_kind(cell)]
@@ -270,6 +286,9 @@ _expected = fast_constructor(
     "slices",
     "egos",
 )
+
+
+_rolled_out = field_setter(Forecast, "slices")
 
 
 def _union(boards: Iterable[Board]) -> Board:

@@ -20,7 +20,7 @@ from sim.rules.behaviour import NOBODY, Reactions
 from sim.rules.behaviour_registry import BEHAVIOURS
 from sim.rules.dynamics import Dynamics
 from sim.rules.dynamics_registry import dynamics_on
-from sim.rules.kinds import shift_boards
+from sim.rules.kinds import shift_marked, with_marked
 from sim.rules.traffic import Motion
 from sim.rules.traffic_cache import cached_shift_table, cached_step
 from sim.types import Move
@@ -37,9 +37,12 @@ class RollOut(Sequence[Motion]):
         "_fixed",
         "_horizon",
         "_left",
+        "_left_edge",
+        "_marked",
+        "_marked_after",
         "_reactions",
         "_right",
-        "_shifted",
+        "_right_edge",
         "_slices",
         "_standing",
         "_stands",
@@ -65,9 +68,11 @@ class RollOut(Sequence[Motion]):
         self._fixed = boards.fixed
         self._disabled = (percept.right | percept.left) & boards.holding
         self._slices: list[Motion] = []
-        self._shifted = [boards]
+        self._marked = boards.marked if boards.others else ()
+        self._marked_after: list[tuple[Board, ...]] = []
         self._tables: list[Mapping[int, str]] = []
         self._right, self._left = percept.right, percept.left
+        self._left_edge, self._right_edge = percept.road.left_edge, percept.road.right_edge
         self._standing: Board | None = None
 
     def __len__(self) -> int:
@@ -102,11 +107,14 @@ class RollOut(Sequence[Motion]):
 
     def boards(self, ahead: int) -> Boards:
         """Where things of which kind are expected, `ahead` + 1 ticks from now."""
-        if not self._shifted[0].others:
-            return self._shifted[0]  # none of them moves
-        while len(self._shifted) <= ahead + 1:
-            self._shifted.append(shift_boards(self._shifted[-1], self[len(self._shifted) - 1]))
-        return self._shifted[ahead + 1]
+        boards, marked = self.percept.boards, self.marked(ahead)
+        return with_marked(boards, marked) if marked else boards
+
+    def marked(self, ahead: int) -> tuple[Board, ...]:
+        """Where the movers of each kind in `MARKED` are expected then; empty where there are none."""
+        if len(self._marked_after) <= ahead:
+            self[ahead]  # rolls out that far
+        return self._marked_after[ahead]
 
     @property
     def standing(self) -> Board:
@@ -122,23 +130,22 @@ class RollOut(Sequence[Motion]):
         ego, motion = self.percept.ego, self[0]
         if self._stands or not motion.occupied >> ego & 1:
             return None
-        if self._behaviour.brake(motion, 1 << ego, self._reactions) == motion:
+        braked = self._behaviour.brake(motion, 1 << ego, self._reactions)
+        if braked is motion or braked == motion:
             return None
         return RollOut(self.percept, self._horizon, stands=True)
 
     def _next(self) -> Motion:
-        percept, ahead = self.percept, len(self._slices)
-        road = percept.road
-        boards = self.boards(ahead - 1) if ahead else percept.boards
+        percept, ahead, marked = self.percept, len(self._slices), self._marked
         if ahead:
             motion = self._behaviour.step(
                 self._right,
                 self._left,
-                boards.marked,
+                marked,
                 self._disabled,
                 self._fixed,
-                road.left_edge,
-                road.right_edge,
+                self._left_edge,
+                self._right_edge,
                 percept.episode_tick + ahead,
                 0,
                 NOBODY,
@@ -149,11 +156,11 @@ class RollOut(Sequence[Motion]):
                 self._behaviour,
                 self._right,
                 self._left,
-                boards.marked,
+                percept.boards.marked,
                 self._disabled,
                 self._fixed,
-                road.left_edge,
-                road.right_edge,
+                self._left_edge,
+                self._right_edge,
                 percept.episode_tick,
                 percept.vehicles,
                 self._reactions,
@@ -163,6 +170,9 @@ class RollOut(Sequence[Motion]):
         if percept.egos:
             motion = self._braked_for_egos(motion, ahead)
         self._right, self._left = motion.right, motion.left
+        if marked:
+            self._marked = marked = shift_marked(marked, motion)
+        self._marked_after.append(marked)
         return motion
 
     def _braked_for_egos(self, motion: Motion, ahead: int) -> Motion:

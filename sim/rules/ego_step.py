@@ -145,4 +145,4 @@ def closed_starts(
 
 def beside(board: Board, left_edge: Board, right_edge: Board) -> Board:
     """A set of cells with their neighbours to the left and right."""
-    return board | (board & ~left_edge) >> 1 | (board & ~right_edge) << 1
+    return board | (board ^ board & left_edge) >> 1 | (board ^ board & right_edge) << 1

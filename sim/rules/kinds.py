@@ -38,7 +38,11 @@ def shift_boards(boards: Boards, motion: Motion) -> Boards:
     """The boards one tick later: those of movers moved along with them."""
     if not boards.others:
         return boards
-    marked = shift_marked(boards.marked, motion)
+    return with_marked(boards, shift_marked(boards.marked, motion))
+
+
+def with_marked(boards: Boards, marked: tuple[Board, ...]) -> Boards:
+    """The boards with those of the movers of each kind in `MARKED` replaced."""
     return _shifted(boards, marked, union(marked))
 
 

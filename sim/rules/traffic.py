@@ -105,7 +105,7 @@ def shift_board(board: Board, motion: Motion) -> Board:
     """A subset of the movers, moved along with them."""
     gone_right = board & motion.came_right >> 1
     gone_left = board & motion.came_left << 1
-    return gone_right << 1 | gone_left >> 1 | board & ~gone_right & ~gone_left
+    return board ^ (gone_right | gone_left) | gone_right << 1 | gone_left >> 1
 
 
 def shift_table(table: Mapping[int, str], motion: Motion) -> dict[int, str]:

@@ -16,8 +16,9 @@ def cells_that_may_arrive(forecast: Forecast, limit: int) -> list[Board]:
     road, dynamics = forecast.road, forecast.dynamics
     free, goal = road.all & ~forecast.fixed, road.row(0)
     boards = [goal & free]
+    slices, may_come_from, there = forecast.slices, dynamics.may_come_from, boards[0]
     for ahead in reversed(range(limit)):
-        there = boards[-1]
-        entered = there & ~forecast.slices[ahead].occupied
-        boards.append((goal | dynamics.may_come_from(there, entered)) & free)
+        right, left, _, _ = slices[ahead]
+        there = (goal | may_come_from(there, there ^ there & (right | left))) & free
+        boards.append(there)
     return boards[::-1]

@@ -44,12 +44,11 @@ def reachability(forecast: Forecast, start: Board, limit: int, *, after: int = 0
     layers = [start]
     if start & goal:
         return Reachability((start,), 0)
-    for ahead in range(after, after + limit):
-        start = forecast.spread(start, ahead)
-        layers.append(start)
-        if start & goal:
-            return Reachability(tuple(layers), ahead + 1 - after)
-        if not start:
+    for there in forecast.spreads(start, after, after + limit):
+        layers.append(there)
+        if there & goal:
+            return Reachability(tuple(layers), len(layers) - 1)
+        if not there:
             break
     return Reachability(tuple(layers), None)
 

@@ -10,22 +10,24 @@ search (Silver, "Cooperative pathfinding", 2005), with the part of the environme
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from sim.config import Config
+from sim.fast_replace import field_setter
 from sim.forecast import Forecast
-from sim.rules.behaviour import NOBODY, Reactions
+from sim.rules.behaviour import NOBODY, Behaviour, Reactions
 from sim.rules.dynamics import Dynamics
 from sim.rules.dynamics_registry import dynamics_on
-from sim.rules.kinds import shift_marked
+from sim.rules.ego_step import Steps
+from sim.rules.kinds import shift_marked, with_marked
 from sim.rules.traffic import Motion
 from sim.search.dead_ends import cells_that_may_arrive
 from sim.types import MOVES, Move
 from sim.world import World
 from sim.world.boards import Boards
-from sim.world.grid import Board, Road, bits, board_of, union
+from sim.world.grid import Board, Road, bits, board_of
 
 
 class ImpatientError(Exception):
@@ -40,6 +42,29 @@ class Row(NamedTuple):
     left: Board
     marked: tuple[Board, ...]
     """the movers of each kind in `MARKED`; empty where there are none"""
+
+
+class Surroundings(NamedTuple):
+    """What a tick holds for all vehicles in one row: their row and those a move may lead to, as a road."""
+
+    steps: Callable[[Board, Board, Board, Board], Steps]
+    """the motion on that road (`Dynamics.steps`)"""
+    below: int
+    """the index of its first cell on the whole road"""
+    before: int
+    """its cells before the vehicle's row"""
+    unmoved: Board
+    """what does not move, in any row"""
+    taken: Board
+    """where movers are after the tick, in the rows before the vehicle's; so are the next two"""
+    came_right: Board
+    came_left: Board
+    fixed: Board
+    """columns of the vehicle's row that are taken by what does not move"""
+    holding: Board
+    """columns in which movers are held"""
+    entered: dict[int, Row]
+    """what the rows before hold after the tick, filled as they are entered"""
 
 
 Layer = dict[Row, Board]
@@ -57,6 +82,10 @@ class ReactiveSearch:
     """states that are looked at before it is given up; None: all there are"""
     _windows: tuple[Dynamics, ...] = field(init=False)
     """the motion on a road of so many rows ahead of the vehicle"""
+    _behaviour: Behaviour = field(init=False)
+    _ahead: int = field(init=False)
+    _around: dict[int, Surroundings] = field(init=False)
+    """by number of the row, `_ahead` ticks from now: the latest tick that was asked about"""
 
     def __post_init__(self) -> None:
         dynamics, columns = self.forecast.dynamics, self.world.road.columns
@@ -64,6 +93,8 @@ class ReactiveSearch:
             dynamics_on(Road.of(columns, ahead + 1), dynamics.name, dynamics.bodies)
             for ahead in range(dynamics.rows_a_tick + 1)
         )
+        self._behaviour = self.config.mover_behaviour
+        self._ahead, self._around = 0, {}
 
     def least_ticks(self, limit: int) -> int | None:
         """Ticks of a quickest way to row 0 within `limit` ticks; None if there is none.
@@ -106,16 +137,17 @@ class ReactiveSearch:
         if not hopeful[0] >> world.av & 1:
             return None
         looked_at = 0
-        while len(layers) <= limit:
+        for ahead in range(limit):
             after: Layer = {}
-            looked_at += sum(columns.bit_count() for columns in layers[-1].values())
-            if self.patience is not None and looked_at > self.patience:
-                raise ImpatientError
+            if self.patience is not None:
+                looked_at += sum(columns.bit_count() for columns in layers[-1].values())
+                if looked_at > self.patience:
+                    raise ImpatientError
             for row, columns in layers[-1].items():
                 for start in bits(columns):
-                    for _, there, end in self._steps(row, start, len(layers) - 1):
+                    for _, there, end in self._steps(row, start, ahead):
                         after[there] = after.get(there, 0) | 1 << end
-            after = self._kept(after, hopeful[len(layers)])
+            after = self._kept(after, hopeful[ahead + 1])
             layers.append(after)
             if any(row.number == 0 for row in after):
                 return layers
@@ -131,61 +163,90 @@ class ReactiveSearch:
 
     def _steps(self, row: Row, column: int, ahead: int) -> Iterator[tuple[int, Row, int]]:
         """The moves that meet nothing: place in `Move`, the row after it, and the column."""
-        columns = self.world.road.columns
-        fixed = self._fixed(row.number)
-        moved, stood = self._motions(row, column, fixed, ahead)
-        coming, world = self.forecast.slices[ahead], self.world
-        # The vehicle's row and those that a move may lead to, as a road of their own.
-        window = self._windows[min(row.number, len(self._windows) - 1)]
-        ahead_rows = (window.road.rows - 1) * columns
-        below, front = row.number * columns - ahead_rows, (1 << ahead_rows) - 1
-        came_right = coming.came_right >> below & front | moved.came_right << ahead_rows
-        came_left = coming.came_left >> below & front | moved.came_left << ahead_rows
-        unmoved = (world.fixed | self._taken(row.number * columns + column, ahead)) >> below
-        taken = coming.occupied >> below & front
-        start = 1 << ahead_rows + column
-        steps = window.steps(start, unmoved | taken | moved.occupied << ahead_rows, came_right, came_left)
+        own, columns = row.number, self.world.road.columns
+        if ahead != self._ahead:
+            self._ahead, self._around = ahead, {}
+        around = self._around.get(own)
+        if around is None:
+            around = self._around[own] = self._surroundings(own, ahead)
+        free_steps, below, before, unmoved, taken, came_right, came_left, fixed, holding, entered = around
+        moved, stood = self._motions(row, column, fixed, holding, ahead)
+        if self.forecast.egos:
+            unmoved |= self._taken(own * columns + column, ahead) >> below
+        right, left, entered_right, entered_left = moved
+        start = 1 << before + column
+        steps = free_steps(
+            start,
+            unmoved | taken | (right | left) << before,
+            came_right | entered_right << before,
+            came_left | entered_left << before,
+        )
         here = self._after(row, moved)
-        entered: dict[int, Row] = {row.number: here}
         for index, end in enumerate(steps[:-1]):
             if end:
                 number, to = divmod(end.bit_length() - 1 + below, columns)
-                if number not in entered:
-                    entered[number] = self._entered(number, ahead)
-                yield index, entered[number], to
+                if number == own:
+                    yield index, here, to
+                    continue
+                there = entered.get(number)
+                if there is None:
+                    there = entered[number] = self._entered(number, ahead)
+                yield index, there, to
         if stood is moved:
             if steps.stay:
                 yield len(MOVES) - 1, here, column
-        elif window.steps(
+        elif free_steps(
             start,
-            unmoved | taken | stood.occupied << ahead_rows,
-            coming.came_right >> below & front | stood.came_right << ahead_rows,
-            coming.came_left >> below & front | stood.came_left << ahead_rows,
+            unmoved | taken | stood.occupied << before,
+            came_right | stood.came_right << before,
+            came_left | stood.came_left << before,
         ).stay:
             yield len(MOVES) - 1, self._after(row, stood), column
 
-    def _motions(self, row: Row, column: int, fixed: Board, ahead: int) -> tuple[Motion, Motion]:
+    def _surroundings(self, number: int, ahead: int) -> Surroundings:
+        """What a tick holds for the vehicles in a row."""
+        boards, columns = self.world.boards, self.world.road.columns
+        window = self._windows[min(number, len(self._windows) - 1)]
+        before = (window.road.rows - 1) * columns
+        below, front = number * columns - before, (1 << before) - 1
+        right, left, came_right, came_left = self.forecast.slices[ahead]
+        return Surroundings(
+            window.steps,
+            below,
+            before,
+            boards.fixed >> below,
+            (right | left) >> below & front,
+            came_right >> below & front,
+            came_left >> below & front,
+            boards.fixed >> number * columns & (1 << columns) - 1,
+            boards.holding >> number * columns & (1 << columns) - 1,
+            {},
+        )
+
+    def _motions(
+        self, row: Row, column: int, fixed: Board, holding: Board, ahead: int
+    ) -> tuple[Motion, Motion]:
         """The movers of the row in this tick while the vehicle leaves its cell, and while it stands."""
-        world, behaviour = self.world, self.config.mover_behaviour
+        world, behaviour = self.world, self._behaviour
         columns, bit = world.road.columns, 1 << column
-        moving, whole = row.right | row.left, (1 << columns) - 1
+        moving = row.right | row.left
         reactions = self._reactions(row, column, ahead) if moving & (bit << 1 | bit >> 1) else NOBODY
         moved = behaviour.step(
             row.right,
             row.left,
             row.marked,
-            moving & world.boards.holding >> row.number * columns,
+            moving & holding,
             fixed,
             1,
             1 << columns - 1,
-            world.episode_tick + ahead,
+            world.tick - world.episode_start + ahead,
             bit,
             reactions,
         )
         if self.forecast.egos:
             standing = self._others_standing(row.number, ahead)
-            moved = behaviour.brake(moved, standing, Reactions(attentive=whole))
-        return moved, behaviour.brake(moved, bit, reactions) if moved.occupied & bit else moved
+            moved = behaviour.brake(moved, standing, Reactions(attentive=(1 << columns) - 1))
+        return moved, behaviour.brake(moved, bit, reactions) if (moved.right | moved.left) & bit else moved
 
     def _taken(self, cell: int, ahead: int) -> Board:
         """The cells that other egos keep the vehicle from entering, from a cell, in this tick."""
@@ -203,24 +264,25 @@ class ReactiveSearch:
     def _reactions(self, row: Row, column: int, ahead: int) -> Reactions:
         """Who of the row may react in this tick, as it is drawn."""
         world, below = self.world, row.number * self.world.road.columns
-        there = replace(
+        there = _one_row(
             world,
-            tick=world.tick + ahead,
-            avs=(below + column,),
-            right=row.right << below,
-            left=row.left << below,
-            boards=_only(world.boards, row.marked, below),
+            world.tick + ahead,
+            (below + column,),
+            row.right << below,
+            row.left << below,
+            _only(world.boards, row.marked, below),
         )
-        found = self.config.mover_behaviour.reactions(there, self.config)
+        found = self._behaviour.reactions(there, self.config)
         return Reactions(found.yielding >> below, found.attentive >> below)
 
     def _after(self, row: Row, motion: Motion) -> Row:
-        return Row(row.number, motion.right, motion.left, shift_marked(row.marked, motion))
+        marked = row.marked
+        return Row(row.number, motion.right, motion.left, shift_marked(marked, motion) if marked else marked)
 
     def _entered(self, number: int, ahead: int) -> Row:
         """A row that no vehicle has been in, after this tick."""
         motion = self.forecast.slices[ahead]
-        return self._row(number, motion.right, motion.left, _marked(self.forecast.slices.boards(ahead)))
+        return self._row(number, motion.right, motion.left, self.forecast.slices.marked(ahead))
 
     def _row(self, number: int, right: Board, left: Board, marked: tuple[Board, ...]) -> Row:
         columns = self.world.road.columns
@@ -228,9 +290,8 @@ class ReactiveSearch:
         here = tuple([board >> below & whole for board in marked])
         return Row(number, right >> below & whole, left >> below & whole, here if any(here) else ())
 
-    def _fixed(self, number: int) -> Board:
-        columns = self.world.road.columns
-        return self.world.fixed >> number * columns & (1 << columns) - 1
+
+_one_row = field_setter(World, "tick", "avs", "right", "left", "boards")
 
 
 def _marked(boards: Boards) -> tuple[Board, ...]:
@@ -242,4 +303,4 @@ def _only(boards: Boards, marked: tuple[Board, ...], below: int) -> Boards:
     if not boards.others:
         return boards
     here = tuple([board << below for board in marked]) or (0,) * len(boards.marked)
-    return replace(boards, marked=here, others=union(here))
+    return with_marked(boards, here)

@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
+from sim.fast_replace import fast_constructor
 from sim.types import HAZARDS, KINDS, MARKED, Kind
 from sim.world.grid import Board, union
 
@@ -77,8 +78,13 @@ class Boards:
 
     def within(self, fixed: Board, moving: Board) -> Boards:
         """The fixed hazards in the cells of `fixed`, and the movers in those of `moving`."""
-        cells = [fixed] * _FIXED + [moving] * len(MARKED)
-        return Boards.in_order([board & there for board, there in zip(self.by_kind, cells, strict=True)])
+        return _boards(
+            tuple([board & fixed for board in self.hazards]),
+            tuple([board & moving for board in self.marked]),
+            self.fixed & fixed,
+            self.holding & fixed,
+            self.others & moving,
+        )
 
     def fixed_kind(self, index: int) -> Kind:
         """The kind of the fixed hazard in a cell, the first of several. Raises `KeyError`."""
@@ -95,6 +101,8 @@ class Boards:
                     return kind
         return Kind.VEHICLE
 
+
+_boards = fast_constructor(Boards, "hazards", "marked", "fixed", "holding", "others")
 
 NO_BOARDS: Final = Boards.of({})
 """Nothing anywhere."""

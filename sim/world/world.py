@@ -7,14 +7,15 @@ is derived: a mover on a pothole is *disabled* for as long as the pothole is the
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass
 from hashlib import blake2b
 from struct import Struct, pack
 
+from sim.fast_replace import field_setter
 from sim.types import PLACEABLE, Cell, Kind, Outcome
 from sim.world.boards import NO_BOARDS, Boards
-from sim.world.grid import Board, Road, bits
+from sim.world.grid import Board, Road, bits, board_of
 
 _OUTCOMES = {outcome: number for number, outcome in enumerate(Outcome)}
 _HEAD = Struct("<IIQQQqBH").pack
@@ -178,11 +179,13 @@ class World:
 
     def without(self, ids: Collection[str]) -> World:
         """The same world had these things never been there. Unknown ids are no matter."""
-        return self._filtered(lambda name: name not in ids)
+        movers = {index: name for index, name in self.movers.items() if name not in ids}
+        return self._with_only(movers, {at: name for at, name in self.hazards.items() if name not in ids})
 
     def keeping(self, ids: Collection[str]) -> World:
         """The same world with nothing on the road but these things."""
-        return self._filtered(lambda name: name in ids)
+        movers = {index: name for index, name in self.movers.items() if name in ids}
+        return self._with_only(movers, {at: name for at, name in self.hazards.items() if name in ids})
 
     def digest(self) -> str:
         """128 bits that are equal exactly when the states are (ids aside), as hexadecimal."""
@@ -219,16 +222,17 @@ class World:
         disabled = kind.moves and bool(self.boards.holding & bit)
         return Thing(self.id_at(index, kind), kind, self.road.cell(index), heading, disabled)
 
-    def _filtered(self, kept: Callable[[str], bool]) -> World:
-        movers = {index: name for index, name in self.movers.items() if kept(name)}
-        hazards = {index: name for index, name in self.hazards.items() if kept(name)}
-        moving = sum(1 << index for index in movers)
-        fixed = sum(1 << index for index in hazards)
-        return replace(
+    def _with_only(self, movers: Mapping[int, str], hazards: Mapping[int, str]) -> World:
+        """With the things of these tables, parts of its own."""
+        moving, fixed = board_of(movers), board_of(hazards)
+        return _cut_down(
             self,
-            right=self.right & moving,
-            left=self.left & moving,
-            boards=self.boards.within(fixed, moving),
-            movers=movers,
-            hazards=hazards,
+            self.right & moving,
+            self.left & moving,
+            self.boards.within(fixed, moving),
+            movers,
+            hazards,
         )
+
+
+_cut_down = field_setter(World, "right", "left", "boards", "movers", "hazards")
