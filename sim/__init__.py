@@ -1,5 +1,5 @@
-"""The world of Roadtalk: exact, deterministic, and free of HTTP, language and databases.
+"""The simulator of Roadtalk: exact, deterministic, and free of HTTP, language and databases.
 
-The line of travel, a station a file: `world` → `perceive` → `forecast` → `plan` → `run` (commit)
-→ `judge`; `edit` changes worlds, `timeline` replays them, `explain` proves why.
+One tick: `world` → `perceive` → `forecast` → `plan` → `transition` (commit, judge). `session` keeps the log
+of a run and replays it; `explain` and `oracle` prove what is said about it. Start with `README.md`.
 """

@@ -196,7 +196,7 @@ class Adjust:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Prefer:
-    """How the vehicle should weigh one way of driving against another."""
+    """How the ego should weigh one way of driving against another."""
 
     do: Literal["prefer"] = "prefer"
     preference: Wish

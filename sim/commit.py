@@ -5,7 +5,7 @@ from __future__ import annotations
 from sim.config import Config
 from sim.fast_replace import field_setter
 from sim.rules.dynamics import Dynamics
-from sim.rules.kinds import shift_boards
+from sim.rules.mover_boards import shift_boards
 from sim.rules.traffic_cache import cached_reactions, cached_shift_table, cached_step
 from sim.types import Move
 from sim.world import World

@@ -123,7 +123,7 @@ class Derived:
     certain: bool
     """whether the future is certain: nothing about the movers is left to chance once the road is drawn"""
     reacting: bool
-    """whether movers react to the vehicle, so that where they go depends on where it is"""
+    """whether movers react to the ego, so that where they go depends on where it is"""
     free_ways_hold: bool
     """whether a way that meets nothing in a forecast without reactions meets nothing when driven"""
     max_ticks: int
@@ -151,7 +151,7 @@ class Config(Derived):
     barriers: int = 0
     pedestrians: int = 0
     courtesy: float = 0.0
-    """chance that a mover beside the vehicle counts its cell as blocked and turns round"""
+    """chance that a mover beside the ego counts its cell as blocked and turns round"""
     attentive: float = 1.0
     """chance that a mover brakes for a vehicle that stands still before it"""
     collision: Collision = "swept"
@@ -171,7 +171,7 @@ class Config(Derived):
     safety_buffer: int = 1
     """cells around a mover that cost something to be in, for planners that weigh costs"""
     sensor: str = sensor_names.DEFAULT_SENSOR
-    """what the vehicle sees with (`sim.perceive`)"""
+    """what the ego sees with (`sim.perceive`)"""
     dynamics: str = DEFAULT_DYNAMICS
     """how autonomous vehicles move (`sim.rules.dynamics`)"""
     behaviour: str = DEFAULT_BEHAVIOUR

@@ -1,8 +1,8 @@
 """What a state leads to: each ego perceives, foresees and decides.
 
-Several egos decide one after the other, the one furthest ahead first, and announce their moves. Whoever
-decides later knows them, and takes those after itself to stay. So a move that is free for one ego is met by
-no other: those before it are known, and those after it can at least stay.
+Several egos decide one after the other, the one furthest ahead first, and announce their moves. An ego
+that decides later knows these moves and assumes that the egos after it stay. So the chosen moves do not
+collide: earlier moves are known, and a later ego can at least stay.
 """
 
 from __future__ import annotations

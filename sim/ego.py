@@ -1,4 +1,4 @@
-"""One of our vehicles: who drives it, what it was told to do, and what has come of it so far."""
+"""One of the egos: who drives it, what it was told to do, and what has come of it so far."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Ego:
     record: EpisodeRecord = field(default_factory=EpisodeRecord)
     """what the episode has come to so far"""
     watch: Watch = NOTHING_KEPT
-    """for a cycle that the ego is in (`sim.repetition`)"""
+    """state of the cycle detection (`sim.repetition`)"""
     belief: Belief = NO_BELIEF
     """what the sensor carries from the ticks before this one (`sim.perceive.sensor`)"""
 

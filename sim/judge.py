@@ -46,7 +46,7 @@ def collisions(before: World, after: World, motion: Dynamics) -> tuple[Cause, ..
 
 
 def _passed(before: World, after: World, start: int, end: int, swept: Swept) -> list[Cause]:
-    """Movers that the vehicle runs into on the way from `start` to `end`: those that come through it."""
+    """Movers that the ego runs into on the way from `start` to `end`: those that come through it."""
     road, found = after.road, []
     aside = start // road.columns == end // road.columns
     for cells, origin in ((swept.from_left, -1), (swept.from_right, 1)):

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from sim.rules.kinds import common_period
+from sim.rules.mover_boards import common_period
 from sim.types import MARKED
 from sim.world import World
 from sim.world.grid import Board

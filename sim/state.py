@@ -149,8 +149,8 @@ class StepResult:
 
     state: SimState
     steps: Mapping[str, EgoStep]
-    """by ego id; without those that had arrived, and empty while a result stands or where only moves were
-    known"""
+    """by ego id, without egos that had arrived; empty while a result is shown, and where moves alone were
+    given"""
     events: tuple[Event, ...]
 
     def of(self, id: str | None = None) -> EgoStep | None:
@@ -189,7 +189,7 @@ def with_egos_at_start(world: World, count: int) -> World:
 def next_episode(state: SimState) -> tuple[SimState, Event]:
     """The following episode's beginning, at the present tick.
 
-    Where roads must be drivable and none is found, the present episode again, which was; the event says so.
+    If roads must be drivable and none is found, the present episode restarts (`EventType.ROAD_KEPT`).
     """
     try:
         return _begin(state, state.config, state.world.episode + 1)

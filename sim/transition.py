@@ -121,11 +121,11 @@ def _one_moved(
 
 
 def repeats_for_ever(config: Config, planner: str | None = None) -> bool:
-    """Whether a situation that has repeated goes on repeating: nothing else has a part in what is decided.
+    """Whether a repeated situation repeats for ever: nothing outside it affects the decisions.
 
     `planner`: None means that of the configuration.
     """
-    # A situation holds two rows (`sim.repetition`): all that matters where a move gains a row at most.
+    # A `Situation` holds two rows (`sim.repetition`), which is enough if a move gains at most one row.
     if config.dynamics != DEFAULT_DYNAMICS:
         return False
     if not (config.certain and traits_of(planner or config.planner).local):
@@ -174,7 +174,7 @@ def _one_of_several_moved(
     fault: str | None,
     belief: Belief,
 ) -> Ego:
-    """An ego after its move. One that has arrived is moved no more; the end is that of all."""
+    """An ego after its move. An ego that has arrived no longer moves; the episode ends for all at once."""
     before, config = state.world, state.config
     ego = state.egos[ego_id(number)]
     metrics = ego.metrics
@@ -186,7 +186,7 @@ def _one_of_several_moved(
     record = ego.record.after(
         before, after, move, state.edits, config.certain, by_person, fault is not None, ended, number
     )
-    # What repeats would have to be a situation of all egos: it is not looked for.
+    # Cycles of several egos are not detected: a situation would have to hold all of them.
     return _ego_after(ego, ego.queue[1:], metrics, fault, record, NOTHING_KEPT, belief)
 
 

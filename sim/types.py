@@ -48,7 +48,7 @@ def ego_id(number: int) -> str:
 
 
 def is_ego(name: str) -> bool:
-    """Whether this id is that of one of our vehicles."""
+    """Whether this id is that of one of the egos."""
     return name.startswith(f"{Kind.AV}-")
 
 
@@ -151,7 +151,7 @@ class Move(StrEnum):
 
     @property
     def offset(self) -> Cell:
-        """(columns, rows) the move adds to the vehicle's cell."""
+        """(columns, rows) the move adds to the ego's cell."""
         return _OFFSETS[self]
 
 

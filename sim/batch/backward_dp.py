@@ -2,7 +2,7 @@
 
 Structure: the exact search (`sim.batch.reachability`) gives one way; its cost bounds how long a cheaper way
 can be, so that a backward sweep over (tick, row, column) within that horizon is exact (dynamic programming in
-topological order; every step goes one tick on). Rows the vehicle cannot have reached yet are left out.
+topological order; every step goes one tick on). Rows the ego cannot have reached yet are left out.
 The charges are those of `sim.search.costs`, in whole numbers. Guarantees and simplifications as there.
 
 Array arguments, besides those of `sim.batch.reachability` (words: those of a board; costs in charges):

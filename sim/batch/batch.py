@@ -6,7 +6,7 @@ leaves out is a person: queued moves, manual mode and edits. It knows one motion
 those it is compiled for; another in a configuration is refused.
 
 Structure: a block of worlds is kept in the processor's nearest cache for many ticks
-(`sim.batch.layout`), one compiled call does all ticks of all worlds (`sim.batch.tick`). Guarantee: the
+(`sim.batch.layout`), one compiled call does all ticks of all worlds (`sim.batch.tick_kernel`). Guarantee: the
 same states as `sim.transition.step`, bit for bit, every tick. Idea: worlds as arrays of machine words, as
 in Waymax (Gulino et al., 2023) and Craftax (Matthews et al., 2024), with the set operations of chess
 engines in place of floating point.
@@ -42,7 +42,7 @@ from sim.batch.layout import (
 )
 from sim.batch.reachability import exact_moves
 from sim.batch.roads import begin_all, renew
-from sim.batch.tick import END_FIELD, MAX_TICKS_A_CALL, MOVE_FIELD, ticks_kernel
+from sim.batch.tick_kernel import END_FIELD, MAX_TICKS_A_CALL, MOVE_FIELD, ticks_kernel
 from sim.config import Config
 from sim.generation import GenerationError
 from sim.planner_names import Alias, canonical

@@ -24,7 +24,7 @@ from numba.cpython.unsafe import numbers
 
 from sim import randomness
 from sim.rules import ego_step, limits, traffic
-from sim.rules.kinds import PERIODS
+from sim.rules.mover_boards import PERIODS
 from sim.types import Kind
 
 config: Any = numba.config
@@ -34,7 +34,7 @@ _COMPILED_IN: Final = tuple(
     _SIM / name
     for name in (
         "rules/ego_step.py",
-        "rules/kinds.py",
+        "rules/mover_boards.py",
         "rules/limits.py",
         "rules/traffic.py",
         "randomness.py",

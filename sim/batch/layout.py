@@ -66,9 +66,9 @@ cell index), the clock and the end of its episode, packed counters, the keys of 
 (all ones or 0: bodies are swept, movers brake, a situation that repeats is STUCK), the watch for that
 (`sim.repetition`), and what a tick hands from one loop to the next.
 
-The watch: `IN_ROW` counts ticks since the vehicle came into its row, all ones before the first is seen; the
+The watch: `IN_ROW` counts ticks since the ego came into its row, all ones before the first is seen; the
 situation is renewed after 1, 3, 7, 15, ... of them. `KEPT_AT` is twice the cell, plus the beat; the other
-planes are the words that hold the vehicle's row and the one ahead."""
+planes are the words that hold the ego's row and the one ahead."""
 
 
 SPAWN_PROBABILITY, POTHOLE_PROBABILITY, COURTESY, ATTENTIVE = range(4)

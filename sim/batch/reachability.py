@@ -1,9 +1,9 @@
-"""Where the vehicle can be at every tick, in compiled words: least ticks, and the move that begins them.
+"""Where the ego can be at every tick, in compiled words: least ticks, and the move that begins them.
 
-Structure: movers are rolled out by the rules word by word; the set of cells the vehicle can be in is
+Structure: movers are rolled out by the rules word by word; the set of cells the ego can be in is
 stepped along with them (`spread`) until it meets row 0; a backward pass over the layers
 (`spread_back`) keeps what lies on a shortest way, and the first move of the six that stays on one is taken.
-Words behind the vehicle are left out, since it never goes back. Where a mover brakes for a vehicle that
+Words behind the ego are left out, since it never goes back. Where a mover brakes for a vehicle that
 stays now, what comes of staying is searched by itself, from movers that have braked (`Forecast.standing`).
 Guarantee: exact where nothing is left to chance; with courtesy the first tick is exact, later ones assume
 that nobody gives way. Where no way leads to the goal, the move after which one can keep clear of collisions
@@ -76,7 +76,7 @@ STAY: Final = 5
 NOW_RIGHT, NOW_LEFT, NOW_WALKERS, ALL_FIXED, RESTING_IN_HOLES, YIELDS, BRAKES, VEHICLE = range(8)
 BOARDS: Final = 8
 """Rows of the scratch board of a roll-out (shape: 8, words): the movers, what they meet, who gives way and
-who brakes in the first tick, and the vehicle."""
+who brakes in the first tick, and the ego."""
 BLOCKED, CAME_RIGHT, CAME_LEFT, CUT_LEFT, CUT_RIGHT, MOVERS, REACHED, NEEDED = range(8)
 FIELDS: Final = 8
 """Planes of a roll-out (shape: ticks, 8, words); of tick k: after k + 1 ticks, the last two after k."""
@@ -84,7 +84,7 @@ FIELDS: Final = 8
 
 @compiled
 def _drawn(key, tick, cell, bit, last_bit, share):
-    """The cells beside the vehicle, as bits of its row, whose movers react to it in this tick by a draw."""
+    """The cells beside the ego, as bits of its row, whose movers react to it in this tick by a draw."""
     draws, beside = word_at(key, tick), _ZERO
     if fraction(word_at(draws, cell - 1)) < share:
         beside |= (bit & ~_ONE) >> _ONE
@@ -95,7 +95,7 @@ def _drawn(key, tick, cell, bit, last_bit, share):
 
 @compiled
 def prepare(now, block, lane_block, lane, columns, rows, shares, behind):
-    """Take a lane's boards up to the word `behind` rows after the vehicle, and who reacts to it now.
+    """Take a lane's boards up to the word `behind` rows after the ego, and who reacts to it now.
 
     Returns the last word taken.
     """
@@ -130,7 +130,7 @@ def prepare(now, block, lane_block, lane, columns, rows, shares, behind):
 def roll(now, layers, ahead, last, episode_tick, columns, left_edge, right_edge, swept, stands):
     """One tick of the movers of words 0 to `last`, into layer `ahead`.
 
-    With `stands` the vehicle does not move in the first tick, and movers brake for it.
+    With `stands` the ego does not move in the first tick, and movers brake for it.
     """
     walking = pedestrians_walk(episode_tick + ahead)
     unused, up, most = np.uint64(64 % columns), np.uint64(64 - columns), np.uint64(columns - 1)
@@ -170,7 +170,7 @@ def roll(now, layers, ahead, last, episode_tick, columns, left_edge, right_edge,
 
 @compiled
 def someone_brakes(now, layers, last):
-    """Whether a mover brakes if the vehicle stays now; layer 0 holds the movers' tick where it does not."""
+    """Whether a mover brakes if the ego stays now; layer 0 holds the movers' tick where it does not."""
     changed = _ZERO
     for w in range(last + 1):
         right, left = layers[0, CAME_RIGHT, w], layers[0, CAME_LEFT, w]
@@ -230,7 +230,7 @@ def expand(layers, ahead, first, last, columns, left_edge, right_edge):
 
 @compiled
 def search(now, layers, row, last, episode_tick, limit, columns, left_edge, right_edge, swept, stands):
-    """Roll and expand until the goal is met. With `stands` the vehicle stays in the first tick, and may.
+    """Roll and expand until the goal is met. With `stands` the ego stays in the first tick, and may.
 
     Returns (ticks, −1 if it is not met; layers rolled; ticks for which one can keep clear of collisions).
     """
@@ -241,7 +241,7 @@ def search(now, layers, row, last, episode_tick, limit, columns, left_edge, righ
         layers[begin, REACHED, w] = now[VEHICLE, w]
     goal = (_ONE << np.uint64(columns - 1) << _ONE) - _ONE
     rows_per_word = 64 // columns
-    # Words before `first` cannot hold the vehicle yet: it gains a row a tick.
+    # Words before `first` cannot hold the ego yet: it gains a row a tick.
     first = row // rows_per_word
     for ahead in range(begin, limit):
         roll(now, layers, ahead, last, episode_tick, columns, left_edge, right_edge, swept, stands)
@@ -264,7 +264,7 @@ def keep_shortest(layers, ticks, row, last, columns, left_edge, right_edge):
     for w in range(last + 1):
         layers[ticks, NEEDED, w] = _ZERO
     layers[ticks, NEEDED, 0] = layers[ticks, REACHED, 0] & goal
-    # What is needed at a tick can neither be further on than the vehicle gets, nor too far back to arrive.
+    # What is needed at a tick can neither be further on than the ego gets, nor too far back to arrive.
     nearest, furthest = 0, 0
     for ahead in range(ticks - 1, 0, -1):
         while (nearest + 1) * rows_per_word <= row - ahead:

@@ -146,7 +146,7 @@ def begin_next(block, lane_block, lane, columns, rows, wholes, shares):
 
 @compiled
 def _draw(block, lane_block, lane, columns, rows, wholes, shares, attempt):
-    """Write a road into one lane of a block and put the vehicle at its start."""
+    """Write a road into one lane of a block and put the ego at its start."""
     episode = wholes[EPISODE]
     base = mix(np.uint64(wholes[SEED]) + _GOLDEN)
     taken = np.zeros(rows, np.uint64)

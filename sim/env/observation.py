@@ -2,7 +2,7 @@
 
 The *planes* of a road are those that planners can have as well (`sim.perceive.observe`).
 
-A *window* is the part around the vehicle, with an eighth plane: cells that are not on the road.
+A *window* is the part around the ego, with an eighth plane: cells that are not on the road.
 
 An *image* (uint8, 0 to 255) holds the same in three channels of square blocks of pixels, large enough for the
 convolutional networks of Stable-Baselines3 (36 pixels a side): red what stays, green what moves, blue the
@@ -63,7 +63,7 @@ def batch_planes(planes: Planes) -> Planes:
 
 @dataclass(frozen=True, slots=True)
 class Window:
-    """How many cells around the vehicle are shown: rows ahead and behind, columns on either side."""
+    """How many cells around the ego are shown: rows ahead and behind, columns on either side."""
 
     ahead: int
     behind: int

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from sim.batch import Batch
 from sim.config import Config
-from sim.env.seeds import dump_generator, load_generator
+from sim.env.gym_seeds import dump_generator, load_generator
 from sim.session.serialization import Packer, Unpacker
 from sim.state import SimState
 

@@ -14,10 +14,10 @@ from sim.config import Config
 from sim.decide import moves_where, sense
 from sim.env import saved_state as saving
 from sim.env.actions import STAY, action_mask, checked_action
+from sim.env.gym_seeds import DRAWN_BELOW, check_seed, fold_seed
 from sim.env.observation import Observer
 from sim.env.options import boolean, one_of, refuse_unknown, reset_options, road_config
 from sim.env.reward import Rewards
-from sim.env.seeds import DRAWN_BELOW, check_seed, fold_seed
 from sim.perceive.observe import observe
 from sim.state import FIRST, SimState, next_episode
 from sim.transition import transition

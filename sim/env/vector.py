@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from sim.batch import Batch
 from sim.env import saved_state as saving
 from sim.env.actions import action_masks, checked_actions
+from sim.env.gym_seeds import DRAWN_BELOW, check_seed, fold_seed
 from sim.env.observation import Observer, batch_planes
 from sim.env.options import boolean, one_of, refuse_unknown, reset_options, road_config, whole_number
 from sim.env.reward import Rewards
-from sim.env.seeds import DRAWN_BELOW, check_seed, fold_seed
 from sim.env.single import ARGUMENTS, RENDER_FPS, RENDER_MODES, frame
 from sim.metrics import Metrics
 from sim.state import SimState

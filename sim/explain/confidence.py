@@ -1,19 +1,19 @@
-"""How sure it is that the vehicle arrives in this episode, over all that is drawn only later.
+"""How sure it is that the ego arrives in this episode, over all that is drawn only later.
 
 On a road that is seen whole, one thing is not known yet: who will give way or brake (`sim.rules.yielding`).
-So the futures form a tree that branches only where a mover beside the vehicle has a reason to react. Where
+So the futures form a tree that branches only where a mover beside the ego has a reason to react. Where
 the branches meet again, which is soon, they are one: rows that lie behind take no part any more. Mostly the
 tree is then small enough to be walked whole, and the share of futures that arrive is exact. Where it is
 not, futures are drawn from it, with seeds of their own, and the share has Wilson's interval
 (`sim.statistics`).
 
-A future in which the vehicle is proved to be shut off from the goal, by hazards or by movers in the rows
+A future in which the ego is proved to be shut off from the goal, by hazards or by movers in the rows
 before it, is followed no further: it does not arrive, however it ends.
 
 Every step is the session's own (`sim.transition.step`) with the draws of its tick set. Work is limited by
 decisions taken and never by the clock, so the same moment has the same answer everywhere. What the sensor
 will show is not left to chance: it draws as it does in this session. Not foreseen: what a person will do.
-In manual mode it is told how it goes if the vehicle drives from here on by itself.
+In manual mode it is told how it goes if the ego drives from here on by itself.
 """
 
 from __future__ import annotations
@@ -81,7 +81,7 @@ class Clarity:
 
 @dataclass(frozen=True, slots=True)
 class Confidence:
-    """How sure it is that the vehicle arrives in this episode."""
+    """How sure it is that the ego arrives in this episode."""
 
     tick: int
     method: Method
@@ -105,7 +105,7 @@ class Confidence:
     chance: bool
     """whether who gives way or brakes is drawn at all"""
     by_hand: bool
-    """whether a person drives at present, and it is told how it goes if the vehicle took over"""
+    """whether a person drives at present, and it is told how it goes if the ego took over"""
     clarity: Clarity | None
     """of the latest decision of this episode, if a planner took it"""
 
@@ -198,7 +198,7 @@ class _Futures:
     _root: _Node = field(init=False)
     _traits: Traits = field(init=False)
     _known: bool = field(init=False)
-    """whether what is decided hangs only on the rows from the vehicle on"""
+    """whether what is decided hangs only on the rows from the ego on"""
     _faithful: bool = field(init=False)
     _buffer: int = field(init=False)
     _number: int = field(init=False)

@@ -1,8 +1,8 @@
 """Running one decision again with something otherwise, remembering what was run.
 
-There are two kinds of intervention. One is on what is *seen*: something had not been detected, all else as
-it is. The other is on what *is*: something had never been there, or a person had changed the road first; then
-the sensor looks again, with the belief it had. With perfect sight both come to the same.
+There are two kinds of intervention. One changes the percept: something is not detected, all else is
+unchanged. The other changes the world: something was never there, or a person edits the road first; then
+the sensor runs again with the same belief. With a perfect sensor both give the same result.
 
 Of several egos this is about the one that decided. What the others announced to it stands where something
 is not seen; on a road that is otherwise they decide anew. Another ego can be taken out of what is seen as a
@@ -28,13 +28,13 @@ from sim.world import Thing, World
 
 
 def wall(world: World, cell: Cell) -> Add:
-    """What blocks a cell: a barrier, or where a mover is just leaving it, a pothole that holds it there."""
+    """The thing that blocks a cell: a barrier; where a mover stands, a pothole, which disables it there."""
     held = world.moving >> world.road.index(cell) & 1
     return Add(kind="pothole" if held else "barrier", count=1, where=Where(cell=cell))
 
 
 class Intervention:
-    """Decisions of one moment that differ from its own by what is seen, by what there is, or by wishes."""
+    """Reruns one decision with changes to the percept, the world or the preferences."""
 
     def __init__(
         self, state: SimState, decision: Decision, announced: Mapping[str, Move] | None = None
@@ -114,9 +114,9 @@ class Intervention:
         return self._decide(state, percept.without(gone) if gone else percept).move
 
     def counterfactual(self, names: Iterable[str], move: Move) -> Counterfactual:
-        """The least intervention that takes these away and leads to `move`, as taking them away does.
+        """The smallest intervention that removes these names and leads to `move`.
 
-        It is a change of the road where one does the same; what is not there can only not be detected.
+        It edits the road where that is enough. A phantom is not on the road, so it can only go undetected.
         """
         names = tuple(names)
         if self.faithful and not any(map(is_ego, names)):
@@ -147,7 +147,7 @@ class Intervention:
         return sense(state, announced_before(state, self.ego, gone=frozenset(gone)), self.ego)[0]
 
     def seen(self, name: str) -> tuple[Thing, bool] | None:
-        """A thing as it was seen, and whether it was there; a thing that was not seen, as it was."""
+        """A thing as it was seen, and whether it is real; an undetected thing, as it is in the world."""
         seen = self.percept.find(name)
         if self.faithful and seen is not None:
             return seen, True

@@ -1,4 +1,4 @@
-"""What is seen, and what the vehicle would meet if it drove straight on: from the percept alone.
+"""What is seen, and what the ego would meet if it drove straight on: from the percept alone.
 
 Nothing here looks at the world. What sensors miss is not in the answer, what they imagine is, and how
 sure they are goes along with each thing: 1 under the perfect sensor, else as `likelihoods` says. When
@@ -33,15 +33,15 @@ class Detection:
     likelihood: float
     """how sure it is that the thing is there, 0 to 1"""
     lanes: int
-    """lanes to the right of the vehicle; to the left below 0"""
+    """lanes to the right of the ego; to the left below 0"""
     rows: int
-    """rows ahead of the vehicle; behind it below 0"""
+    """rows ahead of the ego; behind it below 0"""
     heading: str | None
     """"left" or "right" for movers"""
     held: bool
     """a mover in a pothole: it stays where it is"""
     ticks: int | None
-    """ticks until it is met, if the vehicle drives straight on; None if it is not met in the next rows"""
+    """ticks until it is met, if the ego drives straight on; None if it is not met in the next rows"""
 
     @property
     def walks(self) -> bool:
@@ -55,7 +55,7 @@ class Scene:
 
     tick: int
     cell: Cell
-    """where the vehicle is"""
+    """where the ego is"""
     reach: int
     """rows ahead that were looked at for what would be met; fewer where the goal is nearer"""
     seen: tuple[Detection, ...]

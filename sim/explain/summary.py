@@ -203,7 +203,7 @@ def _open_until_reacting(state: SimState, course: EpisodeRecord, ego: str | None
 
 
 def _cells(start: int, moves: tuple[Move, ...], dynamics: Dynamics) -> list[int]:
-    """The vehicle's cell at every tick."""
+    """The ego's cell at every tick."""
     cells = [start]
     for move in moves:
         end = dynamics.target(cells[-1], move)

@@ -1,11 +1,11 @@
-"""What a decision hangs on: a smallest set of things and wishes that brings it about, each tried by removal.
+"""The causes of a decision: a minimal sufficient set of things and preferences, each tested by removal.
 
 Causes are looked for among what was *seen*: a thing that was not detected has no part in the decision, and
 one that was imagined has. A set is *enough* if, with nothing else seen on the road, the move is the same;
 the causes are such a set from which nothing can be spared. A cause is *necessary* if taking it away, and
-nothing else, changes the move. One that is not has a stand-in (the decision is overdetermined): then the
-causes are looked for among the necessary things first, and if those are not enough, the cause is told with
-its group, the things that must go together for the move to change.
+nothing else, changes the move. If a cause is not necessary, the decision is
+overdetermined: the search then tries the necessary things first, and if those are not sufficient, it reports
+the cause with its group, the things that must be removed together to change the move.
 
 This is the but-for test and its repair for overdetermination as in Halpern & Pearl, "Causes and
 explanations: a structural-model approach" (British Journal for the Philosophy of Science, 2005), with
@@ -36,7 +36,7 @@ MAX_TRIED = 6
 """Sets up to this size have every part of them tried."""
 
 MAX_GROUPS = 6
-"""For so many causes that are not necessary alone it is found out what would have to go with them."""
+"""Number of causes, not necessary alone, for which the group is searched."""
 
 
 def explain_why(
@@ -74,7 +74,7 @@ def explain_why(
 
 
 class Tried(Protocol):
-    """What can be tried without some things, or with nothing but some, and then comes to something."""
+    """An experiment that is rerun without some things, or with only some, and returns its result."""
 
     def without(self, names: Iterable[str]) -> object:
         """What it comes to without these."""
@@ -86,10 +86,10 @@ class Tried(Protocol):
 def minimal_sufficient_set(
     tried: Tried, fact: object, names: list[str]
 ) -> tuple[list[str], dict[str, tuple[str, ...]], bool]:
-    """What a fact hangs on: a smallest part of `names` that is enough for it, and the group of each.
+    """A minimal subset of `names` that is sufficient for a fact, and the group of each member.
 
-    Also whether no smaller part would do (all were tried). With all of `names` it comes to the fact, and the
-    more telling ones come first.
+    Also whether every smaller subset was tried. Precondition: all of `names` together produce the fact,
+    and the most salient come first.
     """
     enough = minimal_subset(names, lambda kept: tried.keeping(kept) is fact)
     if any(tried.without([name]) is fact for name in enough):  # some have a stand-in
@@ -99,7 +99,7 @@ def minimal_sufficient_set(
 
 
 def _had_it_been_blocked(rerun: Intervention, decision: Decision) -> list[Counterfactual]:
-    """For a move that nothing brought about: what would have been done had its cell been blocked."""
+    """For a move without causes: the move that is made if its cell is blocked."""
     if decision.asked is not None or decision.chosen.cell is None or decision.move is Move.STAY:
         return []
     change = (wall(rerun.state.world, decision.chosen.cell),)
@@ -127,7 +127,7 @@ def _of_necessary(tried: Tried, fact: object, names: list[str]) -> list[str]:
 
 
 def _groups(tried: Tried, fact: object, names: list[str], enough: list[str]) -> dict[str, tuple[str, ...]]:
-    """For each cause its group; an empty one for causes that are not necessary after the first few."""
+    """The group of each cause; of the causes that are not necessary, only the first `MAX_GROUPS` get one."""
     necessary = {name for name in enough if tried.without([name]) is not fact}
     looked_for = [name for name in enough if name not in necessary][:MAX_GROUPS]
     groups: dict[str, tuple[str, ...]] = {}
@@ -140,19 +140,18 @@ def _groups(tried: Tried, fact: object, names: list[str], enough: list[str]) -> 
 
 
 def _group(tried: Tried, fact: object, name: str, names: list[str], enough: list[str]) -> tuple[str, ...]:
-    """The things that must go with a cause that is not necessary for the move to change.
+    """A cause that is not necessary alone, and the things to remove with it so that the move changes.
 
-    There are such: without the cause and all that is not one, the others are not enough.
+    A group always exists: without this cause and all non-causes, the other causes are not sufficient.
     """
     stand_ins = [other for other in names if other not in enough]
     return (name, *minimal_subset(stand_ins, lambda gone: tried.without([name, *gone]) is not fact))
 
 
 def minimal_subset(names: list[str], holds: Callable[[Sequence[str]], bool]) -> list[str]:
-    """A part of `names` for which it holds and from which nothing can be spared; it holds for all of them.
+    """A subset of `names` that satisfies `holds`, with no member to spare; `holds(names)` must be true.
 
-    Looked for among the first names before the later ones are thought of, so that an explanation does not
-    change with what is far away.
+    The search takes prefixes of growing length, so that things far away do not change an explanation.
     """
     size = 0
     while size < len(names) and not holds(names[:size]):
@@ -161,9 +160,9 @@ def minimal_subset(names: list[str], holds: Callable[[Sequence[str]], bool]) -> 
 
 
 def _smallest(tried: Tried, fact: object, enough: list[str]) -> tuple[list[str], bool]:
-    """The smallest part that is enough as well, and whether no part of that can be (all were tried).
+    """The smallest sufficient subset, and whether its minimality is proved by trying every smaller one.
 
-    Of a set larger than `MAX_TRIED` only single members are known not to be spared.
+    For a set larger than `MAX_TRIED`, it is only known that no single member can be removed.
     """
     if len(enough) > MAX_TRIED:
         return enough, False
@@ -181,7 +180,7 @@ def rank_causes(
 ) -> tuple[Cause, ...]:
     """The causes, by their groups: those that block the first of the hindered moves before the others.
 
-    Then what sent them there, then wishes. `find`: a thing by its id, and whether it was there.
+    Causes that block nothing follow, then preferences. `find`: a thing by its id, and whether it is real.
     """
     causes = []
     for name, group in groups.items():

@@ -112,7 +112,7 @@ def _walls(rerun: Intervention, cleared: Sequence[str], foil: Move) -> list[Add]
     before = seen.options[: seen.options.index(seen.option(foil))]
     cells = [option.cell for option in before if option.verdict == "free" and option.cell is not None]
     if world.road.cell(rerun.percept.ego) in cells:
-        return []  # nothing can be put where the vehicle stands, so staying cannot be taken away
+        return []  # nothing can be put where the ego stands, so staying cannot be taken away
     walls = [wall(world, cell) for cell in cells]
     try:
         return walls if walls and rerun.after((*away, *walls), phantoms) is foil else []

@@ -1,7 +1,4 @@
-"""The volume (tick, row, column) of what is expected: fixed hazards, and movers rolled out by the rules.
-
-Risk and preferences enter as further terms beside `fixed` and the slices.
-"""
+"""The volume (tick, row, column) of what is expected: fixed hazards, and movers rolled out by the rules."""
 
 from __future__ import annotations
 
@@ -36,7 +33,7 @@ class StepVerdict(StrEnum):
     MOVER_ENTERS = "mover_enters"
     MOVER_SWAPS = "mover_swaps"
     MOVER_CROSSES = "mover_crosses"
-    """a mover cuts off a diagonal: from that side it enters the vehicle's cell or the one straight ahead"""
+    """a mover cuts off a diagonal: from that side it enters the ego's cell or the one straight ahead"""
     EGO_ENTERS = "ego_enters"
     EGO_STAYS = "ego_stays"
     EGO_SWAPS = "ego_swaps"
@@ -65,7 +62,7 @@ class Forecast:
     """which cells hold what kind of thing now"""
     disabled: Board
     dynamics: Dynamics
-    """how the vehicle moves, and what its steps sweep"""
+    """how the ego moves, and what its steps sweep"""
     hazards: Mapping[int, str]
     slices: RollOut
     egos: tuple[OtherEgo, ...] = ()
@@ -73,7 +70,7 @@ class Forecast:
 
     @staticmethod
     def of_truth(world: World, config: Config, horizon: int, ego: int = 0) -> Forecast:
-        """What follows from what *is*, whatever the sensors show: the ground of every proof.
+        """The forecast from the ground truth, whatever the sensors show; every proof rests on it.
 
         `horizon` is in ticks, at least one; `ego` numbers the autonomous vehicles from 0.
         """
@@ -111,7 +108,7 @@ class Forecast:
     def taken(self, ahead: int = 0) -> Board:
         """The cells that other egos keep this one from entering, `ahead` ticks from now.
 
-        In the first tick those are the ends of its own steps that would touch one, later where they stand.
+        In the first tick: the ends of its own steps that touch another ego. Later: the cells of other egos.
         """
         if not self.egos:
             return 0
@@ -134,12 +131,12 @@ class Forecast:
 
     @property
     def standing(self) -> Forecast | None:
-        """What to expect if the vehicle stays now and a mover brakes for it; None where none would."""
+        """What to expect if the ego stays now and a mover brakes for it; None where none would."""
         slices = self.slices.if_standing()
         return None if slices is None else _rolled_out(self, slices)
 
     def after(self, move: Move) -> Forecast:
-        """The forecast that holds once the vehicle has made this move now."""
+        """The forecast that holds once the ego has made this move now."""
         return self.standing or self if move is Move.STAY else self
 
     def spread(self, start: Board, ahead: int = 0) -> Board:

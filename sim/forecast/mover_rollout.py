@@ -1,6 +1,6 @@
 """Movers rolled out by the rules, as far ahead as is read and no further than was asked for.
 
-The roll-out assumes that movers do not react to the vehicle after the first tick: nobody gives way and
+The roll-out assumes that movers do not react to the ego after the first tick: nobody gives way and
 nobody brakes, but for other egos. With perfect sight it *is* what happens along every way that meets nothing,
 where movers leave alone who meets nothing (`Behaviour.free_ways_hold`). `if_standing` is the roll-out where a
 mover brakes in the first tick.
@@ -20,7 +20,7 @@ from sim.rules.behaviour import NOBODY, Reactions
 from sim.rules.behaviour_registry import BEHAVIOURS
 from sim.rules.dynamics import Dynamics
 from sim.rules.dynamics_registry import dynamics_on
-from sim.rules.kinds import shift_marked, with_marked
+from sim.rules.mover_boards import shift_marked, with_marked
 from sim.rules.traffic import Motion
 from sim.rules.traffic_cache import cached_shift_table, cached_step
 from sim.types import Move
@@ -53,7 +53,7 @@ class RollOut(Sequence[Motion]):
     def __init__(self, percept: Percept, horizon: int, *, stands: bool = False) -> None:
         """The next `horizon` ticks (at least one) from what is seen.
 
-        With `stands`, the vehicle does not move in the first of them, and attentive movers brake for it.
+        With `stands`, the ego does not move in the first of them, and attentive movers brake for it.
         """
         if horizon < 1:
             raise ValueError("a horizon is at least one tick")
@@ -126,7 +126,7 @@ class RollOut(Sequence[Motion]):
         return self._standing
 
     def if_standing(self) -> RollOut | None:
-        """The roll-out where the vehicle does not move in the first tick; None where that changes nothing."""
+        """The roll-out where the ego does not move in the first tick; None where that changes nothing."""
         ego, motion = self.percept.ego, self[0]
         if self._stands or not motion.occupied >> ego & 1:
             return None

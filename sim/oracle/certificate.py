@@ -13,7 +13,7 @@ Hildebrandt, "Simplifying and isolating failure-inducing input", 2002).
 It is about one ego, the first by default. Others that stay are things that may block the road, and are named
 by their ids; where another one drives, nothing is certified (`sim.oracle.other_egos`).
 
-Movers that react to the vehicle, by giving way or by braking, are searched with their reactions
+Movers that react to the ego, by giving way or by braking, are searched with their reactions
 (`sim.search.reactive`), so that both answers are proofs for them as well.
 """
 

@@ -1,7 +1,7 @@
 """The least ticks and the least cost from a moment to the goal, as the rules and the charges say.
 
 The least ticks are exact: movers that give way or brake are searched with the reactions they are drawn to
-have. The least cost assumes that nobody reacts to the vehicle after the first tick.
+have. The least cost assumes that nobody reacts to the ego after the first tick.
 
 All of it is about one ego, the first by default, in a road where the others stay. Where another ego drives,
 nothing is claimed: `UndeterminedError`, which is an `ImpatientError` (`sim.oracle.other_egos`).

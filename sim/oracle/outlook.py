@@ -1,4 +1,4 @@
-"""Whether the vehicle can still arrive, told within bounded work: for a notice, not for a proof on request.
+"""Whether the ego can still arrive, told within bounded work: for a notice, not for a proof on request.
 
 Structure: the forecast without reactions, which shows nearly every way there is; then the search with
 reactions (`can_arrive`), given up after so many states. Where there is no way, things whose removal opens the

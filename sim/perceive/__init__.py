@@ -1,7 +1,7 @@
 """What the sensors let through: (World, Belief) → (Percept, Belief). The planner sees the percept alone.
 
-Camera, lidar, radar, weather and night come behind this door; today there is the perfect sensor. Proofs do
-not look through it: they stand on the truth (`perceive_truth`, `sim.forecast.Forecast.of_truth`).
+The perfect sensor is the only built-in one; further sensors (camera, lidar, radar) are registered. Proofs
+do not use sensors: they read the ground truth (`perceive_truth`, `sim.forecast.Forecast.of_truth`).
 """
 
 from sim.perceive.percept import OtherEgo, Percept

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.perceive.percept import Percept
-from sim.rules.kinds import PERIODS
+from sim.rules.mover_boards import PERIODS
 from sim.rules.traffic import steps_in_tick
 from sim.types import HAZARDS, MARKED, Kind
 from sim.world.grid import bits

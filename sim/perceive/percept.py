@@ -35,7 +35,7 @@ class Percept:
     tick: int
     episode_tick: int
     ego: int
-    """cell index of the vehicle that looks"""
+    """cell index of the ego that looks"""
     ego_id: str
     right: Board
     left: Board

@@ -42,7 +42,7 @@ def perceive_truth(
     announced: Mapping[int, Move] = _NOTHING,
     parked: Collection[int] = (),
 ) -> Percept:
-    """All that is, as ego number `ego` (from 0) sees it with perfect sight.
+    """The ground truth as a percept of ego number `ego` (from 0).
 
     `announced`: the moves that other egos have told it of; `parked`: the egos that stay. Both by number.
     """

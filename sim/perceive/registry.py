@@ -30,7 +30,7 @@ def unregister_sensor(name: str) -> None:
 
 
 def sensor_named(name: str) -> Sensor:
-    """The sensor of that name. Raises `KeyError` if there is none; a configuration has no such name."""
+    """The sensor of that name. Raises `KeyError` if there is none, which a valid `Config` rules out."""
     return _sensors[name]
 
 

@@ -9,7 +9,7 @@ from sim.perceive.percept import Percept
 from sim.world import World
 
 Belief: TypeAlias = object
-"""What a sensor carries from tick to tick: any value that never changes; from equal ones it goes on alike."""
+"""What a sensor carries from tick to tick: any immutable value. Equal beliefs have equal effects."""
 
 NO_BELIEF: Final = None
 """The belief at the beginning of an episode, and always that of a stateless sensor."""

@@ -69,7 +69,7 @@ class Decision:
     measure: Measure = Measure.RANK
     """what the options' costs measure"""
     fault: str | None = None
-    """what the planner did instead of answering; the vehicle stays"""
+    """what the planner did instead of answering; the ego stays"""
     timed_out: bool = False
     """whether the fault was that it did not answer in time, which another run may not repeat"""
 

@@ -1,6 +1,6 @@
 """A person's move, put through the same picture as a planner's.
 
-A move whose cell will not be free is held back: the vehicle stays, and the trace says what would
+A move whose cell will not be free is held back: the ego stays, and the trace says what would
 have been met. Staying is always granted; whether it was wise, the judge says.
 """
 

@@ -19,16 +19,16 @@ SEARCH = 16
 class Traits:
     """What is true of every decision of a planner, on every road.
 
-    The defaults are what may be supposed of a planner of which nothing is known: they cost time, and make
-    nothing that is said of it false. Planners of other packages have them, whatever their class says.
+    The defaults are safe for an unknown planner: they cost time, but make no statement about it false.
+    Planners of other packages always have the defaults, whatever their class says.
     """
 
     local: bool = False
     """Decides from what never moves and the movers of its row and the next one. While its vehicle stays in a
     row, a situation that comes again then proves a livelock (`sim.repetition`)."""
     forward_only: bool = False
-    """Reads no mover behind its row but those that its charges reach (`weighs_costs`), and of the coming tick
-    only the forecast's slices. Futures that differ elsewhere are one (`sim.explain.confidence`)."""
+    """Reads no mover behind the ego's row beyond the range of its costs (`weighs_costs`), and for the coming
+    tick only the forecast's slices. Futures that differ elsewhere are merged (`sim.explain.confidence`)."""
     weighs_costs: bool = False
     """Charges by `sim.search.costs`, and so heeds preferences and the safety buffer."""
     plans_to_goal: bool = True
@@ -41,8 +41,8 @@ class Traits:
     """Decides the same whenever it is asked the same. One that does not cannot be registered: a past decision
     is found by asking again. In a package of its own its decisions are recorded."""
     work: int = SEARCH
-    """What a decision costs, in decisions of the simplest planner: places snapshots, and says whether a
-    question may take long."""
+    """Work of one decision, in decisions of the simplest planner. It sets the spacing of snapshots and tells
+    whether a question may take long."""
     decisions_per_answer: int = 120
     """Decisions that one answer about chances may take (`sim.explain.confidence`)."""
 

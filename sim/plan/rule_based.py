@@ -9,11 +9,11 @@ barriers, and movers that are locked in between them. The ranking:
 3. stay: what is in the way moves on, or nothing leads on;
 4. left or right although the way on is straight ahead, then what a mover closes.
 
-A way on is closed while a mover comes toward the vehicle in between: the two would meet before the vehicle is
+A way on is closed while a mover comes toward the ego in between: the two would meet before the ego is
 there, and it would be pinned against the mover. So a row is entered only where its way on is open.
 Guarantees: never a step into a cell that will be taken while any is free; never into a dead end that fixed
 hazards make while staying is free; local (`sim.plan.protocol.Traits`): besides what never moves, the movers
-of the vehicle's row and of the one ahead decide.
+of the ego's row and of the one ahead decide.
 Simplifications: no memory, one tick of forecast. Beyond it a mover is taken to drive on, and to turn at the
 next thing that never moves, as if it were alone. A way that a mover keeps closed is waited for, which ends as
 STUCK. Left comes before right only among equals.
@@ -46,9 +46,9 @@ class Leads(StrEnum):
     ON = "on"
     """to a way on"""
     CLOSED = "closed"
-    """to a way on that a mover closes: it comes toward the vehicle in between"""
+    """to a way on that a mover closes: it comes toward the ego in between"""
     BACK = "back"
-    """aside, away from the way on: the vehicle would have to turn back"""
+    """aside, away from the way on: the ego would have to turn back"""
     NOWHERE = "nowhere"
     """into a dead end, or into something that never moves"""
 
@@ -67,7 +67,7 @@ class Standing(NamedTuple):
     """What the rules go by in a moment."""
 
     columns: int | None
-    """columns to go aside from the vehicle's cell to a way on; None where none leads on"""
+    """columns to go aside from the ego's cell to a way on; None where none leads on"""
     prospects: tuple[Prospect | None, ...]
     """of every move, in the order of `MOVES`; None off the road"""
 
@@ -149,7 +149,7 @@ def standing(forecast: Forecast) -> Standing:
 def _toward(forecast: Forecast, ways: Ways, end: int, side: int) -> Prospect | None:
     """From a cell to the nearest way on to one side of it; None where there is none.
 
-    The vehicle gets there by steps aside and one diagonal. A mover that comes toward it is met before that if
+    The ego gets there by steps aside and one diagonal. A mover that comes toward it is met before that if
     it is nearer than twice the way. One that drives away is taken for its mirror image behind where it turns.
     """
     columns = forecast.road.columns
@@ -202,7 +202,7 @@ def _rank_diagonal(prospect: Prospect | None) -> int:
 
 
 def _rank_aside(prospect: Prospect | None, below: bool) -> int:
-    """`below`: whether the way on is straight ahead of the vehicle."""
+    """`below`: whether the way on is straight ahead of the ego."""
     if prospect is None or prospect.leads is Leads.NOWHERE:
         return _LAST + 1
     if prospect.leads is Leads.ON:

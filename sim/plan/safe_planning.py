@@ -3,7 +3,7 @@
 Planners of this program are called as they are. One that another package brings is asked in a process of
 its own (`sim.plan.sandbox.worker`). Of what it answers a move and costs are taken, nothing else
 (`sim.plan.sandbox.answer`). An answer that is none, a move that leads off the road, something raised, or no
-answer in time make the vehicle stay, and the decision's `fault` says what happened.
+answer in time make the ego stay, and the decision's `fault` says what happened.
 """
 
 from __future__ import annotations
@@ -83,7 +83,7 @@ def recorded_decision(percept: Percept, config: Config, move: Move) -> Decision:
 
 
 def failed_decision(percept: Percept, config: Config) -> Decision:
-    """What was done when a planner of another package once failed: the vehicle stayed."""
+    """What was done when a planner of another package once failed: the ego stayed."""
     from sim.plan.sandbox.answer import Answer, FaultError, decision_of
     from sim.plan.sandbox.client import cached_answer
 

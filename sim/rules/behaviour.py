@@ -3,8 +3,9 @@
 A behaviour is a class with a name (`Config.behaviour`). It says who may react in a tick (`reactions`), where
 all movers are after it (`step`, `brake`), and what that means for whoever looks ahead: whether the movers
 react to the vehicles (`reads_egos`), whether something is drawn (`draws`), whether the future is certain, and
-whether a way that meets nothing in a forecast without reactions meets nothing (`free_ways_hold`). Commit,
-forecasts, searches and explanations ask it and never a probability. `SidewaysTraffic` is today's behaviour.
+whether a path that is collision-free without reactions stays collision-free (`free_ways_hold`). Commit,
+forecasts, searches and explanations call these methods and never read a probability.
+`SidewaysTraffic` is the default behaviour.
 
 Contract: rows do not interact, nobody leaves its row, and a mover reacts only to vehicles in its own row.
 `sim.search.reactive` and `sim.repetition` rest on it.
@@ -17,7 +18,7 @@ from collections.abc import Iterator, Sequence
 from itertools import chain, combinations, count, product
 from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple
 
-from sim.rules.kinds import resting_marked
+from sim.rules.mover_boards import resting_marked
 from sim.rules.traffic import Motion, brake, move_movers
 from sim.rules.yielding import attentive_movers, movers_beside, yielding_movers
 from sim.world.grid import Board, bits, board_of
@@ -59,7 +60,7 @@ class Behaviour:
         return not self.draws(config)
 
     def free_ways_hold(self, config: Config) -> bool:
-        """Whether movers leave alone who meets nothing: such a way in a forecast without reactions is one."""
+        """Whether a path that is collision-free in a forecast without reactions stays collision-free."""
         return not self.reads_egos(config)
 
     def reactions(self, world: World, config: Config) -> Reactions:  # noqa: ARG002
@@ -126,7 +127,7 @@ class SidewaysTraffic(Behaviour):
         return 0.0 < config.courtesy < 1.0 or 0.0 < config.attentive < 1.0
 
     def certain(self, config: Config) -> bool:
-        """See `Behaviour`. Nothing is drawn where all give way; it has never been taken for certain."""
+        """See `Behaviour`. With courtesy 1 nothing is drawn either, but the future counts as uncertain."""
         return config.courtesy == 0.0 and config.attentive in (0.0, 1.0)
 
     def free_ways_hold(self, config: Config) -> bool:

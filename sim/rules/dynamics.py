@@ -135,7 +135,7 @@ class Dynamics:
         ]
 
     def unhindered(self, start: Board) -> Board:  # noqa: ARG002 - nothing is known of a motion in general
-        """Where going forward leads if only what is there afterwards can be met; nowhere if more can be."""
+        """The cells that forward moves reach, if only their end cells can collide; otherwise none."""
         return 0
 
     def egos_touch(self, one: tuple[int, int], other: tuple[int, int]) -> bool:

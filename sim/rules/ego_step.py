@@ -39,8 +39,8 @@ def cut_off(
     """The cells straight ahead of vehicles whose diagonal to the left, and to the right, is cut off.
 
     A mover cuts off the diagonal to the left if by a step to the right it enters the cell straight ahead of
-    the vehicle, or the vehicle's own; to the right it is the mirror image. `…_behind` are the cells entered,
-    moved one row on: the vehicle's own cell is then where the one straight ahead of it is.
+    the ego, or the ego's own; to the right it is the mirror image. `…_behind` are the cells entered,
+    moved one row on: the ego's own cell is then where the one straight ahead of it is.
     """
     return came_right | right_behind, came_left | left_behind
 

@@ -101,7 +101,7 @@ def _sweep(forecast: Forecast, terrain: TimeExpandedGraph, horizon: int) -> NDAr
     inside = np.s_[:, :, 1:-1]
 
     def fields(boards: list[Board]) -> NDArray[np.bool_]:
-        """Boards as cells (shape: boards, rows, columns); rows behind the vehicle are left out."""
+        """Boards as cells (shape: boards, rows, columns); rows behind the ego are left out."""
         size = (road.columns * road.rows + 7) // 8
         raw = np.frombuffer(b"".join(board.to_bytes(size, "little") for board in boards), np.uint8)
         flat = np.unpackbits(raw.reshape(len(boards), size), axis=1, bitorder="little")

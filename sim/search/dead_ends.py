@@ -1,6 +1,6 @@
 """The cells from which the goal may still be reached, whoever reacts: a proof for those that are left out.
 
-Structure: one sweep backwards from row 0. Movers react to the vehicle only in its own row, so the rows before
+Structure: one sweep backwards from row 0. Movers react to the ego only in its own row, so the rows before
 it go on as foretold until it enters them, and its own row is taken to be free of movers. Guarantee: from a
 cell that is left out no way leads to the goal; from the others there may be none either.
 """

@@ -1,7 +1,7 @@
-"""The least ticks to the goal where movers react to the vehicle: exact, with every draw known.
+"""The least ticks to the goal where movers react to the ego: exact, with every draw known.
 
 A mover that gives way or brakes goes on from another cell than in the roll-out without a vehicle, but only in
-the vehicle's own row: rows are independent, and the vehicle never goes back. So a state is the vehicle's cell
+the ego's own row: rows are independent, and the ego never goes back. So a state is the ego's cell
 and what its row holds, and a row that is entered is as the roll-out has it. Structure: breadth-first search
 by ticks; vehicles in rows that hold the same are one set of columns. Guarantee: no way of fewer ticks exists,
 since every move in every state is tried with the reactions it causes. Source: time-expanded breadth-first
@@ -21,7 +21,7 @@ from sim.rules.behaviour import NOBODY, Behaviour, Reactions
 from sim.rules.dynamics import Dynamics
 from sim.rules.dynamics_registry import dynamics_on
 from sim.rules.ego_step import Steps
-from sim.rules.kinds import shift_marked, with_marked
+from sim.rules.mover_boards import shift_marked, with_marked
 from sim.rules.traffic import Motion
 from sim.search.dead_ends import cells_that_may_arrive
 from sim.types import MOVES, Move
@@ -52,15 +52,15 @@ class Surroundings(NamedTuple):
     below: int
     """the index of its first cell on the whole road"""
     before: int
-    """its cells before the vehicle's row"""
+    """its cells before the ego's row"""
     unmoved: Board
     """what does not move, in any row"""
     taken: Board
-    """where movers are after the tick, in the rows before the vehicle's; so are the next two"""
+    """where movers are after the tick, in the rows before the ego's; so are the next two"""
     came_right: Board
     came_left: Board
     fixed: Board
-    """columns of the vehicle's row that are taken by what does not move"""
+    """columns of the ego's row that are taken by what does not move"""
     holding: Board
     """columns in which movers are held"""
     entered: dict[int, Row]
@@ -68,7 +68,7 @@ class Surroundings(NamedTuple):
 
 
 Layer = dict[Row, Board]
-"""The columns the vehicle may be in, by what its row holds."""
+"""The columns the ego may be in, by what its row holds."""
 
 
 @dataclass(slots=True)
@@ -81,7 +81,7 @@ class ReactiveSearch:
     patience: int | None = None
     """states that are looked at before it is given up; None: all there are"""
     _windows: tuple[Dynamics, ...] = field(init=False)
-    """the motion on a road of so many rows ahead of the vehicle"""
+    """the motion on a road of so many rows ahead of the ego"""
     _behaviour: Behaviour = field(init=False)
     _ahead: int = field(init=False)
     _around: dict[int, Surroundings] = field(init=False)
@@ -226,7 +226,7 @@ class ReactiveSearch:
     def _motions(
         self, row: Row, column: int, fixed: Board, holding: Board, ahead: int
     ) -> tuple[Motion, Motion]:
-        """The movers of the row in this tick while the vehicle leaves its cell, and while it stands."""
+        """The movers of the row in this tick while the ego leaves its cell, and while it stands."""
         world, behaviour = self.world, self._behaviour
         columns, bit = world.road.columns, 1 << column
         moving = row.right | row.left
@@ -249,7 +249,7 @@ class ReactiveSearch:
         return moved, behaviour.brake(moved, bit, reactions) if (moved.right | moved.left) & bit else moved
 
     def _taken(self, cell: int, ahead: int) -> Board:
-        """The cells that other egos keep the vehicle from entering, from a cell, in this tick."""
+        """The cells that other egos keep the ego from entering, from a cell, in this tick."""
         forecast = self.forecast
         return forecast.taken(ahead) if forecast.egos and (ahead or cell == forecast.ego) else 0
 

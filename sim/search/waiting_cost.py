@@ -1,4 +1,4 @@
-"""What it costs to stay where a mover brakes for the vehicle.
+"""What it costs to stay where a mover brakes for the ego.
 
 The mover then goes on from another cell than the forecast of every other move has it in, so the way on is
 searched in the forecast of a vehicle that stands (`Forecast.standing`).

@@ -1,6 +1,6 @@
-"""Where a `Where` is: the cells it names on a given road, as seen from the vehicle, best first.
+"""Where a `Where` is: the cells it names on a given road, as seen from the ego, best first.
 
-Lanes and rows are absolute; sides are seen from the vehicle. "Ahead" without a lane is the
+Lanes and rows are absolute; sides are seen from the ego. "Ahead" without a lane is the
 vehicle's own lane for placing, and every lane for finding, the nearest thing first.
 """
 
@@ -25,7 +25,7 @@ class Place:
 
 
 def nearest_first(cells: Iterable[int], world: World) -> list[int]:
-    """Cell indices by distance from the vehicle; among equals its own lane, then ahead, first."""
+    """Cell indices by distance from the ego; among equals its own lane, then ahead, first."""
     return nearest_to(world.av, cells, world.road)
 
 
@@ -135,7 +135,7 @@ _STEPS: dict[str, Cell] = {"ahead": (0, -1), "behind": (0, 1), "left": (-1, 0), 
 
 
 def _own_line(world: World, side: str, away: int | None, *, spread: bool) -> Board:
-    """The cells straight to one side of the vehicle; at a distance the one, or several if `spread`."""
+    """The cells straight to one side of the ego; at a distance the one, or several if `spread`."""
     road = world.road
     start = road.cell(world.av)
     if away is None:

@@ -3,7 +3,7 @@
 Deciding is most of what a tick takes, with a planner that searches nearly all. A fork shares its parent's
 bytes: they are cut into blocks that never change. Leaves out why a move was made: that is asked for seldom,
 and derived anew. Where a planner failed, and where nothing was decided, the tick is run as if it were new.
-But a planner of another package is not asked again: it is noted that it failed, and that the vehicle stayed.
+But a planner of another package is not asked again: it is noted that it failed, and that the ego stayed.
 Of several egos each has a byte in every tick, in the order of their ids.
 """
 

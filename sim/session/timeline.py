@@ -1,9 +1,9 @@
 """Time that can be walked: a configuration and the actions with the tick at which each took effect.
 
 That list *is* the session; every state is derived from it by replay, and snapshots along the way
-only save time. Undoing is rewriting the list without a change, which is then as if never said.
-Snapshots are placed by the work between them, so that every state is as near as every other. The way from
-one is driven by the moves that were made (`sim.session.move_log`); a tick is decided once.
+only save time. An undo rewrites the log without the change.
+Snapshots are spaced by replay work, so that no state is expensive to reach. Replay from a snapshot uses
+the recorded moves (`sim.session.move_log`), so each tick is decided only once.
 """
 
 from __future__ import annotations
@@ -27,19 +27,19 @@ from sim.transition import step
 from sim.types import Move
 
 SNAPSHOT_TICKS = 128
-"""Work between two snapshots, in ticks that are driven again; twice that each time there are too many."""
+"""Work between two snapshots, in replayed ticks. It doubles whenever `MAX_SNAPSHOTS` is exceeded."""
 
 MAX_SNAPSHOTS = 512
 """Of some kilobytes each. A fork of a log of 50,000 ticks is to take 10 ms."""
 
 ACTION_WORK = 4
-"""What an action of the log costs, in such ticks or those of the simplest planner: two of them are one."""
+"""Work of one logged action, in replayed ticks (equal to ticks of the simplest planner)."""
 
 THINGS_AN_ACTION = 10
-"""So many things on the road cost an action one such tick more."""
+"""Number of things on the road that adds one replayed tick to the work of an action."""
 
 ROAD_WORK, ROAD_CELLS = 4, 80
-"""What drawing a road costs, and the cells that cost one such tick more."""
+"""Work of generating a road in replayed ticks, and the number of cells that adds one more."""
 
 _DRAWN = frozenset((EventType.EPISODE_STARTED, EventType.ROAD_KEPT))
 
@@ -47,7 +47,7 @@ RECENT_RUNS = 8
 """States kept as they were, for questions about what has just been done."""
 
 RECENT_CHANGES = 4
-"""States before the latest changes: taken back from snapshots, those took half of a long replay."""
+"""Number of states kept from before the latest edits, so that an undo replays only the ticks since then."""
 
 
 class PlannerSilentError(Exception):
@@ -128,7 +128,7 @@ class Timeline:
     ) -> tuple[
         Config, SimState, PersistentList[Entry], tuple[Snapshot, ...], int, int, int, tuple[bytes, ...]
     ]:
-        """What it is made of, but for the states that are only kept for being near."""
+        """All parts except the cached recent states."""
         shots, moves = self._snapshots, self._track.blocks
         return self.config, self.state, self.entries, shots, self._gap, self._work, self.worked, moves
 
@@ -182,8 +182,8 @@ class Timeline:
     def rewrite(self, entries: Sequence[Entry], since: int) -> None:
         """Make `entries` the log, as if nothing else had ever been said, and replay to the present tick.
 
-        The new log may differ from the old at tick `since` and later; the time taken is that of
-        the ticks since then. Raises `PlannerSilentError`; of this timeline nothing is then to be used.
+        The new log may differ from the old one from tick `since` on; only the ticks from there on are decided
+        again. Raises `PlannerSilentError`; the timeline is then invalid and must be discarded.
         """
         present = self.tick
         self._recent.clear()
@@ -220,14 +220,14 @@ class Timeline:
         self._recent.clear()
 
     def work_to(self, tick: int) -> int:
-        """What it takes to know the state at a past tick, about in ticks. Raises `IndexError`."""
+        """The approximate work to replay to a past tick, in ticks. Raises `IndexError`."""
         self._check(tick)
         shot = self._nearest_shot(tick)
         said = self._said_by(tick) - shot.entries
         return tick - shot.tick + said * ACTION_WORK
 
     def work_since(self, tick: int) -> int:
-        """What it takes to come to the present anew from a past tick, about in ticks. Raises `IndexError`."""
+        """The approximate work to rerun from a past tick to the present, in ticks. Raises `IndexError`."""
         said = len(self.entries) - self._said_by(tick)
         return self.work_to(tick) + (self.tick - tick) * _tick_work(self.state) + said * ACTION_WORK
 
@@ -264,8 +264,8 @@ class Timeline:
 
         None while a result stood, and where that ego had arrived.
 
-        Derived anew, but for that of a planner of another package: where its move is noted it is not asked
-        again. In the present state it is what would be decided now.
+        The decision is recomputed, except where the move of a planner of another package is recorded: that
+        planner is not asked again. For the present state, it is the decision that would be made now.
         """
         step = self.taken(state, ego)
         return None if step is None else step.decision
@@ -311,7 +311,7 @@ class Timeline:
         self._worked(_tick_work(tick.state), 1 + _road_work(tick.state, tick.events), entries)
 
     def _worked(self, work: int, again: int, entries: int) -> None:
-        """The present was come to by this much work, and so much when it is done again."""
+        """Adds up the work done and `again`, its cost in a replay; takes a snapshot where one is due."""
         self._work += again
         self.worked += work
         if self._work < self._gap:
@@ -323,7 +323,7 @@ class Timeline:
             self._snapshots = self._snapshots[::2]
 
     def _forget_from(self, entries: Sequence[Entry], since: int) -> None:
-        """Forget the snapshots that another log does not lead to, being the same up to tick `since`."""
+        """Drops the snapshots that are wrong for the new log, which differs from tick `since` on."""
         start = bisect_left(self.entries, since, key=lambda entry: entry.tick)
         alike = start
         while alike < min(len(entries), len(self.entries)) and entries[alike] == self.entries[alike]:

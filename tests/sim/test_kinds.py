@@ -22,7 +22,7 @@ from sim.perceive import perceive
 from sim.plan.sandbox import codec
 from sim.repetition import Watch, situation
 from sim.rules.collision_geometry import clearance
-from sim.rules.kinds import PERIODS
+from sim.rules.mover_boards import PERIODS
 from sim.session.edits import apply
 from sim.session.serialization import Packer, Unpacker
 from sim.state import SimState

@@ -79,7 +79,7 @@ from sim.batch.layout import (
     YIELDING,
 )
 from sim.batch.roads import begin_next
-from sim.rules.kinds import PERIODS
+from sim.rules.mover_boards import PERIODS
 from sim.rules.traffic import Motion
 from sim.types import Kind
 
