@@ -54,8 +54,7 @@ def action_mask(world: World, config: Config) -> Masks:
     mask = np.zeros(len(MOVES), np.bool_)
     if world.outcome is Outcome.RUNNING:
         forecast = Forecast.of_truth(world, config, 1)
-        for number, move in enumerate(MOVES):
-            mask[number] = forecast.will_be_free(world.av, forecast.dynamics.target(world.av, move))
+        mask[:] = [bool(end) for end in forecast.own_steps()]
     return _never_empty(mask)
 
 

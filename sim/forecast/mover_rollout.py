@@ -33,7 +33,6 @@ class RollOut(Sequence[Motion]):
 
     __slots__ = (
         "_behaviour",
-        "_disabled",
         "_fixed",
         "_horizon",
         "_left",
@@ -44,6 +43,7 @@ class RollOut(Sequence[Motion]):
         "_standing",
         "_stands",
         "_tables",
+        "disabled",
         "percept",
     )
 
@@ -63,11 +63,12 @@ class RollOut(Sequence[Motion]):
         yielding, attentive = percept.yielding, percept.attentive
         self._reactions = Reactions(yielding, attentive) if yielding or attentive else NOBODY
         self._fixed = boards.fixed
-        self._disabled = (percept.right | percept.left) & boards.holding
+        self._right, self._left = right, left = percept.right, percept.left
+        self.disabled = (right | left) & boards.holding
+        """movers that a hazard holds"""
         self._slices: list[Motion] = []
         self._shifted = [boards]
         self._tables: list[Mapping[int, str]] = []
-        self._right, self._left = percept.right, percept.left
         self._standing: Board | None = None
 
     def __len__(self) -> int:
@@ -135,7 +136,7 @@ class RollOut(Sequence[Motion]):
                 self._right,
                 self._left,
                 boards.marked,
-                self._disabled,
+                self.disabled,
                 self._fixed,
                 road.left_edge,
                 road.right_edge,
@@ -150,7 +151,7 @@ class RollOut(Sequence[Motion]):
                 self._right,
                 self._left,
                 boards.marked,
-                self._disabled,
+                self.disabled,
                 self._fixed,
                 road.left_edge,
                 road.right_edge,

@@ -53,10 +53,6 @@ class GridDynamics(Dynamics):
             met = (cell - self.road.columns, cell)
         return end, Swept((end,), met if across < 0 else NOTHING, met if across > 0 else NOTHING)
 
-    def target(self, cell: int, move: Move) -> int | None:
-        """See `Dynamics`."""
-        return self.road.moved(cell, move)
-
     def steps(self, start: Board, blocked: Board, came_right: Board, came_left: Board) -> Steps:
         """See `Dynamics`."""
         road = self.road
