@@ -157,6 +157,8 @@ class StepResult:
 _held = field_setter(World, "tick")
 _told_nothing = field_setter(Ego, "queue")
 _holding = field_setter(SimState, "world", "egos")
+_beginning = field_setter(Ego, "queue", "record", "watch", "belief")
+_begun = field_setter(SimState, "config", "world", "egos")
 
 
 def config_with(config: Config, planner: str | None) -> Config:
@@ -221,5 +223,6 @@ def _begin(state: SimState, config: Config, episode: int) -> tuple[SimState, Eve
     if len(state.egos) > 1:
         world = with_egos_at_start(world, len(state.egos))
     event = Event(world.tick, EventType.EPISODE_STARTED, episode)
-    begun = state.with_each_ego(queue=(), record=EpisodeRecord(), watch=NOTHING_KEPT, belief=NO_BELIEF)
-    return replace(begun, config=config, world=world), event
+    record = EpisodeRecord()
+    egos = {id: _beginning(ego, (), record, NOTHING_KEPT, NO_BELIEF) for id, ego in state.egos.items()}
+    return _begun(state, config, world, egos), event

@@ -126,11 +126,12 @@ def repeats_for_ever(config: Config, planner: str | None = None) -> bool:
     `planner`: None means that of the configuration.
     """
     # A situation holds two rows (`sim.repetition`): all that matters where a move gains a row at most.
-    if config.dynamics != DEFAULT_DYNAMICS:
-        return False
-    if not (config.certain and traits_of(planner or config.planner).local):
-        return False
-    return sensor_named(config.sensor).faithful
+    return (
+        config.certain
+        and config.dynamics == DEFAULT_DYNAMICS
+        and traits_of(planner or config.planner).local
+        and sensor_named(config.sensor).faithful
+    )
 
 
 def _next_belief(

@@ -55,8 +55,7 @@ class GridDynamics(Dynamics):
 
     def steps(self, start: Board, blocked: Board, came_right: Board, came_left: Board) -> Steps:
         """See `Dynamics`."""
-        road = self.road
-        columns = road.columns
+        road, columns = self.road, self._columns
         cut_left = cut_right = 0
         if self.bodies:
             cut_left, cut_right = cut_off(came_right, came_left, came_right >> columns, came_left >> columns)
