@@ -21,17 +21,17 @@ def commit(world: World, moves: tuple[Move, ...], config: Config) -> World:
     Raises `ValueError` where a move leads off the road, and where there are not as many as egos.
     """
     behaviour, road, boards = config.mover_behaviour, world.road, world.boards
-    reactions = cached_reactions(world, config)
+    right, left, reactions = world.right, world.left, cached_reactions(world, config)
     motion = cached_step(
         behaviour,
-        world.right,
-        world.left,
+        right,
+        left,
         boards.marked,
-        world.disabled,
+        (right | left) & boards.holding,
         boards.fixed,
         road.left_edge,
         road.right_edge,
-        world.episode_tick,
+        world.tick - world.episode_start,
         world.driven,
         reactions,
     )
@@ -53,7 +53,7 @@ def commit(world: World, moves: tuple[Move, ...], config: Config) -> World:
         targets,
         motion.right,
         motion.left,
-        shift_boards(boards, motion),
+        shift_boards(boards, motion) if boards.others else boards,
         cached_shift_table(world.movers, motion),
     )
 

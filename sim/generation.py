@@ -74,6 +74,8 @@ def _draw_road(
     def furnish(kind: Kind) -> Board:
         nonlocal taken
         count = getattr(config, COUNTS[kind]) if kind in COUNTS else 0
+        if count == 0:
+            return 0
         drawn_by = KINDS[kind].probability
         probability = getattr(config, drawn_by) if drawn_by else 0.0
         first = layout.movers if kind.moves else layout.potholes if kind is Kind.POTHOLE else road.between
@@ -115,7 +117,8 @@ def _draw_road(
 def _ids(kinds: Iterable[Kind], placed: Mapping[Kind, Board], last: dict[Kind, int]) -> dict[int, str]:
     table: dict[int, str] = {}
     for kind in kinds:
-        table |= assign_ids(kind, bits(placed[kind]), last)
+        if placed[kind]:
+            table |= assign_ids(kind, bits(placed[kind]), last)
     return table
 
 

@@ -20,6 +20,8 @@ def collisions(before: World, after: World, motion: Dynamics) -> tuple[Cause, ..
     It is in a cell after the tick that something else is in, or has run into something on the way: what a
     step sweeps, the motion says (`sim.rules.dynamics`).
     """
+    if len(after.avs) == 1 and _met_nothing(before, after, motion):
+        return ()
     found: list[Cause] = []
     known = 0
     for number, (start, end) in enumerate(zip(before.avs, after.avs, strict=True)):
@@ -43,6 +45,14 @@ def collisions(before: World, after: World, motion: Dynamics) -> tuple[Cause, ..
             found += _between_egos(before, after, number, motion)
         known = len(found)
     return tuple(found)
+
+
+def _met_nothing(before: World, after: World, motion: Dynamics) -> bool:
+    """Whether the only ego ends in a free cell, and its step sweeps nothing else: so in nearly every tick."""
+    (end,) = after.avs
+    cells, from_left, from_right = motion.swept(before.avs[0], end)
+    nothing_else = len(cells) == 1 and not from_left and not from_right
+    return nothing_else and end not in after.hazards and end not in after.movers
 
 
 def _passed(before: World, after: World, start: int, end: int, swept: Swept) -> list[Cause]:
@@ -80,4 +90,4 @@ def outcome(
     columns, avs = after.road.columns, after.avs
     if min(avs) < columns and all(cell < columns or number in parked for number, cell in enumerate(avs)):
         return Outcome.SUCCESS
-    return Outcome.STUCK if after.episode_tick > max_ticks else Outcome.RUNNING
+    return Outcome.STUCK if after.tick - after.episode_start > max_ticks else Outcome.RUNNING

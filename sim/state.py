@@ -11,6 +11,7 @@ from sim.config import Config
 from sim.ego import Ego
 from sim.episode_record import EpisodeRecord
 from sim.events import Event, EventType
+from sim.fast_replace import field_setter
 from sim.forecast import Forecast
 from sim.generation import GenerationError, generate
 from sim.metrics import Metrics
@@ -164,6 +165,13 @@ class StepResult:
         return None if found is None else found.decision
 
 
+_held = field_setter(World, "tick")
+_told_nothing = field_setter(Ego, "queue")
+_holding = field_setter(SimState, "world", "egos")
+_beginning = field_setter(Ego, "queue", "record", "watch", "belief")
+_begun = field_setter(SimState, "config", "world", "egos")
+
+
 def config_with(config: Config, planner: str | None) -> Config:
     """The configuration with another planner; as it is for None. Raises `ConfigError`."""
     return config if planner is None else _config_with(config, planner)
@@ -210,8 +218,11 @@ def reconfigure(state: SimState, config: Config) -> tuple[SimState, Event]:
 
 def hold_result(state: SimState) -> StepResult:
     """The result stands for a tick more; or the next episode begins."""
-    world = replace(state.world, tick=state.world.tick + 1)
-    held = replace(state.with_each_ego(queue=()), world=world)
+    world = _held(state.world, state.world.tick + 1)
+    egos = state.egos
+    if any(ego.queue for ego in egos.values()):
+        egos = {id: _told_nothing(ego, ()) for id, ego in egos.items()}
+    held = _holding(state, world, egos)
     if world.ended is not None and world.tick - world.ended < state.config.reset_delay_ticks:
         return StepResult(held, {}, ())
     begun, event = next_episode(held)
@@ -223,5 +234,6 @@ def _begin(state: SimState, config: Config, episode: int) -> tuple[SimState, Eve
     if len(state.egos) > 1:
         world = with_egos_at_start(world, len(state.egos))
     event = Event(world.tick, EventType.EPISODE_STARTED, episode)
-    begun = state.with_each_ego(queue=(), record=EpisodeRecord(), watch=NOTHING_KEPT, belief=NO_BELIEF)
-    return replace(begun, config=config, world=world), event
+    record = EpisodeRecord()
+    egos = {id: _beginning(ego, (), record, NOTHING_KEPT, NO_BELIEF) for id, ego in state.egos.items()}
+    return _begun(state, config, world, egos), event

@@ -70,7 +70,7 @@ def transition(
     if len(before.avs) == 1:
         ego = state.ego()
         move, fault = moves.get(ego.id, Move.STAY), faults.get(ego.id)
-        return _one_moved(state, ego, move, steps, ego.id in by_person, fault)
+        return transition_alone(state, ego, move, steps, ego.id in by_person, fault)
     ids = [ego_id(number) for number in range(len(before.avs))]
     all_moves = tuple([moves.get(id, Move.STAY) for id in ids])
     after = next_world(before, all_moves, state.config, state.parked)
@@ -90,21 +90,21 @@ def transition(
     return _ticked(_state_after(state, after, egos), steps, _events(state, after, moves, steps))
 
 
-def _one_moved(
+def transition_alone(
     state: SimState,
     ego: Ego,
     move: Move,
-    steps: Mapping[str, EgoStep],
-    by_person: bool,
-    fault: str | None,
+    steps: Mapping[str, EgoStep] = _NO_STEPS,
+    by_person: bool = False,
+    fault: str | None = None,
 ) -> StepResult:
-    """`transition` where there is one ego."""
+    """`transition` of the only ego of a road. The episode must not have ended."""
     before, config = state.world, state.config
     after = next_world(before, (move,), config)
     certain, ended = config.certain, after.outcome is not Outcome.RUNNING
     watch: Watch | None = NOTHING_KEPT
     undecided = ended or by_person or fault is not None
-    if not undecided and config.repetition and repeats_for_ever(config, ego.planner):
+    if config.repetition and not undecided and repeats_for_ever(config, ego.planner):
         watch = update_watch(ego.watch, after)
         if watch is None:
             after, ended = replace(after, outcome=Outcome.STUCK, ended=after.tick), True
@@ -115,7 +115,7 @@ def _one_moved(
     record = ego.record.after(before, after, move, state.edits, certain, by_person, faulty, ended)
     belief = _next_belief(state, steps, ego.id)
     made = _ego_after(ego, ego.queue[1:], metrics, fault, record, watch or NOTHING_KEPT, belief)
-    told = ended or by_person or faulty
+    told = ended or (steps and (by_person or faulty))  # without steps nothing of a decision is told
     events = _events(state, after, {ego.id: move}, steps) if told else ()
     return _ticked(_state_after(state, after, {ego.id: made}), steps, events)
 
@@ -126,11 +126,12 @@ def repeats_for_ever(config: Config, planner: str | None = None) -> bool:
     `planner`: None means that of the configuration.
     """
     # A `Situation` holds two rows (`sim.repetition`), which is enough if a move gains at most one row.
-    if config.dynamics != DEFAULT_DYNAMICS:
-        return False
-    if not (config.certain and traits_of(planner or config.planner).local):
-        return False
-    return sensor_named(config.sensor).faithful
+    return (
+        config.certain
+        and config.dynamics == DEFAULT_DYNAMICS
+        and traits_of(planner or config.planner).local
+        and sensor_named(config.sensor).faithful
+    )
 
 
 def _next_belief(
@@ -153,7 +154,7 @@ def step(state: SimState, decided: Mapping[str, Decision] = _NO_DECISIONS) -> St
         alone = decide_alone(state, ego, decided.get(ego.id))
         decision = alone.decision
         by_person = decision.asked is not None
-        return _one_moved(state, ego, decision.move, {ego.id: alone}, by_person, decision.fault)
+        return transition_alone(state, ego, decision.move, {ego.id: alone}, by_person, decision.fault)
     steps = decide_each(state, decided)
     made = {id: each.decision for id, each in steps.items()}
     return transition(

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
+from functools import cache
 from types import MappingProxyType
 from typing import Final, NamedTuple
 
@@ -42,6 +43,7 @@ def kind_of(name: str) -> Kind:
     return Kind(name.rpartition("-")[0])
 
 
+@cache
 def ego_id(number: int) -> str:
     """The id of the ego at a place of `World.avs` (from 0)."""
     return f"{Kind.AV}-{number + 1}"

@@ -51,12 +51,12 @@ def checked_actions(actions: Any, count: int) -> NDArray[np.uint8]:
 
 def action_mask(world: World, config: Config) -> Masks:
     """The moves of one world (shape: 6)."""
-    mask = np.zeros(len(MOVES), np.bool_)
+    free = [False] * len(MOVES)
     if world.outcome is Outcome.RUNNING:
-        forecast = Forecast.of_truth(world, config, 1)
-        for number, move in enumerate(MOVES):
-            mask[number] = forecast.will_be_free(world.av, forecast.dynamics.target(world.av, move))
-    return _never_empty(mask)
+        free = [bool(end) for end in Forecast.of_truth(world, config, 1).own_steps()]
+    if not any(free):
+        free[STAY] = True
+    return np.array(free, np.bool_)
 
 
 def action_masks(batch: Batch, *, threads: int = 1) -> Masks:

@@ -297,17 +297,17 @@ def _union(boards: Iterable[Board]) -> Board:
 
 def predict(percept: Percept, horizon: int) -> Forecast:
     """What to expect of the next `horizon` ticks (at least one)."""
-    road, boards = percept.road, percept.boards
+    road, slices = percept.road, RollOut(percept, horizon)
     return _expected(
         road,
         percept.tick,
         percept.episode_tick,
         percept.ego,
         percept.ego_id,
-        boards,
-        (percept.right | percept.left) & boards.holding,
+        percept.boards,
+        slices.disabled,
         dynamics_on(road, percept.dynamics, percept.swept),
         percept.hazards,
-        RollOut(percept, horizon),
+        slices,
         percept.egos,
     )

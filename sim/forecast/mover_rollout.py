@@ -33,7 +33,6 @@ class RollOut(Sequence[Motion]):
 
     __slots__ = (
         "_behaviour",
-        "_disabled",
         "_fixed",
         "_horizon",
         "_left",
@@ -47,6 +46,7 @@ class RollOut(Sequence[Motion]):
         "_standing",
         "_stands",
         "_tables",
+        "disabled",
         "percept",
     )
 
@@ -66,12 +66,13 @@ class RollOut(Sequence[Motion]):
         yielding, attentive = percept.yielding, percept.attentive
         self._reactions = Reactions(yielding, attentive) if yielding or attentive else NOBODY
         self._fixed = boards.fixed
-        self._disabled = (percept.right | percept.left) & boards.holding
+        self._right, self._left = right, left = percept.right, percept.left
+        self.disabled = (right | left) & boards.holding
+        """movers that a hazard holds"""
         self._slices: list[Motion] = []
         self._marked = boards.marked if boards.others else ()
         self._marked_after: list[tuple[Board, ...]] = []
         self._tables: list[Mapping[int, str]] = []
-        self._right, self._left = percept.right, percept.left
         self._left_edge, self._right_edge = percept.road.left_edge, percept.road.right_edge
         self._standing: Board | None = None
 
@@ -142,7 +143,7 @@ class RollOut(Sequence[Motion]):
                 self._right,
                 self._left,
                 marked,
-                self._disabled,
+                self.disabled,
                 self._fixed,
                 self._left_edge,
                 self._right_edge,
@@ -157,7 +158,7 @@ class RollOut(Sequence[Motion]):
                 self._right,
                 self._left,
                 percept.boards.marked,
-                self._disabled,
+                self.disabled,
                 self._fixed,
                 self._left_edge,
                 self._right_edge,

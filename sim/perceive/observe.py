@@ -16,7 +16,6 @@ from sim.perceive.percept import Percept
 from sim.rules.mover_boards import PERIODS
 from sim.rules.traffic import steps_in_tick
 from sim.types import HAZARDS, MARKED, Kind
-from sim.world.grid import bits
 
 ORDER: Final = (*HAZARDS, "right", "left", *MARKED, Kind.AV, "stepping")
 """What each plane shows."""
@@ -33,16 +32,18 @@ Planes = NDArray[np.uint8]
 def observe(percept: Percept) -> Planes:
     """The planes of what is seen (shape: planes, rows, columns; the planes are those of `ORDER`)."""
     road = percept.road
-    planes = np.zeros((PLANES, road.rows, road.columns), np.uint8)
-    boards = (
+    shown = (
         *(percept.boards[kind] for kind in HAZARDS),
         percept.right,
         percept.left,
         *(percept.boards[kind] for kind in MARKED),
         percept.vehicles,
+        road.all if steps_in_tick(PERIODS[Kind.PEDESTRIAN], percept.episode_tick) else 0,
     )
-    for plane, board in zip(planes, boards, strict=False):
-        for cell in bits(board):
-            plane.flat[cell] = 1
-    planes[STEPPING] = steps_in_tick(PERIODS[Kind.PEDESTRIAN], percept.episode_tick)
-    return planes
+    # One integer with all planes one after the other: its digits are the array.
+    cells, whole = road.columns * road.rows, 0
+    for plane, board in enumerate(shown):
+        whole |= board << plane * cells
+    packed = np.frombuffer(whole.to_bytes((PLANES * cells + 7) // 8, "little"), np.uint8)
+    planes = np.unpackbits(packed, count=PLANES * cells, bitorder="little")
+    return planes.reshape(PLANES, road.rows, road.columns)

@@ -97,7 +97,7 @@ class Behaviour:
         return move_movers(
             right,
             left,
-            disabled | resting_marked(marked, episode_tick) if marked else disabled,
+            disabled | resting_marked(marked, episode_tick) if any(marked) else disabled,
             fixed,
             reactions.yielding,
             vehicles,
@@ -136,9 +136,10 @@ class SidewaysTraffic(Behaviour):
 
     def reactions(self, world: World, config: Config) -> Reactions:
         """See `Behaviour`."""
-        if not movers_beside(world):
+        near = movers_beside(world)
+        if not near:
             return NOBODY
-        return Reactions(yielding_movers(world, config), attentive_movers(world, config))
+        return Reactions(yielding_movers(world, config, near), attentive_movers(world, config, near))
 
     def possible_reactions(self, world: World, config: Config) -> list[tuple[Reactions, float]]:
         """See `Behaviour`: every set of the movers beside a vehicle, each drawn by itself."""

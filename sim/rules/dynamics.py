@@ -74,6 +74,8 @@ class Dynamics:
         self._columns = road.columns
         self.swept: Callable[[int, int], Swept] = lru_cache(maxsize=4_096)(self._swept)
         """what the step from one cell to another sweeps; the end alone where no move leads there"""
+        self.target: Callable[[int, Move], int | None] = lru_cache(maxsize=4_096)(self._target)
+        """the cell a move leads to; None if that is off the road"""
         self._steps_from: dict[int, tuple[_Step, ...]] = {}
         self._sources_of: dict[int, tuple[tuple[int, _Step], ...]] = {}
 
@@ -88,11 +90,6 @@ class Dynamics:
     def actions(self, cell: int) -> tuple[Move, ...]:
         """The moves from a cell that do not lead off the road."""
         return tuple(MOVES[step.place] for step in self._from(cell))
-
-    def target(self, cell: int, move: Move) -> int | None:
-        """The cell a move leads to; None if that is off the road."""
-        found = self.step(cell, move)
-        return None if found is None else found[0]
 
     def steps(self, start: Board, blocked: Board, came_right: Board, came_left: Board) -> Steps:
         """Where vehicles in the cells `start` may be one tick later, by move."""
@@ -170,6 +167,10 @@ class Dynamics:
             for start, _ in self._to(cell)
             if (end if start // columns == cell // columns else entered) >> cell & 1
         )
+
+    def _target(self, cell: int, move: Move) -> int | None:
+        found = self.step(cell, move)
+        return None if found is None else found[0]
 
     def _swept(self, start: int, end: int) -> Swept:
         found = (self.step(start, move) for move in MOVES)

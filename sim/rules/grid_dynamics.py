@@ -53,14 +53,9 @@ class GridDynamics(Dynamics):
             met = (cell - self.road.columns, cell)
         return end, Swept((end,), met if across < 0 else NOTHING, met if across > 0 else NOTHING)
 
-    def target(self, cell: int, move: Move) -> int | None:
-        """See `Dynamics`."""
-        return self.road.moved(cell, move)
-
     def steps(self, start: Board, blocked: Board, came_right: Board, came_left: Board) -> Steps:
         """See `Dynamics`."""
-        road = self.road
-        columns = road.columns
+        road, columns = self.road, self._columns
         cut_left = cut_right = 0
         if self.bodies:
             cut_left, cut_right = cut_off(came_right, came_left, came_right >> columns, came_left >> columns)

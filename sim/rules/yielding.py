@@ -16,14 +16,14 @@ if TYPE_CHECKING:
     from sim.world import World
 
 
-def yielding_movers(world: World, config: Config) -> Board:
-    """The movers that count an autonomous vehicle's cell as blocked in the coming tick."""
-    return _drawn(world, config, "courtesy", config.courtesy) if config.courtesy else 0
+def yielding_movers(world: World, config: Config, near: Board) -> Board:
+    """Of the movers beside a vehicle, those that count its cell as blocked in the coming tick."""
+    return _drawn(world, config, "courtesy", config.courtesy, near) if config.courtesy else 0
 
 
-def attentive_movers(world: World, config: Config) -> Board:
-    """The movers that brake in the coming tick for an autonomous vehicle that stands still before them."""
-    return _drawn(world, config, "attentive", config.attentive) if config.attentive else 0
+def attentive_movers(world: World, config: Config, near: Board) -> Board:
+    """Of the movers beside a vehicle, those that brake in the coming tick if it stands still before them."""
+    return _drawn(world, config, "attentive", config.attentive, near) if config.attentive else 0
 
 
 def movers_beside(world: World) -> Board:
@@ -33,9 +33,8 @@ def movers_beside(world: World) -> Board:
     return (vehicles >> 1 | vehicles << 1) & (world.right | world.left)
 
 
-def _drawn(world: World, config: Config, purpose: str, share: float) -> Board:
-    near = movers_beside(world)
-    if not near or share == 1.0:
+def _drawn(world: World, config: Config, purpose: str, share: float, near: Board) -> Board:
+    if share == 1.0:
         return near
     draws = Stream.of(config.seed, purpose, world.episode, world.episode_tick)
     return board_of([cell for cell in bits(near) if draws.uniform(cell) < share])

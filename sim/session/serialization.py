@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields
 from hashlib import blake2b
+from operator import attrgetter
 from typing import Any, TypeVar
 
 from sim.config import COUNTS, Config
@@ -35,6 +36,7 @@ _LATER = {*COUNTS.values(), "dynamics", "behaviour"}
 """Fields of configurations that came later; where one is missing, it is at its default."""
 _ALWAYS = {*_CONFIG} - _LATER
 _METRICS = tuple(field.name for field in fields(Metrics))
+_config_values, _metrics_values = attrgetter(*_CONFIG), attrgetter(*_METRICS)
 
 
 class BeliefError(ValueError):
@@ -111,7 +113,7 @@ class Packer:
             ego.planner,
             ego.mode,
             [*ego.queue],
-            [getattr(ego.metrics, name) for name in _METRICS],
+            [*_metrics_values(ego.metrics)],
             ego.fault,
             [
                 None if record.start is None else self._world(record.start),
@@ -171,11 +173,12 @@ class Unpacker:
 
 
 def _boards(world: World) -> tuple[int, ...]:
-    return world.potholes, world.barriers, world.right, world.left, world.pedestrians
+    potholes, barriers, pedestrians = world.boards.first
+    return potholes, barriers, world.right, world.left, pedestrians
 
 
 def _config(config: Config) -> dict[str, Any]:
-    return {name: getattr(config, name) for name in _CONFIG}
+    return dict(zip(_CONFIG, _config_values(config), strict=True))
 
 
 def _read_config(parts: Mapping[str, Any]) -> Config:

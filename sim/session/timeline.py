@@ -306,8 +306,11 @@ class Timeline:
     def _went_on(self, tick: StepResult, entries: int) -> None:
         """One tick on, which was decided now, with so many entries applied."""
         self.state = tick.state
-        steps = tick.steps
-        self._track.note(*[steps[id].decision if id in steps else None for id in tick.state.egos])
+        steps, egos = tick.steps, tick.state.egos
+        if len(egos) == 1:
+            self._track.note(tick.decision)
+        else:
+            self._track.note(*[steps[id].decision if id in steps else None for id in egos])
         self._worked(_tick_work(tick.state), 1 + _road_work(tick.state, tick.events), entries)
 
     def _worked(self, work: int, again: int, entries: int) -> None:
@@ -368,7 +371,10 @@ def _answered(tick: StepResult) -> StepResult:
 
 
 def _tick_work(state: SimState) -> int:
-    return max(traits_of(ego.planner or state.config.planner).work for ego in state.egos.values())
+    egos = state.egos
+    if len(egos) == 1:
+        return traits_of(state.ego().planner or state.config.planner).work
+    return max(traits_of(ego.planner or state.config.planner).work for ego in egos.values())
 
 
 def _action_work(applied: Applied) -> int:
@@ -378,6 +384,6 @@ def _action_work(applied: Applied) -> int:
 
 
 def _road_work(state: SimState, events: Sequence[Event]) -> int:
-    if not any(event.type in _DRAWN for event in events):
+    if not events or not any(event.type in _DRAWN for event in events):
         return 0
     return ROAD_WORK + state.world.road.columns * state.world.road.rows // ROAD_CELLS

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from operator import itemgetter
 from typing import Final
 
 from sim.fast_replace import fast_constructor
@@ -21,6 +22,7 @@ _HOLDING: Final = tuple(PLACE[kind] for kind in HAZARDS if KINDS[kind].holds_mov
 _FIXED: Final = len(HAZARDS)
 _FIRST: Final = (Kind.POTHOLE, Kind.BARRIER, Kind.PEDESTRIAN)
 _LATER: Final = tuple(kind for kind in BOARDED if kind not in _FIRST)
+_of_first: Final = itemgetter(*(PLACE[kind] for kind in _FIRST))
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,12 +66,18 @@ class Boards:
         return self.hazards + self.marked
 
     @property
+    def first(self) -> tuple[Board, ...]:
+        """The boards of the first three kinds with one: potholes, barriers, pedestrians."""
+        found: tuple[Board, ...] = _of_first(self.hazards + self.marked)
+        return found
+
+    @property
     def later(self) -> tuple[tuple[Kind, Board], ...]:
         """What is on the road of kinds that came after the first four.
 
         The boards of the first are part of every digest and every saved world, others where there are such.
         """
-        return tuple((kind, self[kind]) for kind in _LATER if self[kind])
+        return tuple([(kind, self[kind]) for kind in _LATER if self[kind]]) if _LATER else ()
 
     def with_kind(self, kind: Kind, board: Board) -> Boards:
         """The boards with the cells of one kind replaced."""

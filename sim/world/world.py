@@ -201,16 +201,16 @@ class World:
             _OUTCOMES[self.outcome],
             len(avs),
         )
-        boards = self.boards
+        potholes, barriers, pedestrians = self.boards.first
         parts = (
             head,
             _CELL(avs[0]) if len(avs) == 1 else pack(f"<{len(avs)}I", *avs),
-            boards[Kind.POTHOLE].to_bytes(size, "little"),
-            boards[Kind.BARRIER].to_bytes(size, "little"),
+            potholes.to_bytes(size, "little"),
+            barriers.to_bytes(size, "little"),
             self.right.to_bytes(size, "little"),
             self.left.to_bytes(size, "little"),
-            boards[Kind.PEDESTRIAN].to_bytes(size, "little"),
-            *(kind.encode() + board.to_bytes(size, "little") for kind, board in boards.later),
+            pedestrians.to_bytes(size, "little"),
+            *[kind.encode() + board.to_bytes(size, "little") for kind, board in self.boards.later],
         )
         read = _UNREAD.copy()  # a new one takes as long as all the rest
         read.update(b"".join(parts))
