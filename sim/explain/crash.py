@@ -21,6 +21,7 @@ from sim.explain.factors import is_factor
 from sim.explain.facts import Explanation, QuestionError, Verified
 from sim.explain.intervention import Intervention
 from sim.explain.why_causes import by_salience, minimal_sufficient_set, rank_causes
+from sim.fast_replace import field_setter
 from sim.forecast import Forecast
 from sim.oracle.lower_bounds import PATIENCE, least_ticks
 from sim.perceive import perceive_truth
@@ -103,7 +104,10 @@ class _LastTick:
         return self._known[key]
 
     def _crashes(self, world: World, move: Move) -> bool:
-        return after_move(replace(self._run, world=world), move).world.outcome is Outcome.CRASH
+        return after_move(_on_road(self._run, world), move).world.outcome is Outcome.CRASH
+
+
+_on_road = field_setter(SimState, "world")
 
 
 def why_crashed(timeline: Timeline, tick: int | None = None) -> Crash:

@@ -16,6 +16,7 @@ from sim.state import FIRST, SimState, StepResult
 from sim.transition import step
 from sim.types import Mode, Move, Outcome
 from sim.world import Cause
+from sim.world.grid import Road
 
 NEXT_TICKS: Final = 5
 """How far the way from here is told."""
@@ -115,6 +116,7 @@ def rollout(state: SimState, first: Decision | None = None) -> Iterator[tuple[Si
     followed for so long only as `MAX_WORK` allows.
     """
     work = faults = 0
+    searches = traits_of(state.config.planner).plans_to_goal
     started = state.world.outcome is Outcome.RUNNING
     while state.world.outcome is Outcome.RUNNING or not started:
         tick = step(state) if first is None else step(state, {FIRST: first})
@@ -124,17 +126,16 @@ def rollout(state: SimState, first: Decision | None = None) -> Iterator[tuple[Si
         if faults == MAX_FAULTS or (tick.decision is not None and tick.decision.timed_out):
             return
         state = tick.state
-        work += _work(state)
-        if work > MAX_WORK:
-            return
+        if searches:
+            work += _work(state.world.road)
+            if work > MAX_WORK:
+                return
         started = started or state.world.outcome is Outcome.RUNNING
 
 
-def _work(state: SimState) -> int:
-    """How much is looked through in a tick of a run."""
-    road = state.world.road
-    plans_to_goal = traits_of(state.config.planner).plans_to_goal
-    return road.columns * road.rows * road.rows if plans_to_goal else 0
+def _work(road: Road) -> int:
+    """How much a planner that searches looks through in a tick."""
+    return road.columns * road.rows * road.rows
 
 
 def summarize(state: SimState, ticks: list[tuple[SimState, StepResult]]) -> EpisodeRollout:

@@ -73,14 +73,12 @@ def certify(state: SimState) -> Certificate:
 
 def arrives(state: SimState, plan: Iterable[Move]) -> bool:
     """Whether playing these moves ends in row 0, judged tick by tick."""
-    world = state.world
+    world, config, parked = state.world, state.config, state.parked
+    target = config.ego_dynamics(world.road).target
     for move in plan:
-        if (
-            world.outcome is not Outcome.RUNNING
-            or state.config.ego_dynamics(world.road).target(world.av, move) is None
-        ):
+        if world.outcome is not Outcome.RUNNING or target(world.av, move) is None:
             return False
-        world = next_world(world, moves_with(world, move), state.config, state.parked)
+        world = next_world(world, moves_with(world, move), config, parked)
     return world.outcome is Outcome.SUCCESS
 
 
