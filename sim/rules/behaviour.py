@@ -96,7 +96,7 @@ class Behaviour:
         return move_movers(
             right,
             left,
-            disabled | resting_marked(marked, episode_tick) if marked else disabled,
+            disabled | resting_marked(marked, episode_tick) if any(marked) else disabled,
             fixed,
             reactions.yielding,
             vehicles,

@@ -32,19 +32,18 @@ def cached_reactions(world: World, config: Config) -> Reactions:
     return reactions
 
 
-_moved: tuple[tuple[Any, ...], Motion] | None = None
+_moved: tuple[Behaviour, tuple[Any, ...], Motion] | None = None
 
 
-def cached_step(*question: Any) -> Motion:
-    """`Behaviour.step` of a behaviour, which comes first; the latest question has one and the same answer."""
+def cached_step(behaviour: Behaviour, *question: Any) -> Motion:
+    """`Behaviour.step`; the latest question has one and the same answer."""
     global _moved
     # As below. Comparing takes less than hashing does: most of the boards are the very same.
     latest = _moved
-    if latest is not None and latest[0] == question:
-        return latest[1]
-    behaviour: Behaviour = question[0]
-    motion = behaviour.step(*question[1:])
-    _moved = question, motion
+    if latest is not None and latest[0] is behaviour and latest[1] == question:
+        return latest[2]
+    motion = behaviour.step(*question)
+    _moved = behaviour, question, motion
     return motion
 
 
