@@ -16,6 +16,7 @@ from sim.state import SimState, StepResult
 from sim.transition import step
 from sim.types import Mode, Move, Outcome
 from sim.world import Cause
+from sim.world.grid import Road
 
 NEXT_TICKS: Final = 5
 """How far the way from here is told."""
@@ -117,6 +118,7 @@ def rollout(
     followed for so long only as `MAX_WORK` allows.
     """
     work = faults = 0
+    searches = traits_of(state.config.planner).plans_to_goal
     started = state.world.outcome is Outcome.RUNNING
     while state.world.outcome is Outcome.RUNNING or not started:
         tick = step(state) if first is None else step(state, {first.av: first})
@@ -127,12 +129,14 @@ def rollout(
         if faults == MAX_FAULTS or any(each.decision.timed_out for each in tick.steps.values()):
             return
         state = tick.state
-        work += _work(state)
-        if work > MAX_WORK:
-            return
+        if searches:
+            work += _work(state.world.road)
+            if work > MAX_WORK:
+                return
         started = started or state.world.outcome is Outcome.RUNNING
 
 
+<<<<<<< HEAD
 def decided(tick: StepResult, ego: str | None) -> Decision | None:
     """What an ego decided in a tick, the first by default; None where it decided nothing."""
     found = tick.of(ego)
@@ -145,6 +149,17 @@ def _work(state: SimState) -> int:
     planners = [ego.planner or state.config.planner for ego in state.egos.values()]
     searching = sum(traits_of(planner).plans_to_goal for planner in planners)
     return searching * road.columns * road.rows * road.rows
+||||||| cc8e00d
+def _work(state: SimState) -> int:
+    """How much is looked through in a tick of a run."""
+    road = state.world.road
+    plans_to_goal = traits_of(state.config.planner).plans_to_goal
+    return road.columns * road.rows * road.rows if plans_to_goal else 0
+=======
+def _work(road: Road) -> int:
+    """How much a planner that searches looks through in a tick."""
+    return road.columns * road.rows * road.rows
+>>>>>>> perf2
 
 
 def summarize(

@@ -66,8 +66,8 @@ class Intervention:
         """The move had nothing but these been detected."""
         key = ("keeping", frozenset(names))
         if key not in self._known:
-            gone = (name for name in self.factors if name not in key[1])
-            config = without(self.state.config, gone)
+            gone = [name for name in self.factors if name not in key[1]]
+            config = without(self.state.config, gone) if gone else self.state.config
             self._known[key] = self._decide(self._with(config), self.percept.keeping(_things(key[1]))).move
         return self._known[key]
 

@@ -212,19 +212,18 @@ class Forecast:
             return standing.check_step(start, end)
         right, left, came_right, came_left = self.slices[ahead]
         moving, fixed = right | left, self.boards.fixed
-        swept = self.dynamics.swept(start, end)
+        cells, from_left, from_right = self.dynamics.swept(start, end)
         verdict = StepVerdict.FREE
         who: tuple[str, ...] = ()
-        passed = None
-        if swept.from_left:
-            passed = [cell for cell in swept.from_left if came_right >> cell & 1]
-        if swept.from_right:
-            passed = [cell for cell in swept.from_right if came_left >> cell & 1] + (passed or [])
-        if passed:
-            aside = passed == [start] and start // self.road.columns == end // self.road.columns
-            verdict = StepVerdict.MOVER_SWAPS if aside else StepVerdict.MOVER_CROSSES
-            who = tuple(self.slices.movers(ahead)[cell] for cell in passed)
-        for cell in swept.cells:
+        if from_left or from_right:
+            passed = [cell for cell in from_right if came_left >> cell & 1]
+            passed += [cell for cell in from_left if came_right >> cell & 1]
+            if passed:
+                aside = passed == [start] and start // self.road.columns == end // self.road.columns
+                verdict = StepVerdict.MOVER_SWAPS if aside else StepVerdict.MOVER_CROSSES
+                movers = self.slices.movers(ahead)
+                who = tuple([movers[cell] for cell in passed])
+        for cell in cells:
             bit = 1 << cell
             if bit & moving:
                 who = (self.slices.movers(ahead)[cell], *who)

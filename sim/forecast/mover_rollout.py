@@ -88,8 +88,10 @@ class RollOut(Sequence[Motion]):
     def __getitem__(self, ahead: slice) -> list[Motion]: ...
     def __getitem__(self, ahead: int | slice) -> Motion | list[Motion]:
         slices = self._slices
-        if ahead == 0 and slices:
-            return slices[0]  # asked for most, by far
+        if ahead == 0:  # asked for most, by far
+            if not slices:
+                slices.append(self._next())
+            return slices[0]
         if isinstance(ahead, slice):
             return [self[each] for each in range(*ahead.indices(self._horizon))]
         if not 0 <= ahead < len(slices):
@@ -113,6 +115,8 @@ class RollOut(Sequence[Motion]):
 
     def marked(self, ahead: int) -> tuple[Board, ...]:
         """Where the movers of each kind in `MARKED` are expected then; empty where there are none."""
+        if not self._marked:
+            return ()  # they do not come and go
         if len(self._marked_after) <= ahead:
             self[ahead]  # rolls out that far
         return self._marked_after[ahead]
@@ -172,8 +176,8 @@ class RollOut(Sequence[Motion]):
             motion = self._braked_for_egos(motion, ahead)
         self._right, self._left = motion.right, motion.left
         if marked:
-            self._marked = marked = shift_marked(marked, motion)
-        self._marked_after.append(marked)
+            self._marked = shift_marked(marked, motion)
+            self._marked_after.append(self._marked)
         return motion
 
     def _braked_for_egos(self, motion: Motion, ahead: int) -> Motion:

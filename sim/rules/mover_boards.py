@@ -29,8 +29,9 @@ def resting_marked(marked: Sequence[Board], episode_tick: int) -> Board:
     """Of the movers of each kind in `MARKED`, those that are between two steps in this tick."""
     resting = 0
     for place, period in _SLOW:
-        if not steps_in_tick(period, episode_tick):
-            resting |= marked[place]
+        board = marked[place]
+        if board and not steps_in_tick(period, episode_tick):
+            resting |= board
     return resting
 
 

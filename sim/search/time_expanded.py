@@ -6,16 +6,26 @@ for are made once per tick, when the search first gets there.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final, NamedTuple
 
 from sim.forecast import Forecast
 from sim.rules.ego_step import beside
 from sim.search.costs import Weights
 from sim.search.graph import State
+<<<<<<< HEAD
 from sim.search.step_costs import ego_moves
 from sim.types import Move
+||||||| cc8e00d
+from sim.search.step_costs import vehicle
+from sim.types import Move
+=======
+from sim.search.step_costs import vehicle
+from sim.types import MOVES
+>>>>>>> perf2
 from sim.world.grid import Board, Road
+
+_ON: Final = tuple(place for place, move in enumerate(MOVES) if move.offset[1])
+"""The places in `MOVES` of those that lead to another row."""
 
 
 def around(board: Board, road: Road) -> Board:
@@ -24,8 +34,7 @@ def around(board: Board, road: Road) -> Board:
     return beside(tall, road.left_edge, road.right_edge) & road.all
 
 
-@dataclass(frozen=True, slots=True)
-class Layer:
+class Layer(NamedTuple):
     """What the steps of one tick meet."""
 
     obstacles: Any
@@ -45,11 +54,12 @@ class TimeExpandedGraph:
         self.weights = weights
         self._forecast = forecast
         self._columns = forecast.road.columns
+        self._fixed = forecast.fixed
         self._cells = forecast.road.columns * forecast.road.rows
-        self.near_fixed = around(forecast.fixed, forecast.road) if weights.fixed else 0
+        self.near_fixed = around(self._fixed, forecast.road) if weights.fixed else 0
         self._layers: list[Layer] = []
         self._costs = [step.cost for step in self.moves]
-        ahead = min(weights.of(move) for move in Move if move.offset[1])
+        ahead = min([self._costs[place] for place in _ON])
         gained = forecast.dynamics.rows_a_tick
         self._by_row = [-(-row // gained) * ahead for row in range(forecast.road.rows)]
         self._window = (gained + 1) * self._columns
@@ -74,15 +84,15 @@ class TimeExpandedGraph:
         ahead, cell = divmod(state, self._cells)
         if ahead >= self.limit:
             return []
-        layer = self.layer(ahead)
-        costs = self._costs
+        layers, costs = self._layers, self._costs
+        obstacles, around_movers = layers[ahead] if ahead < len(layers) else self.layer(ahead)
         # The rows that matter, brought to the lowest bits: short numbers are quick.
         low = cell - self._window if cell > self._window else 0
         later, fixed = state - cell + self._cells + low, self.near_fixed >> low
-        near = [board >> low for board in layer.near]
+        near = [board >> low for board in around_movers]
         charge_fixed, charge_mover = self.weights.fixed, self.weights.mover
         found = []
-        for move, end in self._free_ends(layer.obstacles, cell, low):
+        for move, end in self._free_ends(obstacles, cell, low):
             cost = costs[move]
             if fixed >> end & 1:
                 cost += charge_fixed
@@ -102,11 +112,12 @@ class TimeExpandedGraph:
 
     def _made(self, ahead: int) -> Layer:
         forecast, road = self._forecast, self._forecast.road
-        motion = forecast.slices[ahead]
-        near, spread = [], motion.occupied
+        right, left, came_right, came_left = forecast.slices[ahead]
+        near, spread = [], right | left
         for _ in range(self.weights.buffer if self.weights.mover else 0):
             spread = around(spread, road)
             near.append(spread)
-        blocked = forecast.fixed | motion.occupied | forecast.taken(ahead)
-        obstacles = forecast.dynamics.obstacles(blocked, motion.came_right, motion.came_left)
-        return Layer(obstacles, tuple(near))
+        blocked = self._fixed | right | left
+        if forecast.egos:
+            blocked |= forecast.taken(ahead)
+        return Layer(forecast.dynamics.obstacles(blocked, came_right, came_left), tuple(near))

@@ -6,7 +6,6 @@ from dataclasses import replace
 from random import Random
 
 import pytest
-from sim.explain.rollout import rollout, route_ahead, story
 
 from sim.actions import Drive, Remove, SetMode
 from sim.config import Config
@@ -15,6 +14,7 @@ from sim.explain import QuestionError, Role, why, why_not
 from sim.explain.alternatives import after_move
 from sim.explain.confidence import confidence
 from sim.explain.crash import why_crashed
+from sim.explain.episode_rollout import rollout, route_ahead, story
 from sim.explain.scene import describe_percept
 from sim.explain.side_by_side import compare_change, compare_move
 from sim.explain.summary import summary

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import pygame
 import pytest
-from sim.render.occupancy import draw_occupancy
 
 from sim.config import Config
 from sim.forecast import predict
 from sim.render import render, theme
 from sim.render.motion import poses
+from sim.render.occupancy_view import draw_occupancy
 from sim.render.plan_view import draw_plan, reason_of
 from sim.render.schematic import draw_schematic
 from sim.state import SimState
