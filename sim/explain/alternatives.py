@@ -9,16 +9,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-<<<<<<< HEAD
 from sim.decide import moves_where, next_belief
-||||||| cc8e00d
-from sim.commit import moves_with
-from sim.decide import next_belief
-=======
-from sim.commit import moves_with
-from sim.decide import next_belief
 from sim.ego import Ego
->>>>>>> perf2
 from sim.explain.episode_rollout import rollout
 from sim.fast_replace import field_setter
 from sim.oracle.lower_bounds import PATIENCE, least_ticks
@@ -78,7 +70,6 @@ def _compared(other: SimState, real: SimState, ego: str) -> tuple[int | None, bo
     return rest_other - rest_real, False
 
 
-<<<<<<< HEAD
 def after_move(state: SimState, move: Move, ego: str | None = None) -> SimState:
     """The state after a move of an ego, the first by default, judged.
 
@@ -87,28 +78,14 @@ def after_move(state: SimState, move: Move, ego: str | None = None) -> SimState:
     if len(state.world.avs) > 1:
         after = transition(state, moves_where(state, move, ego)).state
         return after.with_ego(ego, queue=(), watch=NOTHING_KEPT)
+    only = state.ego()
     world = next_world(state.world, (move,), state.config)
-    belief = next_belief(state)
-    return replace(state.with_ego(queue=(), watch=NOTHING_KEPT, belief=belief), world=world)
-||||||| cc8e00d
-def after_move(state: SimState, move: Move) -> SimState:
-    """The state after a move, judged."""
-    world = next_world(state.world, moves_with(state.world, move), state.config, state.parked)
-    belief = next_belief(state)
-    return replace(state.with_ego(queue=(), watch=NOTHING_KEPT, belief=belief), world=world)
-=======
-def after_move(state: SimState, move: Move) -> SimState:
-    """The state after a move, judged."""
-    before, ego = state.world, state.ego()
-    parked = state.parked if len(before.avs) > 1 else ()
-    world = next_world(before, moves_with(before, move), state.config, parked)
-    moved = _ego_after(ego, (), NOTHING_KEPT, next_belief(state))
-    return _state_after(state, world, {**state.egos, ego.id: moved})
+    moved = _ego_after(only, (), NOTHING_KEPT, next_belief(state))
+    return _state_after(state, world, {only.id: moved})
 
 
 _ego_after = field_setter(Ego, "queue", "watch", "belief")
 _state_after = field_setter(SimState, "world", "egos")
->>>>>>> perf2
 
 
 def _end(state: SimState, ego: str) -> Future | None:

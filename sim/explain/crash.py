@@ -25,15 +25,9 @@ from sim.explain.factors import is_factor
 from sim.explain.facts import Explanation, QuestionError, Verified, check_ego
 from sim.explain.intervention import Intervention
 from sim.explain.why_causes import by_salience, minimal_sufficient_set, rank_causes
-<<<<<<< HEAD
+from sim.fast_replace import field_setter
 from sim.forecast import predict
 from sim.judge import collisions
-||||||| cc8e00d
-from sim.forecast import Forecast
-=======
-from sim.fast_replace import field_setter
-from sim.forecast import Forecast
->>>>>>> perf2
 from sim.oracle.lower_bounds import PATIENCE, least_ticks
 from sim.oracle.other_egos import ego_first
 from sim.perceive import Percept, perceive_truth
@@ -117,23 +111,15 @@ class _LastTick:
             self._known[key] = self._crashes(world, self._rerun.only_there(kept), others)
         return self._known[key]
 
-<<<<<<< HEAD
     def _crashes(self, world: World, move: Move, gone: Collection[str]) -> bool:
-        there, ids = ego_first(replace(self._run, world=world), self._rerun.ego, gone)
+        there, ids = ego_first(_on_road(self._run, world), self._rerun.ego, gone)
         moves = (move, *(self._made.get(id, Move.STAY) for id in ids[1:]))
         after = commit(there, moves, self._run.config)
         found = collisions(there, after, self._run.config.ego_dynamics(world.road))
         return any(FIRST in (cause.ego, *cause.ids) for cause in found)
-||||||| cc8e00d
-    def _crashes(self, world: World, move: Move) -> bool:
-        return after_move(replace(self._run, world=world), move).world.outcome is Outcome.CRASH
-=======
-    def _crashes(self, world: World, move: Move) -> bool:
-        return after_move(_on_road(self._run, world), move).world.outcome is Outcome.CRASH
 
 
 _on_road = field_setter(SimState, "world")
->>>>>>> perf2
 
 
 def why_crashed(timeline: Timeline, tick: int | None = None, *, ego: str | None = None) -> Crash:

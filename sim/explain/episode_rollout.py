@@ -118,7 +118,8 @@ def rollout(
     followed for so long only as `MAX_WORK` allows.
     """
     work = faults = 0
-    searches = traits_of(state.config.planner).plans_to_goal
+    planners = [each.planner or state.config.planner for each in state.egos.values()]
+    searching = sum(traits_of(planner).plans_to_goal for planner in planners)
     started = state.world.outcome is Outcome.RUNNING
     while state.world.outcome is Outcome.RUNNING or not started:
         tick = step(state) if first is None else step(state, {first.av: first})
@@ -129,37 +130,22 @@ def rollout(
         if faults == MAX_FAULTS or any(each.decision.timed_out for each in tick.steps.values()):
             return
         state = tick.state
-        if searches:
-            work += _work(state.world.road)
+        if searching:
+            work += searching * _work(state.world.road)
             if work > MAX_WORK:
                 return
         started = started or state.world.outcome is Outcome.RUNNING
 
 
-<<<<<<< HEAD
 def decided(tick: StepResult, ego: str | None) -> Decision | None:
     """What an ego decided in a tick, the first by default; None where it decided nothing."""
     found = tick.of(ego)
     return None if found is None else found.decision
 
 
-def _work(state: SimState) -> int:
-    """How much is looked through in a tick of a run."""
-    road = state.world.road
-    planners = [ego.planner or state.config.planner for ego in state.egos.values()]
-    searching = sum(traits_of(planner).plans_to_goal for planner in planners)
-    return searching * road.columns * road.rows * road.rows
-||||||| cc8e00d
-def _work(state: SimState) -> int:
-    """How much is looked through in a tick of a run."""
-    road = state.world.road
-    plans_to_goal = traits_of(state.config.planner).plans_to_goal
-    return road.columns * road.rows * road.rows if plans_to_goal else 0
-=======
 def _work(road: Road) -> int:
     """How much a planner that searches looks through in a tick."""
     return road.columns * road.rows * road.rows
->>>>>>> perf2
 
 
 def summarize(

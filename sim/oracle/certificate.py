@@ -78,7 +78,6 @@ def certify(state: SimState, *, ego: str | None = None) -> Certificate:
     return _blocked(state, forecast, limit, ego)
 
 
-<<<<<<< HEAD
 def opens(state: SimState, ids: Iterable[str], ego: str | None = None, patience: int | None = None) -> bool:
     """Whether the goal can be reached once these things and other egos are gone.
 
@@ -87,29 +86,6 @@ def opens(state: SimState, ids: Iterable[str], ego: str | None = None, patience:
     gone = frozenset(ids)
     egos = frozenset(name for name in gone if is_ego(name))
     return can_arrive(replace(state, world=state.world.without(gone)), patience, ego, egos)
-||||||| cc8e00d
-def arrives(state: SimState, plan: Iterable[Move]) -> bool:
-    """Whether playing these moves ends in row 0, judged tick by tick."""
-    world = state.world
-    for move in plan:
-        if (
-            world.outcome is not Outcome.RUNNING
-            or state.config.ego_dynamics(world.road).target(world.av, move) is None
-        ):
-            return False
-        world = next_world(world, moves_with(world, move), state.config, state.parked)
-    return world.outcome is Outcome.SUCCESS
-=======
-def arrives(state: SimState, plan: Iterable[Move]) -> bool:
-    """Whether playing these moves ends in row 0, judged tick by tick."""
-    world, config, parked = state.world, state.config, state.parked
-    target = config.ego_dynamics(world.road).target
-    for move in plan:
-        if world.outcome is not Outcome.RUNNING or target(world.av, move) is None:
-            return False
-        world = next_world(world, moves_with(world, move), config, parked)
-    return world.outcome is Outcome.SUCCESS
->>>>>>> perf2
 
 
 def _blocked(state: SimState, forecast: Forecast, limit: int, ego: str | None) -> Blocked:

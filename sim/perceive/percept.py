@@ -2,16 +2,8 @@
 
 from __future__ import annotations
 
-<<<<<<< HEAD
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
-||||||| cc8e00d
-from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass
-=======
-from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass
->>>>>>> perf2
 from typing import NamedTuple
 
 from sim.fast_replace import field_setter
@@ -98,12 +90,19 @@ class Percept:
         return None
 
     def without(self, ids: Collection[str]) -> Percept:
-        """The same percept had these things not been detected. Unknown ids are ignored."""
+        """The same percept had these things not been detected, or these egos not been there.
+
+        Unknown ids are ignored.
+        """
+        if self.egos and any(other.id in ids for other in self.egos):
+            return self._without_egos(lambda name: name not in ids).without(ids)
         movers = {index: name for index, name in self.movers.items() if name not in ids}
         return self._with_only(movers, {at: name for at, name in self.hazards.items() if name not in ids})
 
     def keeping(self, ids: Collection[str]) -> Percept:
-        """The same percept had nothing but these things been detected."""
+        """The same percept had nothing but these things been detected, and no other egos been there."""
+        if self.egos and any(other.id not in ids for other in self.egos):
+            return self._without_egos(lambda name: name in ids).keeping(ids)
         movers = {index: name for index, name in self.movers.items() if name in ids}
         return self._with_only(movers, {at: name for at, name in self.hazards.items() if name in ids})
 
@@ -114,25 +113,9 @@ class Percept:
         heading = "right" if self.right & bit else "left"
         return Thing(name, self.boards.mover_kind(index), cell, heading, bool(self.boards.holding & bit))
 
-<<<<<<< HEAD
-    def _filtered(self, kept: Callable[[str], bool]) -> Percept:
-        movers = {index: name for index, name in self.movers.items() if kept(name)}
-        hazards = {index: name for index, name in self.hazards.items() if kept(name)}
-        moving = sum(1 << index for index in movers)
-        fixed = sum(1 << index for index in hazards)
-        if self.egos and not all(kept(other.id) for other in self.egos):
-            return self._without_egos(kept)._filtered(kept)
-||||||| cc8e00d
-    def _filtered(self, kept: Callable[[str], bool]) -> Percept:
-        movers = {index: name for index, name in self.movers.items() if kept(name)}
-        hazards = {index: name for index, name in self.hazards.items() if kept(name)}
-        moving = sum(1 << index for index in movers)
-        fixed = sum(1 << index for index in hazards)
-=======
     def _with_only(self, movers: Mapping[int, str], hazards: Mapping[int, str]) -> Percept:
         """With the things of these tables, parts of its own."""
         moving, fixed = board_of(movers), board_of(hazards)
->>>>>>> perf2
         return _cut_down(
             self,
             self.right & moving,

@@ -35,16 +35,8 @@ def cached_reactions(world: World, config: Config) -> Reactions:
 _moved: tuple[Behaviour, tuple[Any, ...], Motion] | None = None
 
 
-<<<<<<< HEAD
-def cached_step(behaviour: Behaviour, *question: Any) -> Motion:
-    """`Behaviour.step` of a behaviour; the latest question has one and the same answer."""
-||||||| cc8e00d
-def cached_step(*question: Any) -> Motion:
-    """`Behaviour.step` of a behaviour, which comes first; the latest question has one and the same answer."""
-=======
 def cached_step(behaviour: Behaviour, *question: Any) -> Motion:
     """`Behaviour.step`; the latest question has one and the same answer."""
->>>>>>> perf2
     global _moved
     # As below. Comparing takes less than hashing does: most of the boards are the very same.
     latest = _moved

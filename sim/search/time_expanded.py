@@ -12,16 +12,8 @@ from sim.forecast import Forecast
 from sim.rules.ego_step import beside
 from sim.search.costs import Weights
 from sim.search.graph import State
-<<<<<<< HEAD
 from sim.search.step_costs import ego_moves
-from sim.types import Move
-||||||| cc8e00d
-from sim.search.step_costs import vehicle
-from sim.types import Move
-=======
-from sim.search.step_costs import vehicle
 from sim.types import MOVES
->>>>>>> perf2
 from sim.world.grid import Board, Road
 
 _ON: Final = tuple(place for place, move in enumerate(MOVES) if move.offset[1])
