@@ -47,17 +47,21 @@ class Next:
         ]
         alike = groupby(steps, key=lambda step: (step[0], step[1] and (step[1].sake, step[1].ids), step[2]))
         naming = Naming(self._sayings, way.state, as_seen=False)
+        rows = _rows_to_go(way)
         told = []
         named: tuple[str, ...] = ()
+        done = 0
         for (move, _, silent), group in alike:
             members = list(group)
+            start, done = done, done + len(members)
             detour = members[0][1]
             if detour is not None and detour.sake is DetourReason.YOU and silent:
                 told.append(self._say("waits"))
                 continue
             if detour is not None and detour.ids and detour.ids == named:
                 detour = None  # they have been spoken of
-            told.append(self._move(move, len(members), detour, way.state, naming))
+            metres = (rows[start] - rows[done]) * way.state.config.cell_m
+            told.append(self._move(move, len(members), metres, detour, naming))
             named = named if detour is None else detour.ids
         said = self._say("then").join(told)
         if way.outcome is Outcome.SUCCESS:
@@ -70,9 +74,10 @@ class Next:
             return self._say("stuck_again" if ticks <= way.state.config.max_ticks else "stuck", way=said)
         return said
 
-    def _move(self, move: Move, count: int, detour: Detour | None, run: SimState, naming: Naming) -> str:
-        metres = f"{count * run.config.cell_m:g}"
-        said = self._say("moves", move, "one" if count == 1 else "many", count=count, metres=metres)
+    def _move(self, move: Move, count: int, metres: float, detour: Detour | None, naming: Naming) -> str:
+        """`metres`: how far the moves lead along the road."""
+        form = "one" if count == 1 else "many"
+        said = self._say("moves", move, form, count=count, metres=f"{metres:g}")
         if detour is None:
             return said
         key = "stays" if move is Move.STAY and detour.ids else detour.sake
@@ -87,3 +92,14 @@ class Next:
 
     def _say(self, *keys: str, **parts: object) -> str:
         return self._sayings.say("next", *keys, **parts)
+
+
+def _rows_to_go(way: RouteAhead) -> list[int]:
+    """The row that the vehicle is in before the first of the moves, and after each of them."""
+    world = way.state.world
+    dynamics = way.state.config.ego_dynamics(world.road)
+    cells = [world.av]
+    for decision in way.decisions:
+        end = dynamics.target(cells[-1], decision.move)
+        cells.append(cells[-1] if end is None else end)
+    return [cell // world.road.columns for cell in cells]

@@ -116,7 +116,8 @@ def _meetings(percept: Percept, reach: int) -> dict[str, int]:
     here = percept.ego
     for ahead in range(reach):
         then = forecast.dynamics.target(here, Move.FORWARD)
-        assert then is not None  # there are `reach` rows ahead
+        if then is None or percept.ego - then > reach * percept.road.columns:
+            break  # a motion may take fewer ticks than there are rows
         for name in forecast.check_step(here, then, ahead)[1]:
             met.setdefault(name, ahead + 1)
         here = then
