@@ -27,7 +27,7 @@ def test_what_is_expected_is_what_comes_and_no_second_table_is_made() -> None:
 
 def test_the_latest_answer_is_for_its_own_question_only() -> None:
     behaviour = SidewaysTraffic()
-    movers = (0b0010, 0b0100_0000, 0, 0, 0, 0b0001_0001, 0b1000_1000, 0)
+    movers = (0b0010, 0b0100_0000, (), 0, 0, 0b0001_0001, 0b1000_1000, 0)
     motion = cached_step(behaviour, *movers, 0, NOBODY)
     assert motion == behaviour.step(*movers, 0, NOBODY)
     assert cached_step(behaviour, *movers, 0, NOBODY) is motion
