@@ -113,7 +113,8 @@ def transition_alone(
         metrics = metrics.after_end(after.outcome, after.episode_tick)
     faulty = fault is not None
     record = ego.record.after(before, after, move, state.edits, certain, by_person, faulty, ended)
-    belief = _next_belief(state, steps, ego.id)
+    stateless = sensor_named(config.sensor).stateless
+    belief = NO_BELIEF if stateless else _next_belief(state, steps, ego.id)
     made = _ego_after(ego, ego.queue[1:], metrics, fault, record, watch or NOTHING_KEPT, belief)
     told = ended or (steps and (by_person or faulty))  # without steps nothing of a decision is told
     events = _events(state, after, {ego.id: move}, steps) if told else ()

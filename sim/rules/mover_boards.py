@@ -54,7 +54,7 @@ def shift_marked(marked: Sequence[Board], motion: Motion) -> tuple[Board, ...]:
 
 def common_period(boards: Boards) -> int:
     """Ticks after which every mover's steps fall on the same ticks again; the pedestrians' at least."""
-    if not boards.others or _COMMON == _BEAT:
+    if _COMMON == _BEAT or not boards.others:
         return _BEAT
     marked = boards.marked
     return lcm(_BEAT, *(period for place, period in _SLOW if marked[place]))

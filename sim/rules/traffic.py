@@ -110,11 +110,9 @@ def shift_board(board: Board, motion: Motion) -> Board:
 
 def shift_table(table: Mapping[int, str], motion: Motion) -> dict[int, str]:
     """A table of movers by cell index, moved along with them."""
+    right, left, came_right, came_left = motion
     # As digits, lowest first, and enough of them: looking at one takes half as long as shifting a board does.
-    top = 2 << (motion.right | motion.left).bit_length()
-    gone_right = bin(motion.came_right >> 1 | top)[:1:-1]
-    gone_left = bin(motion.came_left << 1 | top)[:1:-1]
-    return {
-        cell + 1 if gone_right[cell] == "1" else cell - 1 if gone_left[cell] == "1" else cell: name
-        for cell, name in table.items()
-    }
+    top = 2 << (right | left).bit_length()
+    gone_right = bin(came_right >> 1 | top)[:1:-1].encode()
+    gone_left = bin(came_left << 1 | top)[:1:-1].encode()
+    return {cell + gone_right[cell] - gone_left[cell]: name for cell, name in table.items()}

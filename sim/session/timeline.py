@@ -353,9 +353,10 @@ class Timeline:
 
     def _apply_due(self, state: SimState, position: int) -> tuple[SimState, int, int]:
         """The state, the entries applied, and the work of those that were applied now."""
-        work = 0
-        while position < len(self.entries) and self.entries[position].tick == state.world.tick:
-            applied = apply(state, self.entries[position].action)
+        work, due = 0, len(self.entries)
+        entries = self.entries.shared  # nearly always there is nothing to do: that is to take no time
+        while position < due and entries[position].tick == state.world.tick:
+            applied = apply(state, entries[position].action)
             state = applied.state
             work += _action_work(applied)
             position += 1
