@@ -18,7 +18,7 @@ from pydantic_core import from_json
 from service.actions import Action, Ask, load
 from service.llm.failure import ModelFailure
 from service.llm.schema import FORBIDDEN, WORDS
-from sim.actions import Add, Remove, Set
+from sim.actions import Add, Drive, Remove, Set, SetMode
 
 MAX_ACTIONS: Final = 8
 """Actions in one answer, those inside others counted."""
@@ -87,6 +87,9 @@ def _check(action: Action, said: str) -> None:
                 raise ModelFailure("no_action", again=True)
         case Add(where=where) | Remove(where=where):
             if where is not None and where.id is not None and not _was_said(where.id, said):
+                raise ModelFailure("not_said")
+        case Drive(ego=str(ego)) | SetMode(ego=str(ego)):
+            if not _was_said(ego, said):
                 raise ModelFailure("not_said")
         case Ask(change=tuple(change)):
             for inner in change:

@@ -18,7 +18,7 @@ from service.llm.schema import FORBIDDEN, MAY, schema
 from sim.session.settings import AS_IT_IS
 
 DEFS: dict[str, Any] = ACTIONS.json_schema()["$defs"]
-FREE_TEXT = {("Where", "id"), ("Set", "value")}
+FREE_TEXT = {("Where", "id"), ("Set", "value"), ("Drive", "ego"), ("SetMode", "ego")}
 """Fields of a model's actions that take any text: each is checked by `reading`."""
 
 
@@ -132,3 +132,12 @@ def test_nothing_gets_past(answer: Any, said: str) -> None:
 @given(st.text() | st.text(alphabet='{}[]"`json\n:,ado0.-'))
 def test_no_text_at_all_makes_it_raise_anything_else(answer: str) -> None:
     assert outcome(answer, answer) in ("unreadable", "no_action")
+
+
+@pytest.mark.parametrize("action", [{"do": "drive", "move": "left"}, {"do": "mode", "mode": "manual"}])
+def test_an_ego_that_was_not_said_is_not_believed(action: dict[str, str]) -> None:
+    answer = json.dumps({"actions": [{**action, "ego": "av-2"}]})
+    with pytest.raises(ModelFailure) as refused:
+        read(answer, "go left")
+    assert refused.value.reason == "not_said"
+    assert dump(read(answer, "av-2, go left"))[0]["ego"] == "av-2"

@@ -15,7 +15,7 @@ from random import Random
 
 from sim.actions import Add, Where
 from sim.config import Config
-from sim.rules.yielding import attentive_movers, yielding_movers
+from sim.rules.yielding import attentive_movers, movers_beside, yielding_movers
 from sim.session.edits import apply
 from sim.state import SimState
 from sim.transition import step
@@ -31,12 +31,12 @@ def cells(state: SimState, board: Board) -> set[Cell]:
 
 def courteous(state: SimState) -> set[Cell]:
     """The draw the twin cannot make: which movers give way this tick."""
-    return cells(state, yielding_movers(state.world, state.config))
+    return cells(state, yielding_movers(state.world, state.config, movers_beside(state.world)))
 
 
 def braking(state: SimState) -> set[Cell]:
     """The other one: which movers brake for the vehicle if it stays in this tick."""
-    return cells(state, attentive_movers(state.world, state.config))
+    return cells(state, attentive_movers(state.world, state.config, movers_beside(state.world)))
 
 
 def drive_both(state: SimState, ticks: int) -> Counter[str]:
