@@ -80,10 +80,8 @@ def test_its_row_fits_what_it_does(kind: Kind) -> None:
     assert spec.probability is None or hasattr(Config(), spec.probability)
 
 
-@every_kind
+@pytest.mark.parametrize("kind", COUNTS)
 def test_an_exact_number_of_them_is_on_a_new_road(kind: Kind) -> None:
-    if kind not in COUNTS:
-        pytest.skip("it is only put on a road by hand")
     config = Config(seed=5).with_parts(**{COUNTS[kind]: 3})
     world = generate(config, 1)
     assert world.count(kind) == 3
