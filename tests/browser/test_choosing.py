@@ -34,9 +34,12 @@ def test_the_driver_is_chosen_from_all_planners_by_name(visit: Visit) -> None:
 def test_the_longest_name_of_a_driver_leaves_the_other_figures_their_room(visit: Visit, width: int) -> None:
     visitor = visit(viewport={"width": width, "height": 900})
     visitor.page.get_by_role("combobox", name="Driver").select_option("Priority rules of the source")
-    boxes = [figure.bounding_box() for figure in visitor.page.locator(".status .figure").all()]
-    assert len(boxes) == 6
-    ends = [(box["x"], box["x"] + box["width"]) for box in boxes if box]
+    expect(visitor.page.get_by_role("combobox", name="Driver")).to_have_value("priority")
+    # All boxes are read at once: between two questions the page may be laid out anew.
+    ends = visitor.page.locator(".status .figure").evaluate_all(
+        "figures => figures.map(f => f.getBoundingClientRect()).map(box => [box.left, box.right])"
+    )
+    assert len(ends) == 6
     assert all(end <= begin + 0.5 for (_, end), (begin, _) in pairwise(ends))
     within = visitor.page.locator(".status").bounding_box()
     assert within is not None
