@@ -156,15 +156,15 @@ async def test_nothing_is_written_to_who_is_full_or_going() -> None:
     protocol.conn = ServerProtocol()
     protocol.writable = asyncio.Event()
     protocol.writable.set()
-    assert not protocol._straight(b"not accepted yet")
+    assert not protocol._write_directly(b"not accepted yet")
     protocol.conn.state = State.OPEN
-    assert protocol._straight(b"now")
+    assert protocol._write_directly(b"now")
     protocol.pause_writing()
-    assert not protocol._straight(b"full")
+    assert not protocol._write_directly(b"full")
     protocol.resume_writing()
     transport.closing = True
-    assert not protocol._straight(b"lost")
+    assert not protocol._write_directly(b"lost")
     transport.closing = False
     protocol.conn.send_close(1012)
-    assert not protocol._straight(b"closing")
+    assert not protocol._write_directly(b"closing")
     assert transport.frames == [encode_frame(b"now")]

@@ -234,7 +234,7 @@ def held(at: At) -> list[StrictHttpProtocol]:
     lines = [
         each for each in at.service.server.server_state.connections if isinstance(each, StrictHttpProtocol)
     ]
-    return [each for each in lines if each._deadline is not None]
+    return [each for each in lines if each._timer is not None]
 
 
 async def begun(at: At, *, in_request: bool) -> StrictHttpProtocol:
@@ -259,7 +259,7 @@ async def begun(at: At, *, in_request: bool) -> StrictHttpProtocol:
 async def test_nobody_holds_a_line_with_a_part_of_a_request(at: At, part: bytes, told: int) -> None:
     answer = asyncio.create_task(sent(at, part))
     line = await begun(at, in_request=told != 0)
-    line._over()
+    line._on_timeout()
     status, headers, body = await answer
     assert status == told
     if told:
@@ -278,8 +278,8 @@ async def test_a_byte_now_and_then_gains_no_time(at: At) -> None:
         writer.write(part)
         await writer.drain()
         line = await begun(at, in_request=True)
-        assert line._deadline is not None
-        ends.add(line._deadline.when())
+        assert line._timer is not None
+        ends.add(line._timer.when())
     writer.close()
     assert len(ends) == 1
 
