@@ -15,9 +15,11 @@ from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from service.app import create_app
+from service.problems import OverQuota
 from service.security.api_key import Key
+from service.security.cross_site import same_site
 from service.security.guard import exposed
-from service.security.hosts import Hosts, loopback, same_site
+from service.security.hosts import Hosts, loopback
 from service.security.quotas import Quotas
 from service.security.rate_limit import MOST_CLIENTS, Buckets
 from service.security.ws_tickets import GOOD_FOR_S, MOST, Tickets
@@ -374,13 +376,16 @@ async def test_one_client_has_so_many_sessions_and_so_much_road() -> None:
 
 def test_quotas_count_what_is_being_made() -> None:
     quotas = Quotas(1, None)
-    quotas.begin("a")
-    with pytest.raises(Exception, match="sessions"):
-        quotas.begin("a")
-    quotas.begin("b")
-    quotas.end("a", None, 0)
-    quotas.begin("a")
-    quotas.end("a", "x", 5)
-    quotas.gone("nobody's")
-    quotas.gone("x")
-    quotas.begin("a")
+    with quotas.reserve("a"):
+        with pytest.raises(OverQuota, match="sessions"), quotas.reserve("a"):
+            pass
+        with quotas.reserve("b"):
+            pass
+    with quotas.reserve("a") as reservation:
+        reservation.use("x", 5)
+    with pytest.raises(OverQuota), quotas.reserve("a"):
+        pass
+    quotas.release("nobody's")
+    quotas.release("x")
+    with quotas.reserve("a"):
+        pass
