@@ -80,17 +80,10 @@ def pytest_unconfigure() -> None:
 
 def _words_read_once() -> None:
     """Grammars and sayings never change, and reading them is most of what making an application takes."""
-    _UNCHANGING.setattr(engine, "read_language", _kept_if_ours(engine.read_language))
+    _UNCHANGING.setattr(engine, "load_language", cache(engine.load_language))
     for read in (Languages, Narrator, Claims):
         _UNCHANGING.setattr(read, "load", cache(read.load))
     _UNCHANGING.setattr(languages, "Guide", cache(languages.Guide))
-
-
-def _kept_if_ours(read: Callable[[Path], LanguageData]) -> Callable[[Path], LanguageData]:
-    """The project's own languages read once; copies, which tests change, every time."""
-    once = cache(read)
-    ours = prompts_folder()
-    return lambda folder: (once if folder.is_relative_to(ours) else read)(folder)
 
 
 def _answers_described_once() -> None:
