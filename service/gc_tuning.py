@@ -15,7 +15,8 @@ import asyncio
 import gc
 import os
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 EVERY_S = 0.05
@@ -88,6 +89,18 @@ class Sweep:
         while True:
             await asyncio.sleep(EVERY_S)
             self.turn()
+
+
+@contextmanager
+def no_collection() -> Iterator[None]:
+    """Collects no garbage inside: for work whose values nearly all stay, such as imports."""
+    was_on = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_on:
+            gc.enable()
 
 
 def begin(sessions: Callable[[], int] = lambda: 0, readers: Callable[[], int] = lambda: 0) -> Sweep:
