@@ -10,7 +10,6 @@ import signal
 from collections.abc import Callable, Generator, Iterator
 from functools import cache
 from operator import itemgetter
-from pathlib import Path
 from typing import TypeVar
 
 import fastapi.routing
@@ -18,12 +17,10 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from service.grammar import engine
-from service.grammar.data import LanguageData
 from service.interpreter import languages
 from service.interpreter.languages import Languages
 from service.llm.claims import Claims
 from service.narration import Narrator
-from service.resources import prompts_folder
 from tests.support.postgres import Server, binaries, serving
 from tests.support.skips import EVEN_IN_CI
 

@@ -23,7 +23,7 @@ from service.grammar import LanguageDataError
 from service.http.middleware.header_limits import StrictHead
 from service.http.realtime.websocket_server import StrictSocket
 from service.llm import MissingExtraError
-from service.llm.prompts import PromptError
+from service.llm.failures import PromptError
 from service.security.guard import exposed
 from service.settings import Settings
 from service.shutdown import Deadline, stop_when_hung_up
@@ -31,6 +31,7 @@ from service.store import Store, StoreError, open_store
 
 STOP_S = 1
 """How long a stopping service waits for requests under way."""
+
 
 def _default(setting: str) -> str:
     """A setting's default, for help: the option itself has none, so that the environment is heard."""

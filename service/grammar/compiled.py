@@ -10,7 +10,14 @@ from dataclasses import fields
 from pathlib import Path
 
 from service.cache_files import digest_of, read_cached, write_cached
-from service.grammar.data import Documents, LanguageData, LanguageDataError, data_files, language_data, read_parts
+from service.grammar.data import (
+    Documents,
+    LanguageData,
+    LanguageDataError,
+    data_files,
+    language_data,
+    read_parts,
+)
 from service.grammar.lexicon_codec import pack, unpack
 from service.grammar.linter import flaws
 from sim.planner_names import BUILT_IN

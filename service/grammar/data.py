@@ -14,6 +14,7 @@ from service.grammar.numbers import NumberWords
 from service.grammar.patterns import PatternError, read_macros
 from service.grammar.tokens import Contractions
 from service.grammar.typos import TypoRules
+from service.yaml_files import YamlError, read_yaml
 from sim.planner_names import BUILT_IN
 
 MESSAGES = frozenset(
@@ -100,20 +101,6 @@ def read_parts(folder: Path) -> tuple[Documents, Lexicon]:
 def data_files(folder: Path) -> list[Path]:
     """The files a language is made of, without its tests; in order of their paths."""
     return sorted(path for path in folder.rglob("*.yaml") if not path.name.endswith(TEST_SUFFIX))
-
-
-class YamlError(Exception):
-    """A file that is no YAML."""
-
-
-def read_yaml(path: Path) -> Any:
-    """What one YAML file holds. Raises `YamlError`."""
-    import yaml  # with the words themselves, and not where only the types are needed
-
-    try:
-        return yaml.load(path.read_bytes(), Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
-    except yaml.YAMLError as error:
-        raise YamlError(f"{path.name}: {error}") from error
 
 
 def _documents(folder: Path) -> Documents:

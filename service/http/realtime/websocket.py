@@ -24,7 +24,7 @@ from urllib.parse import urlsplit
 
 import structlog
 from fastapi import APIRouter
-from pydantic import Discriminator, Field, TypeAdapter, ValidationError
+from pydantic import ConfigDict, Discriminator, Field, TypeAdapter, ValidationError
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from service.actions import Action
@@ -105,7 +105,9 @@ class Unsubscribe(Sent):
 
 
 Message: TypeAlias = Command | Actions | Ping | Subscribe | Unsubscribe
-_MESSAGE: TypeAdapter[Message] = TypeAdapter(Annotated[Message, Discriminator("type")])
+_MESSAGE: TypeAdapter[Message] = TypeAdapter(
+    Annotated[Message, Discriminator("type")], config=ConfigDict(defer_build=True)
+)
 
 
 @router.websocket("/sessions/{session_id}/stream")
