@@ -28,6 +28,7 @@ from service.security.guard import exposed
 from service.settings import Settings
 from service.shutdown import Deadline, stop_when_hung_up
 from service.store import Store, StoreError, open_store
+from service.warm_up import warm_up
 
 STOP_S = 1
 """How long a stopping service waits for requests under way."""
@@ -160,6 +161,7 @@ async def _serve(config: uvicorn.Config, store: Store, listener: socket.socket, 
     try:
         await server.serve(sockets=[listener])
     finally:
+        server.cancel_warm_up()
         sweeping.cancel()
 
 
@@ -170,6 +172,7 @@ class _Server(uvicorn.Server):
         super().__init__(config)
         self._on_ready = on_ready
         self._deadline = deadline
+        self._warming: asyncio.Task[None] | None = None
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         """End the streams of events, which would be waited for, then stop."""
@@ -183,6 +186,13 @@ class _Server(uvicorn.Server):
         if self.started:
             self._on_ready()
             sys.stdout.flush()
+            languages = self.config.app.state.context.listener.languages  # type: ignore[union-attr]
+            self._warming = asyncio.create_task(warm_up(languages))
+
+    def cancel_warm_up(self) -> None:
+        """Stop preparing for requests that will not come."""
+        if self._warming is not None:
+            self._warming.cancel()
 
 
 def _listener(host: str, port: int) -> socket.socket:

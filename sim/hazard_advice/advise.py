@@ -6,7 +6,7 @@ from typing import Final
 
 from sim.actions import Weather
 from sim.hazard_advice.facts import Advice, Choice, NoAdviceError, Prospect
-from sim.hazard_advice.parameters import DISTANCES_M, SPEEDS_KMH
+from sim.hazard_advice.parameters import DISTANCES_M, SAMPLES, SPEEDS_KMH
 from sim.types import Kind
 
 EVEN_CHANCE: Final = 0.05
@@ -26,9 +26,8 @@ def advise(hazard: Kind, distance_m: float, speed_kmh: float, weather: Weather =
     ):
         if not low <= value <= high:
             raise NoAdviceError(code, field, low=low, high=high, value=value)
-    # These need numpy, which programs that never ask for advice do without.
+    # Needs numpy, which programs that never ask for advice do without.
     from sim.hazard_advice.chances import figures, prospects
-    from sim.hazard_advice.samples import SAMPLES
 
     middle = figures(hazard, distance_m, speed_kmh, weather)
     found = prospects(hazard, distance_m, speed_kmh, weather, middle)
