@@ -1,4 +1,4 @@
-"""Files of computed data that are kept from one start to the next, each under the digest of what it is made of.
+"""Computed data kept in files from one start to the next, each under the digest of what it is made of.
 
 What is kept is plain data (`marshal`: reading it runs nothing). A file is used only if this user owns it,
 nobody else may write it, it was made of the same sources by the same version of Python, and it is whole.

@@ -93,13 +93,17 @@ class Sweep:
 
 @contextmanager
 def no_collection() -> Iterator[None]:
-    """Collects no garbage inside: for work whose values nearly all stay, such as imports."""
+    """Collects no garbage inside, and leaves all there is then out of later collections.
+
+    For work whose values nearly all stay, such as imports.
+    """
     was_on = gc.isenabled()
     gc.disable()
     try:
         yield
     finally:
         if was_on:
+            gc.freeze()
             gc.enable()
 
 

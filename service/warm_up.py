@@ -17,7 +17,6 @@ from service.actions import ACTIONS
 from service.contract.requests import Sent
 from service.interpreter.languages import Languages
 
-
 START_S = 0.25
 """How long after the start it begins: whoever waited for the service to be ready comes first."""
 

@@ -79,8 +79,8 @@ def serve(
     deadline = Deadline()
     stop_when_hung_up()
     try:
-        store = open_store(settings.database)
         with garbage.no_collection():
+            store = open_store(settings.database)
             config = server_config(create_app(settings, store=store), settings)
         with asyncio.Runner(loop_factory=config.get_loop_factory()) as runner:
             runner.run(_serve(config, store, listener, deadline))

@@ -20,10 +20,10 @@ from sim.hazard_advice.parameters import (
     LATERAL,
     LATERAL_RANGE,
     REACTION,
-    SPEED,
-    WIDTH,
     SAMPLES,
     SEED,
+    SPEED,
+    WIDTH,
     Quantity,
     width_of,
 )
