@@ -24,7 +24,8 @@ def test_what_was_written_is_read(folder: Path) -> None:
     assert [path.name for path in folder.iterdir()] == ["it"]
 
 
-def test_other_sources_have_nothing(folder: Path) -> None:
+@pytest.mark.usefixtures("folder")
+def test_other_sources_have_nothing() -> None:
     write_cached("it", SOURCES, VALUE)
     assert read_cached("it", digest_of(b"what it is made of", b"")) is None
     assert digest_of(b"ab", b"c") != digest_of(b"a", b"bc")
