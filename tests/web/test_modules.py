@@ -30,7 +30,7 @@ def test_the_modules_pass_their_unit_tests() -> None:
         pytest.skip("Node is not installed (Debian: apt-get install nodejs)")
     files = sorted(str(path) for path in HERE.glob("*.test.mjs"))
     run = subprocess.run(
-        [node, "--test", *files],
+        [node, "--import", str(HERE / "dom.mjs"), "--test", *files],
         cwd=ROOT,
         env={**os.environ, "NO_COLOR": "1"},
         capture_output=True,
