@@ -6,7 +6,6 @@ A text is a string, or a table of plural forms (`one`, `few`, `other`, …) chos
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any, Final
 
 from service.contract.encode.json import encoded
