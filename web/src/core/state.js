@@ -171,6 +171,7 @@ const NOT_CONNECTED = {
   type: "about:blank",
   title: "Not connected",
   status: 0,
+  errors: [],
   detail: "There is no connection to the service just now, so this was not sent. Press ↑ to have it back.",
 };
 

@@ -15,6 +15,7 @@ import { lay } from "../why/bubbleLoader.js";
 import { pointedAt } from "../why/pointing.js";
 import { createTray, portrait } from "./tray.js";
 
+/** @import { Kind } from "../core/wire.js" */
 /** @import { Places } from "./hitTest.js" */
 /** @import { Page } from "../main.js" */
 /** @import { Cell, Action } from "../core/protocol.js" */
@@ -22,7 +23,7 @@ import { createTray, portrait } from "./tray.js";
 /** @import { Card } from "../why/bubbleLoader.js" */
 /** @import { Panel } from "../panels/index.js" */
 
-/** @typedef {{kind: string, thing: Thing | null, x: number, y: number, pointer: number | null}} Held */
+/** @typedef {{kind: Kind, thing: Thing | null, x: number, y: number, pointer: number | null}} Held */
 
 /**
  * @typedef {object} Hands
@@ -55,7 +56,7 @@ export function createTouch(host, surface, places, page, card) {
   let dragging = false;
   /** The click that follows a drop is none. */
   let dropped = false;
-  /** @type {string | null} */ let chosen = null;
+  /** @type {Kind | null} */ let chosen = null;
   /** @type {string | null} */ let sent = null;
   let telling = 0;
 

@@ -8,13 +8,14 @@ import { Sprites } from "./paint/sprites.js";
 import { drawThing } from "./paint/things.js";
 import { readPalette } from "../core/theme.js";
 
+/** @import { Kind } from "../core/wire.js" */
 /** @import { Places } from "./hitTest.js" */
 /** @import { Thing } from "./world.js" */
 
 /**
  * @param {HTMLElement} host  the road
  * @param {Places} places
- * @param {{grab: (kind: string, event: PointerEvent) => void, choose: (kind: string | null) => void}} hand
+ * @param {{grab: (kind: Kind, event: PointerEvent) => void, choose: (kind: Kind | null) => void}} hand
  */
 export function createTray(host, places, { grab, choose }) {
   const opener = make(
@@ -73,7 +74,7 @@ export function createTray(host, places, { grab, choose }) {
 /**
  * A thing as it looks on the road, of the size it has there.
  * @param {Places} places
- * @param {string} kind
+ * @param {Kind} kind
  * @param {string} id
  */
 export function portrait(places, kind, id) {
