@@ -16,6 +16,7 @@ from typing import get_args
 
 import pytest
 
+from service.http.page_texts import ServedTexts, page_texts
 from service.narration.sayings import Sayings
 from sim import planner_names
 from sim.actions import Layout
@@ -24,16 +25,18 @@ HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
 
 
-def test_the_modules_pass_their_unit_tests() -> None:
+def test_the_modules_pass_their_unit_tests(tmp_path: Path) -> None:
     beside = Path(sys.executable).with_name("node")
     node = str(beside) if beside.exists() else shutil.which("node")
     if node is None:
         pytest.skip("Node is not installed (`make setup` installs it)")
+    texts = tmp_path / "en.json"
+    texts.write_bytes(ServedTexts("en").content())
     files = sorted(str(path) for path in HERE.glob("*.test.mjs"))
     run = subprocess.run(
         [node, "--import", str(HERE / "dom.mjs"), "--test", *files],
         cwd=ROOT,
-        env={**os.environ, "NO_COLOR": "1"},
+        env={**os.environ, "NO_COLOR": "1", "PAGE_TEXTS": str(texts)},
         capture_output=True,
         text=True,
         timeout=300,
@@ -46,16 +49,18 @@ def test_the_modules_pass_their_unit_tests() -> None:
 def test_planners_and_families_of_roads_are_named_as_the_service_names_them() -> None:
     """In the words of its answers and the order of the choice; a planner without words goes by its name."""
     source = (ROOT / "web" / "src" / "core" / "words.js").read_text(encoding="utf-8")
-    sayings = Sayings.load()
+    sayings, texts = Sayings.load(), page_texts("en")
 
-    def table(name: str) -> dict[str, str]:
-        found = re.search(rf"const {name} = .*?\{{\n(.*?)\n\}}", source, re.DOTALL)
+    def names(table: str) -> list[str]:
+        found = re.search(rf"const {table} = \[(.*?)\];", source, re.DOTALL)
         assert found
-        return dict(re.findall(r'^  (\w+): "(.*)",$', found[1], re.MULTILINE))
+        return re.findall(r'"(\w+)"', found[1])
 
-    planners, layouts = table("PLANNERS"), table("LAYOUTS")
-    assert list(planners) == [name for name in planner_names.BUILT_IN if name in planners]
+    planners, layouts = names("PLANNERS"), names("LAYOUTS")
+    assert planners == [name for name in planner_names.BUILT_IN if name in planners]
     assert set(planners) == set(sayings.words("words", "planners"))
-    assert planners == {name: sayings.say("words", "planners", name, "name") for name in planners}
     assert list(layouts) == list(get_args(Layout))
-    assert layouts == {name: sayings.say("replies", "layouts", name) for name in layouts}
+    for name in planners:
+        assert texts[f"planners.{name}"] == sayings.say("words", "planners", name, "name")
+    for name in layouts:
+        assert texts[f"layouts.{name}"] == sayings.say("replies", "layouts", name)

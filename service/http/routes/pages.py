@@ -15,6 +15,7 @@ from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import Response
 
+from service.http.page_texts import ServedTexts, page_languages
 from service.http.static import ServedFile, ServedPage
 from service.resources import web_folder
 
@@ -35,6 +36,8 @@ def install(app: FastAPI) -> None:
     _install_docs(app)
     web = web_folder()
     _serve(app, "/", ServedPage(web / "index.html"))
+    for code in page_languages():
+        _serve(app, f"/texts/{code}.json", ServedTexts(code))
     for path in sorted(web.iterdir()):
         if not path.resolve().is_relative_to(web.resolve()):
             continue  # a link that leads out

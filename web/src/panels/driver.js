@@ -26,13 +26,13 @@ const nameOf = (name) => (name === PERSON ? "You" : plannerName(name));
  */
 export function createDriver(host, page) {
   const choice = make("select", { class: "figure-value driver", "aria-label": "Driver", title: "Who drives", onchange: () => choose(choice.value, page) });
-  choice.append(...[...Object.keys(PLANNERS), PERSON].map(optionOf));
+  choice.append(...[...PLANNERS, PERSON].map(optionOf));
   const row = make("div", { class: "figure", "data-figure": "driver" });
   row.append(make("dt", {}, "Driver"), make("dd", {}, choice));
   host.append(row);
 
   return {
-    acts: [...Object.keys(PLANNERS), PERSON].map(actOf),
+    acts: [...PLANNERS, PERSON].map(actOf),
 
     update({ connection, past, world }) {
       choice.disabled = connection.phase !== "live" || past !== null || world === null;

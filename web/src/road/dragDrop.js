@@ -60,7 +60,7 @@ export function createTouch(host, surface, places, page, card) {
   /** @type {string | null} */ let sent = null;
   let telling = 0;
 
-  /** @param {string | null} kind */
+  /** @param {Kind | null} kind */
   function choose(kind) {
     chosen = kind;
     tray.press(kind);
