@@ -15,7 +15,7 @@ from service.actions import Action
 from service.contract.counterfactual import Counterfactual
 from service.contract.encode.counterfactual import beside_json
 from service.contract.requests import MAX_ACTIONS, Sent, Strictly, Tick
-from service.http.deps import JSON_ONLY, TheSession
+from service.http.deps import JSON_ONLY, Here, TheSession
 from service.http.errors import documented, invalid
 from service.http.responses import StrictRoute, etag, json_response
 from service.problems import (
@@ -98,7 +98,7 @@ class Otherwise(Sent):
     ),
 )
 async def counterfactual(
-    body: Annotated[Otherwise, Body(openapi_examples=_EXAMPLES)], session: TheSession
+    body: Annotated[Otherwise, Body(openapi_examples=_EXAMPLES)], session: TheSession, here: Here
 ) -> Response:
     """Both runs from that tick on: where they begin, tick by tick what moved, and how each ends.
 
@@ -118,7 +118,7 @@ async def counterfactual(
             told = compare_move(timeline, tick, Move(body.move))
         else:
             told = compare_change(timeline, tick, actions)
-        return beside_json(standing, told, body.ticks)
+        return beside_json(standing, told, body.ticks, here.words.side_by_side(told))
 
     try:
         value = await off_loop(asks_others(timeline), QUESTION_S, found)
