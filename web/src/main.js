@@ -16,6 +16,7 @@ import { browserStorage } from "./core/storage.js";
 import { createStore } from "./core/store.js";
 import { watchPreferences } from "./core/theme.js";
 import { createPanels } from "./panels/index.js";
+import { keepAddress } from "./timeline/momentAddress.js";
 import { TimelineLoader } from "./timeline/timelineLoader.js";
 import { TimeTravel } from "./timeline/timeTravel.js";
 import { byId } from "./ui/dom.js";
@@ -25,8 +26,10 @@ import { byId } from "./ui/dom.js";
 const store = createStore(reduce, INITIAL);
 const connector = new Connector(store, (data) => page.picture?.(data));
 new TimelineLoader(store, { storage: browserStorage() });
+const looking = new TimeTravel(store);
+keepAddress(store, looking);
 const page = createPage(store, connector, {
-  looking: new TimeTravel(store),
+  looking,
   acts: () => acts,
   wake: () => loop.wake(),
 });

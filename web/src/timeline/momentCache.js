@@ -6,6 +6,7 @@
 
 import { askJson } from "../core/http.js";
 import { sessionPath } from "../core/protocol.js";
+import { t } from "../core/texts.js";
 import { worldOf } from "../road/world.js";
 
 /** @import { Moments, Moment } from "../core/wire.js" */
@@ -54,7 +55,7 @@ export class MomentCache {
     const here = this.#here.get(page);
     if (!asked || (here && tick % PAGE >= here.length)) asked = this.#ask(page);
     const past = (await asked)[tick % PAGE];
-    if (!past) throw new Error(`Tick ${tick} has not come yet.`);
+    if (!past) throw new Error(t("past.not_yet", { tick }));
     return past;
   }
 
