@@ -6,14 +6,13 @@ import { createAnnouncer } from "../talk/announcer.js";
 import { createCaption } from "../road/caption.js";
 import { createCard } from "../why/bubbleLoader.js";
 import { createCommand } from "../talk/commandBox.js";
-import { createComparison } from "../why/counterfactualLoader.js";
+import { createCounterfactual } from "../why/counterfactualLoader.js";
 import { createConnectionBadge } from "./connection.js";
 import { createControls } from "./controls.js";
-import { createDriver } from "./driver.js";
 import { createExport } from "../timeline/export.js";
 import { createForesight } from "../why/forecastPoller.js";
 import { createHelp } from "../talk/help.js";
-import { createHands } from "../road/roadInput.js";
+import { createRoadInput } from "../road/roadInput.js";
 import { createLanes } from "../road/laneList.js";
 import { createLog } from "./log.js";
 import { createMetrics } from "./metrics.js";
@@ -21,7 +20,7 @@ import { createNotice } from "../ui/notice.js";
 import { createOccupancy } from "./occupancy.js";
 import { createPalette } from "../talk/palette.js";
 import { createPast } from "../timeline/pastBar.js";
-import { createPixels } from "../road/serverVideo.js";
+import { createServerVideo } from "../road/serverVideo.js";
 import { createPlan } from "./plan.js";
 import { createRoad } from "../road/road.js";
 import { createRoads } from "../talk/roadFamilies.js";
@@ -60,8 +59,7 @@ export function createPanels(page) {
     createExport(byId("files"), page),
     createNotice(byId("notice"), page),
     createSchematic(byId("schematic"), road.places),
-    createStatus(byId("status")),
-    createDriver(byId("status"), page),
+    createStatus(byId("status"), page),
     createCaption(byId("caption")),
     createControls(byId("controls"), page),
     createLog(byId("log")),
@@ -69,14 +67,14 @@ export function createPanels(page) {
     createCommand(byId("command"), page),
     createConnectionBadge(byId("connection"), page),
     createAnnouncer(byId("announcer")),
-    createComparison(byId("beside"), page),
+    createCounterfactual(byId("beside"), page),
     card,
-    ...createHands(byId("road"), road.places, byId("log"), page, card),
+    ...createRoadInput(byId("road"), road.places, byId("log"), page, card),
     createViews(byId("views-menu"), page),
-    createPixels(byId("road"), page),
+    createServerVideo(byId("road"), page),
     createLanes(byId("road")),
     createForesight(page),
-    createPlan(byId("plan"), page),
+    createPlan(byId("plan"), byId("plan-when"), page),
     createOccupancy(byId("occupancy")),
     createMetrics(byId("metrics"), page),
     createReader(),

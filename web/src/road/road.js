@@ -1,8 +1,10 @@
 // @ts-check
 /** The road as the vehicle's follower sees it: canvas, scrolling, everything gliding between ticks. */
 
+import { html } from "../../vendor/lit-html.js";
+import { t } from "../core/texts.js";
+import { createSlot, find } from "../ui/slot.js";
 import { Camera, viewOf } from "./camera.js";
-import { make } from "../ui/dom.js";
 import { foreseen, STEPS } from "../why/forecast.js";
 import { ease, Stage } from "./motion.js";
 import { drawCell, drawImpact, drawMove, drawRing, drawTrail, drawWait } from "./paint/annotations.js";
@@ -26,8 +28,10 @@ const LONGEST_FRAME_S = 0.1;
 
 /** @param {HTMLElement} host @returns {Panel & {places: Places}} */
 export function createRoad(host) {
-  const canvas = make("canvas", { class: "road-canvas", role: "img", "aria-label": "The road" });
-  host.append(canvas);
+  const slot = createSlot(host, host.firstChild);
+  const label = (/** @type {string} */ text) => slot(html`<canvas class="road-canvas" role="img" aria-label=${text}></canvas>`);
+  label(t("road.label"));
+  const canvas = /** @type {HTMLCanvasElement} */ (find(host, ".road-canvas"));
   const pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { alpha: false }));
   const stage = new Stage();
   const camera = new Camera();
@@ -79,7 +83,7 @@ export function createRoad(host) {
       if (before && (before.columns !== world.columns || before.visibleRows !== world.visibleRows)) view = null;
       if (before && before.episode !== world.episode) camera.top = null;
       stage.receive(world, performance.now(), wantsStillness());
-      canvas.setAttribute("aria-label", describe(world));
+      label(describe(world));
     },
 
     repaint() {
