@@ -83,3 +83,8 @@ export function chooseLanguage(code) {
 function written(value) {
   return typeof value === "number" && Number.isFinite(value) ? figures.format(value) : String(value);
 }
+
+/** A day and time, in short. @param {Date} date */
+export function dateText(date) {
+  return date.toLocaleString(locale, { day: "numeric", month: "short", hour: "2-digit", minute: "2-digit" });
+}

@@ -61,7 +61,7 @@ export function layoutName(name) {
 
 /**
  * How the values of some figures are said.
- * @type {Record<string, (value: any) => string>}
+ * @type {Record<string, ((value: any) => string) | undefined>}
  */
 const VALUES = {
   mode: (mode) => nameText("values", mode),

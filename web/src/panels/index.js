@@ -19,7 +19,7 @@ import { createMetrics } from "./metrics.js";
 import { createNotice } from "../ui/notice.js";
 import { createOccupancy } from "./occupancy.js";
 import { createPalette } from "../talk/palette.js";
-import { createLooking, createPast } from "../timeline/pastBar.js";
+import { createPast } from "../timeline/pastBar.js";
 import { createServerVideo } from "../road/serverVideo.js";
 import { createPlan } from "./plan.js";
 import { createRoad } from "../road/road.js";
@@ -48,16 +48,15 @@ import { createViews } from "./views.js";
 /** @param {Page} page @returns {Panel[]} */
 export function createPanels(page) {
   byId("new-session").addEventListener("click", () => page.startSession());
-  const looking = createLooking(page);
   const road = createRoad(byId("road"));
   const card = createCard(byId("bubble"), page);
   return [
     road,
     createVerdict(byId("road"), page),
-    createTimeline(byId("timeline"), page, looking),
-    createPast(byId("road"), page, looking),
-    createShare(byId("session-menu"), page, looking),
-    createExport(byId("road"), page, looking),
+    createTimeline(byId("timeline"), page),
+    createPast(byId("past"), page),
+    createShare(byId("session-menu"), page),
+    createExport(byId("files"), page),
     createNotice(byId("notice"), page),
     createSchematic(byId("schematic"), road.places),
     createStatus(byId("status"), page),

@@ -50,7 +50,7 @@ export function createStatus(host, page) {
   };
 }
 
-/** @param {FIGURES[number]} figure @param {State} state */
+/** @param {typeof FIGURES[number]} figure @param {State} state */
 function figureRow({ key, label, value, note }, state) {
   const { world } = state;
   return html`<div class="figure" data-figure=${key}>

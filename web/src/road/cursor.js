@@ -17,6 +17,7 @@ import { cellWords, nameOf, nounOf, placeWords } from "./placeTexts.js";
 import { portrait } from "./tray.js";
 import { egoOf } from "./world.js";
 
+/** @import { Kind } from "../core/wire.js" */
 /** @import { Places } from "./hitTest.js" */
 /** @import { Page } from "../main.js" */
 /** @import { Cell } from "../core/protocol.js" */
@@ -244,7 +245,7 @@ class Cursor {
     else this.#say(t(thing ? "cursor.drives_itself_remove" : "cursor.nothing_to_remove"));
   }
 
-  /** @param {string} kind @param {World} world @param {Cell} at */
+  /** @param {Kind} kind @param {World} world @param {Cell} at */
   #put(kind, world, at) {
     const why = hindrance(world, kind, at);
     if (why !== null) this.#say(why);

@@ -18,6 +18,7 @@ import { onRoad, same, thingAt } from "./hitTest.js";
 import { nameOf, nounOf, placeWords } from "./placeTexts.js";
 import { createTray, portrait } from "./tray.js";
 
+/** @import { Kind } from "../core/wire.js" */
 /** @import { Places } from "./hitTest.js" */
 /** @import { Page } from "../main.js" */
 /** @import { Cell, Action } from "../core/protocol.js" */
@@ -26,7 +27,7 @@ import { createTray, portrait } from "./tray.js";
 /** @import { Card } from "../why/bubbleLoader.js" */
 /** @import { Panel } from "../panels/index.js" */
 
-/** @typedef {{kind: string, thing: Thing | null, x: number, y: number, pointer: number}} Held */
+/** @typedef {{kind: Kind, thing: Thing | null, x: number, y: number, pointer: number}} Held */
 
 /**
  * @typedef {object} RoadActions
@@ -63,7 +64,7 @@ class DragDrop {
   /** @type {Held | null} */ held = null;
   dragging = false;
   /** The click that follows a drop is none. */ dropped = false;
-  /** The kind that is chosen in the tray. @type {string | null} */ chosen = null;
+  /** The kind that is chosen in the tray. @type {Kind | null} */ chosen = null;
   /** What is said over the road; empty for nothing. */ told = "";
   /** Of what is held. @type {HTMLCanvasElement | null} */ picture = null;
   /** The exchange whose answer is waited for. @type {string | null} */ sent = null;
@@ -128,7 +129,7 @@ class DragDrop {
     addEventListener("keydown", (event) => this.#onKey(event), { capture: true });
   }
 
-  /** @param {string | null} kind */
+  /** @param {Kind | null} kind */
   #choose(kind) {
     this.chosen = kind;
     this.tray.press(kind);
@@ -205,7 +206,7 @@ class DragDrop {
     else this.#put(kind, world, cell);
   }
 
-  /** @param {string} kind @param {World} world @param {Cell} cell */
+  /** @param {Kind} kind @param {World} world @param {Cell} cell */
   #put(kind, world, cell) {
     this.perform(placing(kind, cell), t("edit.put", { thing: nameOf({ kind }), place: placeWords(world, cell) }));
   }

@@ -4,23 +4,24 @@
 import { hasText, t } from "../core/texts.js";
 import { onRoad, same } from "./hitTest.js";
 
+/** @import { Kind } from "../core/wire.js" */
 /** @import { Action, Cell } from "../core/protocol.js" */
 /** @import { World, Thing } from "./world.js" */
 
 /** What can be put on the road, with its key. */
-export const TOOLS = [
+export const TOOLS = /** @type {{kind: Kind, key: string}[]} */ ([
   { kind: "pothole", key: "p" },
   { kind: "barrier", key: "b" },
   { kind: "vehicle", key: "v" },
   { kind: "pedestrian", key: "w" },
-];
+]);
 
-/** @param {string} kind @param {Cell} cell @returns {Action[]} */
+/** @param {Kind} kind @param {Cell} cell @returns {Action[]} */
 export function placing(kind, cell) {
   return [{ do: "add", kind, count: 1, where: { cell } }];
 }
 
-/** @param {{kind: string, id: string}} thing @returns {Action[]} */
+/** @param {{kind: Kind, id: string}} thing @returns {Action[]} */
 export function removing({ kind, id }) {
   return [{ do: "remove", kind, count: 1, where: { id } }];
 }
@@ -33,7 +34,7 @@ export function moving(thing, cell) {
 /**
  * Why something of a kind cannot be put into a cell, or null; the service has the last word.
  * @param {World} world
- * @param {string} kind
+ * @param {Kind} kind
  * @param {Cell} cell
  * @param {string} [moved]  the id of what is being moved, which is in nobody's way
  */

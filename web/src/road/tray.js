@@ -11,18 +11,19 @@ import { Sprites } from "./paint/sprites.js";
 import { drawThing } from "./paint/things.js";
 import { nounOf } from "./placeTexts.js";
 
+/** @import { Kind } from "../core/wire.js" */
 /** @import { Places } from "./hitTest.js" */
 /** @import { Thing } from "./world.js" */
 
 /**
  * @param {HTMLElement} host  the road
  * @param {Places} places
- * @param {{grab: (kind: string, event: PointerEvent) => void, choose: (kind: string | null) => void}} hand
+ * @param {{grab: (kind: Kind, event: PointerEvent) => void, choose: (kind: Kind | null) => void}} hand
  */
 export function createTray(host, places, { grab, choose }) {
   const show = createSlot(host);
   let open = false;
-  /** @type {string | null} */ let chosen = null;
+  /** @type {Kind | null} */ let chosen = null;
   /** The size of a cell for which the pictures were painted, in CSS pixels. */
   let painted = 0;
   /** @type {Record<string, HTMLCanvasElement>} */ let pictures = {};
@@ -37,7 +38,7 @@ export function createTray(host, places, { grab, choose }) {
     );
   }
 
-  /** @param {string} kind */
+  /** @param {Kind} kind */
   function tool(kind) {
     const name = nounOf({ kind });
     return html`<button
@@ -52,7 +53,7 @@ export function createTray(host, places, { grab, choose }) {
     >${pictures[kind] ?? nothing}</button>`;
   }
 
-  /** @param {string} kind @param {PointerEvent} event */
+  /** @param {Kind} kind @param {PointerEvent} event */
   function take(kind, event) {
     if (event.button !== 0) return;
     /** @type {HTMLElement} */ (event.currentTarget).setPointerCapture(event.pointerId);
@@ -78,7 +79,7 @@ export function createTray(host, places, { grab, choose }) {
   update();
   return {
     draw,
-    /** @param {string | null} kind */
+    /** @param {Kind | null} kind */
     press(kind) {
       chosen = kind;
       update();
@@ -92,7 +93,7 @@ export function createTray(host, places, { grab, choose }) {
 /**
  * A thing as it looks on the road, of the size it has there.
  * @param {Places} places
- * @param {string} kind
+ * @param {Kind} kind
  * @param {string} id
  */
 export function portrait(places, kind, id) {

@@ -3,12 +3,13 @@
 
 import { hasText, listText, t } from "../core/texts.js";
 
+/** @import { Kind } from "../core/wire.js" */
 /** @import { WireState, TickMessage, Cell, Status, Metrics, Move } from "../core/protocol.js" */
 
 /**
  * @typedef {object} Thing
  * @property {string} id
- * @property {string} kind  "av", "vehicle", "pedestrian", "pothole" or "barrier"
+ * @property {Kind} kind  "av", "vehicle", "pedestrian", "pothole" or "barrier"
  * @property {Cell} cell
  * @property {"left" | "right" | null} heading  null for what does not move sideways
  * @property {boolean} disabled

@@ -3,6 +3,7 @@
 
 import { LAYOUTS, layoutName } from "../core/words.js";
 
+/** @import { Scenario } from "../core/wire.js" */
 /** @import { Panel } from "../panels/index.js" */
 
 /** @returns {Panel} */
@@ -11,7 +12,7 @@ export function createRoads() {
     acts: LAYOUTS.map((layout) => ({
       name: `road-${layout}`,
       group: "New road",
-      now: ({ past, world }) => (world === null || past ? null : { label: `New road: ${layoutName(layout)}`, turns: [[{ do: "scenario", layout }]] }),
+      now: ({ past, world }) => (world === null || past ? null : { label: `New road: ${layoutName(layout)}`, turns: [[{ do: "scenario", layout: /** @type {Scenario["layout"]} */ (layout) }]] }),
     })),
   };
 }

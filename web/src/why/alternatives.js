@@ -31,7 +31,8 @@ export function fetchDecision(session, tick, signal, http) {
 export function labelOf(actions) {
   const ids = actions.map((action) => (action.do === "remove" ? /** @type {{id?: string}} */ (action.where)?.id : undefined));
   if (ids.every((id) => id !== undefined)) return t("counterfactual.without", { things: listText(ids) });
-  const [{ do: what, count, kind }] = actions;
-  if (actions.length > 1 || what !== "remove" || count !== "all") return t("counterfactual.with_change");
-  return kind === "everything" ? t("counterfactual.empty_road") : t("counterfactual.without", { things: nameText("plurals", String(kind)) });
+  const [action] = actions;
+  if (actions.length > 1 || action.do !== "remove" || action.count !== "all") return t("counterfactual.with_change");
+  const { kind } = action;
+  return kind === "everything" ? t("counterfactual.empty_road") : t("counterfactual.without", { things: nameText("plurals", kind) });
 }

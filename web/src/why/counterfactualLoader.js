@@ -15,10 +15,13 @@ export function createCounterfactual(host, page) {
     panel = view;
     return view;
   });
-  page.pick = (other) => wanted(({ open }) => open(other));
 
   return {
-    update: (state, before) => panel?.update?.(state, before),
+    update(state, before) {
+      const { comparison } = state;
+      if (comparison !== null && comparison !== before.comparison) wanted(({ open }) => open(comparison.other));
+      panel?.update?.(state, before);
+    },
     repaint: () => panel?.repaint?.(),
   };
 }

@@ -155,6 +155,7 @@ function ofDecision(tick, decision) {
 /** @param {string} text @param {Decision} decision @param {Option["move"]} [not]  the move that was not made @returns {Offer} */
 function asking(text, { tick, move }, not) {
   const label = t(not ? "ask.why_not" : "ask.why", { move: moveName(not ?? move), tick });
+  /** @type {Action} */
   const question = not ? { do: "ask", about: "why_not", tick, move: not } : { do: "ask", about: "why", tick };
   return { text, act: { actions: [question], label } };
 }
