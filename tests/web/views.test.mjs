@@ -92,7 +92,8 @@ test("each of the six moves has the service's words, and where the stream tells 
     return { move, verdict, cost: held ? null : 1, reason: held?.reason ?? "free", causes: held?.causes ?? [], text: `words for ${move}` };
   });
   const whole = moveOptions({ tick: 10, move: "forward", options }, [4, 20]);
-  assert.deepEqual(whole.map(({ reason, ...rest }) => rest), brief.map(({ reason, ...rest }) => rest));
+  const wordless = (/** @type {any[]} */ ways) => ways.map((way) => ({ ...way, reason: "" }));
+  assert.deepEqual(wordless(whole), wordless(brief));
   assert.ok(whole.every(({ move, reason }) => reason === `words for ${move}`));
 });
 
