@@ -14,7 +14,9 @@ MODULES = {path: path.read_text(encoding="utf-8") for path in sorted((WEB / "src
 OTHERS = [code for code in page_languages() if code != "en"]
 NOTE = re.compile(r"/\*.*?\*/|(?<![:\"'])//[^\n]*", re.DOTALL)
 STRING = re.compile(r'"(?:[^"\\\n]|\\.)*"|`(?:[^`\\]|\\.)*`')
-SENTENCE = re.compile(r"(?<![\w$.])[A-Z][a-z]+(?: [a-z’']+){2,}|[a-z]{2,}(?: [a-z’']+){3,}|[a-z]{3,} [a-z]{2,}[.!?]")
+SENTENCE = re.compile(
+    r"(?<![\w$.])[A-Z][a-z]+(?: [a-z’']+){2,}|[a-z]{2,}(?: [a-z’']+){3,}|[a-z]{3,} [a-z]{2,}[.!?]"
+)
 """Words in a row as people write them: three after a capital, four without, or two and a full stop."""
 
 

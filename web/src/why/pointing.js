@@ -82,8 +82,9 @@ function watchLog(page, card, log) {
     event.preventDefault();
     event.stopPropagation();
   });
-  log.addEventListener("focusin", ({ target: row }) => {
+  log.addEventListener("focusin", ({ target: row, relatedTarget: from }) => {
     if (!(row instanceof HTMLElement) || !row.matches(".log-line:focus-visible")) return;
+    if (from instanceof Element && from.closest("#bubble")) return; // which was just sent away
     const next = decisionOf(row);
     if (next) card.show(next);
   });
