@@ -39,7 +39,8 @@ def test_each_move_has_words_that_tell_what_its_option_tells(planner: str, narra
                 assert option.move is decision.move
             if "more" in text or "later" in text:
                 assert decision.measure in (Measure.COST, Measure.TICKS)
-                assert option.cost is not None and option.cost > (decision.chosen.cost or 0)
+                assert option.cost is not None
+                assert option.cost > (decision.chosen.cost or 0)
         told.update(texts)
     assert {"chosen", "off the road"} <= told
     assert any("car" in text or "pedestrian" in text for text in told)
@@ -54,7 +55,8 @@ def test_a_run_beside_the_real_one_is_told_by_where_it_parts_and_how_both_end(na
     )
     texts = narrator.side_by_side(compare_move(timeline, 1, other))
     assert texts.difference.startswith("At tick 1 I ")
-    assert texts.real_end and texts.changed_end
+    assert texts.real_end
+    assert texts.changed_end
 
 
 def test_a_change_that_changes_nothing_is_told_as_such(narrator: Narrator) -> None:
