@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from typing import Any, Final
 
 from service.contract.encode.json import encoded
-from service.http.static import ServedFile
+from service.http.static import StaticFile
 from service.resources import prompts_folder
 
 FILE: Final = "page.yaml"
@@ -28,7 +28,7 @@ def page_texts(code: str) -> Texts:
     return _flat((prompts_folder() / "interface" / code / FILE).read_text(encoding="utf-8"))
 
 
-class ServedTexts(ServedFile):
+class StaticTexts(StaticFile):
     """The texts of one language at one address."""
 
     def __init__(self, code: str) -> None:

@@ -18,7 +18,7 @@ import structlog
 from anyio import to_thread
 
 from service.actions import Action, Advise, Ask, Hide, Show
-from service.contract.encode.state import Standing, state_json
+from service.contract.encode.state import Standing
 from service.problems import NotSaved, UnknownName, UnknownSession
 from service.resources import DEFAULT_LANGUAGE
 from service.server_timing import part as timed
@@ -40,6 +40,7 @@ from service.sessions.scheduler.external_planner import Asking
 from service.sessions.scheduler.offload import QUESTION_S, STEPS_S, asks_others, names_another, off_loop
 from service.sessions.scheduler.playback_speed import NORMAL, Pace, hurried, period_s, turn
 from service.sessions.scheduler.tick_batch import Stages
+from service.sessions.state_cache import StateCache
 from service.sessions.subscribers import Watchers
 from service.sessions.transaction import Draft, check_ticks
 from service.sessions.undo_stack import History
@@ -98,6 +99,7 @@ class Session:
         self._later = Later(self._write_late)
         self._asking = Asking(self._planned)
         self.outlooks = Outlooks(lambda: self.run, self._tell_outlook)
+        self._state_cache = StateCache()
         self._around = around
         self._turn = asyncio.Lock()
         self._changing = False
@@ -129,9 +131,9 @@ class Session:
         """Seconds from one turn of the clock to the next."""
         return period_s(self.pace, self.timeline.state.config.step_seconds)
 
-    def state(self) -> dict[str, Any]:
-        """The present state as JSON values."""
-        return state_json(self.standing, self.run)
+    def state_body(self) -> bytes:
+        """The present state as JSON text, encoded once for as long as it stands."""
+        return self._state_cache.encode(self.run, self.standing)
 
     def latest_decision(self) -> tuple[Decision, SimState] | None:
         """The decision that led to the present state, and the state it was taken in."""

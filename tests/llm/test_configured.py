@@ -10,9 +10,10 @@ import pytest
 from pydantic import ValidationError
 
 from service.llm import LanguageModel, configured
+from service.llm.failures import PromptError
 from service.llm.fake import FakeModel
 from service.llm.openai import OpenAIModel
-from service.llm.prompts import PromptError, load_claims, load_prompt, load_told
+from service.llm.prompts import load_claims, load_prompt, load_told
 from service.llm.protocol import Interpretation
 from service.settings import Settings
 from sim.actions import Add

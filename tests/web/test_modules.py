@@ -16,7 +16,7 @@ from typing import get_args
 
 import pytest
 
-from service.http.page_texts import ServedTexts, page_texts
+from service.http.page_texts import StaticTexts, page_texts
 from service.narration.sayings import Sayings
 from sim import planner_names
 from sim.actions import Layout
@@ -31,7 +31,7 @@ def test_the_modules_pass_their_unit_tests(tmp_path: Path) -> None:
     if node is None:
         pytest.skip("Node is not installed (`make setup` installs it)")
     texts = tmp_path / "en.json"
-    texts.write_bytes(ServedTexts("en").content())
+    texts.write_bytes(StaticTexts("en").content())
     files = sorted(str(path) for path in HERE.glob("*.test.mjs"))
     run = subprocess.run(
         [node, "--import", str(HERE / "dom.mjs"), "--test", *files],

@@ -4,19 +4,21 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from fastapi import APIRouter, Body, Response
+from fastapi import Body, Response
 
 from service import actions as contract
 from service.contract import answers as schemas
 from service.contract import requests as bodies
 from service.http import examples
-from service.http.deps import JSON_ONLY, Here
+from service.http.content_type import JSON_ONLY
+from service.http.deps import Here
 from service.http.errors import documented
 from service.http.outcome_json import corrections_json
-from service.http.responses import StrictRoute, json_response
+from service.http.responses import json_response
+from service.http.route import api_router, policy
 from service.problems import Ambiguous, Invalid, Malformed, NotJson, NotUnderstood, TooLarge
 
-router = APIRouter(tags=["talking"], route_class=StrictRoute)
+router = api_router("talking")
 
 
 @router.post(
@@ -26,7 +28,10 @@ router = APIRouter(tags=["talking"], route_class=StrictRoute)
     dependencies=[JSON_ONLY],
     responses=documented(Malformed, Ambiguous, TooLarge, NotJson, Invalid, NotUnderstood),
 )
-async def parse(body: Annotated[bodies.Text, Body(openapi_examples=examples.TEXT)], here: Here) -> Response:
+@policy(idempotency_key=False)
+async def parse_text(
+    body: Annotated[bodies.Text, Body(openapi_examples=examples.TEXT)], here: Here
+) -> Response:
     """The actions a sentence means, whether or not this version does them."""
     heard = await here.listener.hear(body.text, code=body.language)
     return json_response(
