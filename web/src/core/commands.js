@@ -35,6 +35,7 @@ export function perform(act, page) {
   doing.run?.(page);
 }
 
+/** @type {Action} */
 const STEP = { do: "step", ticks: 1 };
 
 /** @type {Act[]} */

@@ -4,7 +4,7 @@
 import { make } from "../ui/dom.js";
 import { standingOf } from "../core/undoStack.js";
 import { shown } from "./exchanges.js";
-import { LAYOUTS } from "../core/words.js";
+import { LAYOUTS, layoutName } from "../core/words.js";
 import { exchangeElement } from "./exchange.js";
 
 /** @import { Page } from "../main.js" */
@@ -79,7 +79,7 @@ function welcome(page) {
       "p",
       { class: "families" },
       "or a road with",
-      ...Object.values(LAYOUTS).map((words) => make("button", { class: "family", type: "button", onclick: () => page.say(words) }, words)),
+      ...LAYOUTS.map(layoutName).map((words) => make("button", { class: "family", type: "button", onclick: () => page.say(words) }, words)),
     ),
   );
 }
