@@ -208,8 +208,8 @@ async def _serve(config: uvicorn.Config, store: Store, listener: socket.socket, 
     app = cast(FastAPI, config.app)
     await asyncio.create_task(warmed(app))
     manager = app.state.context.manager
-    sweep = garbage.begin(lambda: manager.live, lambda: manager.watchers)
-    sweeping = asyncio.create_task(sweep.run())
+    collector = garbage.begin(lambda: manager.live, lambda: manager.watchers)
+    sweeping = asyncio.create_task(collector.run())
     # Before the server starts, so that a database that cannot be opened is one clear line.
     await store.open()
     host, port = listener.getsockname()[:2]
