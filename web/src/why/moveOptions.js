@@ -1,6 +1,7 @@
 // @ts-check
 /** The six moves of a decision, in an order that stays, each with what was found of it. */
 
+import { capital } from "../core/texts.js";
 import { moveName, reasonWords } from "../core/words.js";
 import { STEPS } from "./forecast.js";
 
@@ -40,5 +41,5 @@ export function optionText({ text, reason }) {
 
 /** A move with what spoke for or against it, as a line. @param {Option} option */
 export function optionLine(option) {
-  return `${moveName(option.move)}: ${optionText(option)}`;
+  return `${capital(moveName(option.move))}: ${optionText(option)}`;
 }
