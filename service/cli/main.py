@@ -210,7 +210,7 @@ async def _serve(config: uvicorn.Config, store: Store, listener: socket.socket, 
     app = cast(FastAPI, config.app)
     await asyncio.create_task(warmed(app))
     manager = app.state.context.manager
-    sweep = garbage.begin(lambda: manager.live, lambda: manager.watchers)
+    sweep = garbage.begin(lambda: manager.live_count, lambda: manager.subscriber_count)
     sweeping = asyncio.create_task(sweep.run())
     # Before the server starts, so that a database that cannot be opened is one clear line.
     await store.open()

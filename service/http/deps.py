@@ -12,10 +12,10 @@ from starlette.requests import HTTPConnection
 
 from service.http.conditional.idempotency import Answers
 from service.http.realtime.frame_stream import Reels
-from service.interpreter.interpreter import Listener
-from service.problems import NotJson
+from service.interpreter.interpreter import Interpreter
+from service.problems import UnsupportedMediaType
 from service.sessions.manager import SessionManager
-from service.sessions.narrator_protocol import Words
+from service.sessions.narrator_protocol import NarratorProtocol
 from service.sessions.scheduler.clock import Clock
 from service.sessions.session import Session
 from service.settings import Settings
@@ -33,8 +33,8 @@ class Context:
     settings: Settings
     store: Store
     clock: Clock
-    listener: Listener
-    words: Words
+    interpreter: Interpreter
+    narrator: NarratorProtocol
     manager: SessionManager
     drawing: CapacityLimiter
     """one picture at a time"""
@@ -60,18 +60,18 @@ async def json_only(connection: HTTPConnection) -> None:
     kind = said.partition(";")[0].strip().lower()
     if kind != "application/json":
         said = f"not as {kind[:100]}" if kind else "and say so in Content-Type"
-        raise NotJson(f"Send the body as application/json, {said}. With curl: --json '{{}}'.")
+        raise UnsupportedMediaType(f"Send the body as application/json, {said}. With curl: --json '{{}}'.")
 
 
 def check_form(connection: HTTPConnection) -> None:
-    """Refuse a body that says it is packed, or written in other letters than UTF-8. Raises `NotJson`."""
+    """Refuse a body that says it is packed, or written in other letters than UTF-8. Raises `UnsupportedMediaType`."""
     packed = connection.headers.get("content-encoding", "").strip().lower()
     if packed not in _AS_IT_IS:
         said = f"Send the body as it is, not packed as {packed[:100]}."
-        raise NotJson(said, headers={"Accept-Encoding": "identity"})
+        raise UnsupportedMediaType(said, headers={"Accept-Encoding": "identity"})
     found = _CHARSET.search(connection.headers.get("content-type", ""))
     if found is not None and found[1].lower() not in _LETTERS:
-        raise NotJson(f"Send the body in UTF-8, not in {found[1][:100]}.")
+        raise UnsupportedMediaType(f"Send the body in UTF-8, not in {found[1][:100]}.")
 
 
 async def _here(connection: HTTPConnection) -> Context:

@@ -19,15 +19,15 @@ from service.http.responses import problem_response
 from service.log_format import request_header
 from service.problems import (
     MEDIA_TYPE,
+    ContentTooLarge,
     FieldProblem,
     Internal,
     Invalid,
     Malformed,
+    MethodNotAllowed,
     NotFound,
     NotSaved,
     ProblemError,
-    TooLarge,
-    WrongMethod,
 )
 from service.store import StoreError
 
@@ -190,9 +190,9 @@ def _http(request: Request, error: HTTPException) -> ProblemError:
         case 405:
             offered = _methods_of(request)
             can = f"{where} is not offered; here one can {' or '.join(offered)}."
-            return WrongMethod(can, headers={"Allow": _allowed(offered)})
+            return MethodNotAllowed(can, headers={"Allow": _allowed(offered)})
         case 413:
-            return TooLarge("The body is larger than is read here.", headers={"Connection": "close"})
+            return ContentTooLarge("The body is larger than is read here.", headers={"Connection": "close"})
         case 400:
             return Malformed("The body cannot be read.")
         case _:

@@ -27,7 +27,7 @@ _FRAMEWORK_ERRORS = ("HTTPValidationError", "ValidationError")
 def install(app: FastAPI) -> None:
     """Serve the corrected document; it is made once."""
     generate: Callable[[], dict[str, Any]] = app.openapi
-    languages: Sequence[str] = app.state.context.listener.languages.codes
+    languages: Sequence[str] = app.state.context.interpreter.languages.codes
     made: list[dict[str, Any]] = []
 
     def corrected() -> dict[str, Any]:

@@ -18,7 +18,7 @@ class MissingExtraError(RuntimeError):
     """A language model is configured, but the library for it is not installed."""
 
 
-def configured(settings: Settings) -> LanguageModel | None:
+def create_model(settings: Settings) -> LanguageModel | None:
     """The language model the settings name; None without an address or a model.
 
     Raises `MissingExtraError` where one is named and the extra `llm` is not installed, and

@@ -6,7 +6,7 @@ from typing import Any, cast
 
 from starlette.requests import HTTPConnection
 
-from service.problems import TooManyChanges
+from service.problems import RateLimited
 from service.security.api_key import Key
 from service.security.hosts import Hosts, loopback
 from service.security.quotas import Quotas
@@ -32,10 +32,10 @@ class Guard:
         self.quotas = Quotas(settings.max_client_sessions, settings.max_client_cells)
 
     def count_change(self, client: str) -> None:
-        """One more change of a client. Raises `TooManyChanges`."""
+        """One more change of a client. Raises `RateLimited`."""
         wait = self.buckets.take(client)
         if wait:
-            raise TooManyChanges(wait)
+            raise RateLimited(wait)
 
 
 def guard_of(connection: HTTPConnection) -> Guard:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from service.problems import OverQuota
+from service.problems import QuotaExceeded
 
 
 class Quotas:
@@ -26,16 +26,16 @@ class Quotas:
         return self._most_sessions is not None or self._most_cells is not None
 
     def begin(self, owner: str) -> None:
-        """Before a session is made; to be ended by `end`. Raises `OverQuota`."""
+        """Before a session is made; to be ended by `end`. Raises `QuotaExceeded`."""
         has: Mapping[str, int] = self._cells.get(owner, {})
         making = self._making.get(owner, 0)
         if self._most_sessions is not None and len(has) + making >= self._most_sessions:
-            raise OverQuota(
+            raise QuotaExceeded(
                 f"You have {len(has) + making} sessions, and {self._most_sessions} is the most for one "
                 "client here. Delete one and try again."
             )
         if self._most_cells is not None and sum(has.values()) >= self._most_cells:
-            raise OverQuota(
+            raise QuotaExceeded(
                 f"Your roads have {sum(has.values())} cells together, and {self._most_cells} is the most for "
                 "one client here. Delete a session and try again."
             )

@@ -8,9 +8,9 @@ from typing import Any, Final
 
 from service.contract.encode.decision import brief_decision_json
 from service.contract.encode.json import encoded
-from service.contract.encode.state import Json, Standing, metrics_json, state_json
+from service.contract.encode.state import Json, SessionStatus, metrics_json, state_json
 from service.sessions.log import LogEvent
-from service.sessions.subscribers import Missed
+from service.sessions.subscribers import MissedTicks
 from sim.plan import Decision
 from sim.session.edits import Change
 from sim.state import SimState
@@ -46,7 +46,7 @@ def hello_message(
 
 def tick_message(
     sequence: int,
-    standing: Callable[[], Standing],
+    status: Callable[[], SessionStatus],
     before: SimState,
     after: SimState,
     decision: Decision | None,
@@ -56,7 +56,7 @@ def tick_message(
     """One tick: what moved, or the whole state, `standing` included, where a new road began."""
     world = after.world
     if world.episode != before.world.episode:
-        seen: Json = {"state": state_json(standing(), after)}
+        seen: Json = {"state": state_json(status(), after)}
     else:
         seen = motion_json(before.world, world)
     return encoded(
@@ -77,7 +77,7 @@ def tick_message(
 
 
 def changed_message(
-    standing: Standing,
+    status: SessionStatus,
     run: SimState,
     text: str | None,
     reply: str,
@@ -89,22 +89,22 @@ def changed_message(
     # The type stands first: readers of events take its name from there.
     told: Json = {
         "type": "changed",
-        "sequence": standing.sequence,
+        "sequence": status.sequence,
         "text": text,
         "reply": reply,
         "changes": changes,
         "events": lines,
-        "state": state_json(standing, run),
+        "state": state_json(status, run),
     }
     if views:
         told["views"] = views
     return encoded(told)
 
 
-def state_message(standing: Standing, run: SimState, missed: Missed | None) -> bytes:
+def state_message(status: SessionStatus, run: SimState, missed: MissedTicks | None) -> bytes:
     """All there is to go on from, for a reader that missed some ticks."""
     told = None if missed is None else [missed.first_tick, missed.last_tick]
-    return encoded({"type": "state", "missed": told, "state": state_json(standing, run)})
+    return encoded({"type": "state", "missed": told, "state": state_json(status, run)})
 
 
 def motion_json(before: World, after: World) -> dict[str, Any]:

@@ -6,31 +6,31 @@
 from __future__ import annotations
 
 from service.store.base import (
+    BookmarkRecord,
     Branch,
     EntryRecord,
-    KeptAnswer,
-    MomentRecord,
     PhraseRecord,
     SessionRecord,
     SnapshotRecord,
     Store,
+    StoredResponse,
     StoreError,
 )
 from service.store.memory import MemoryStore
 from service.store.sql import SqlStore
 
 __all__ = [
+    "BookmarkRecord",
     "Branch",
     "EntryRecord",
-    "KeptAnswer",
     "MemoryStore",
-    "MomentRecord",
     "PhraseRecord",
     "SessionRecord",
     "SnapshotRecord",
     "SqlStore",
     "Store",
     "StoreError",
+    "StoredResponse",
     "open_store",
 ]
 

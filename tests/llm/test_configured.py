@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 from pydantic import ValidationError
 
-from service.llm import LanguageModel, configured
+from service.llm import LanguageModel, create_model
 from service.llm.fake import FakeModel
 from service.llm.openai import OpenAIModel
-from service.llm.prompts import PromptError, load_claims, load_prompt, load_told
+from service.llm.prompts import PromptError, load_claims, load_failure_messages, load_prompt
 from service.llm.protocol import Interpretation
 from service.settings import Settings
 from sim.actions import Add
@@ -23,7 +23,7 @@ URL = "http://127.0.0.1:9/v1"
 
 @pytest.mark.parametrize("named", [{}, {"llm_base_url": URL}, {"llm_model": "small"}, {"llm_base_url": ""}])
 def test_without_an_address_and_a_name_there_is_none(named: dict[str, str]) -> None:
-    assert configured(Settings(**named)) is None  # type: ignore[arg-type]
+    assert create_model(Settings(**named)) is None  # type: ignore[arg-type]
 
 
 async def test_the_environment_names_it(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -31,7 +31,7 @@ async def test_the_environment_names_it(monkeypatch: pytest.MonkeyPatch) -> None
     monkeypatch.setenv("ROADTALK_LLM_MODEL", "small")
     monkeypatch.setenv("ROADTALK_LLM_API_KEY", "sk-1")
     settings = Settings()
-    model = configured(settings)
+    model = create_model(settings)
     assert model is not None
     assert model.name == "small (interpret 1, rephrase 1)"
     assert settings.llm_base_url == URL
@@ -93,7 +93,7 @@ async def test_the_fake_has_the_same_interface() -> None:
     fake = FakeModel({"one hole": adds}, {"I stayed.": "I stood still."})
     model: LanguageModel = fake
     assert await model.interpret("one hole") == adds
-    assert (await model.interpret("another")).told == "The language model found nothing to do in this."
+    assert (await model.interpret("another")).explanation == "The language model found nothing to do in this."
     assert await model.rephrase("I stayed.", {}) == "I stood still."
     assert await model.rephrase("I moved left.", {}) == "I moved left."
     await model.aclose()
@@ -121,14 +121,14 @@ def test_a_broken_prompt_is_named(tmp_path: Path, text: str) -> None:
 def test_missing_files_and_sentences_are_named(tmp_path: Path) -> None:
     for reading in (
         lambda: load_prompt("x", tmp_path),
-        lambda: load_told(tmp_path),
+        lambda: load_failure_messages(tmp_path),
         lambda: load_claims(tmp_path),
     ):
         with pytest.raises(PromptError, match=str(tmp_path)):
             reading()
     (tmp_path / "told.yaml").write_text("nothing: Nothing.\nmore: More.\n")
     with pytest.raises(PromptError, match=r"more, .*timeout"):
-        load_told(tmp_path)
+        load_failure_messages(tmp_path)
     (tmp_path / "claims.yaml").write_text("groups: {}\n")
     with pytest.raises(PromptError, match="numbers, groups"):
         load_claims(tmp_path)

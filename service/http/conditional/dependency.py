@@ -32,7 +32,7 @@ async def kept_contract(request: Request, handler: Handler) -> Response:
     async def is_meant(given: Mapping[str, Any]) -> None:
         language = getattr(given.get("body"), "language", None)
         if language is not None:
-            context.listener.languages[language]  # which there are belongs to a request's form
+            context.interpreter.languages[language]  # which there are belongs to a request's form
         session = await context.manager.get(request.path_params["session_id"])
         preconditions.checked(request, session.sequence)
 

@@ -21,9 +21,9 @@ from fastapi import Depends, Request, Response
 
 from service.http.conditional.idempotency import UNDER_KEY, Once
 from service.problems import FieldProblem, Invalid
-from service.sessions.preconditions import Terms
+from service.sessions.preconditions import Preconditions
 from service.sessions.utterance import Outcome
-from service.store import KeptAnswer
+from service.store import StoredResponse
 
 _TAG = re.compile(r'(W/)?"([\x21\x23-\x7e]*)"')
 _BLANK = " \t"
@@ -33,7 +33,7 @@ _DOCUMENTED = r'^[ \t]*(\*|(W/)?"[!#-~]*"([ \t]*,[ \t]*(W/)?"[!#-~]*")*)[ \t]*$'
 """What may stand in `If-Match`, in words that every reader of schemas knows."""
 _SEQUENCE = re.compile(r"([0-9]{1,15})(-[0-9a-f]+)?")
 
-OnTerms = Callable[[Callable[[Outcome], Response]], Terms]
+OnTerms = Callable[[Callable[[Outcome], Response]], Preconditions]
 """Given how an outcome is answered, the terms of a request."""
 
 
@@ -59,7 +59,7 @@ def _listed(request: Request, header: str) -> str | None:
 
 def checked(request: Request, sequence: int) -> None:
     """Raise `Stale` where this is not the session that the request was meant for."""
-    Terms(matched(request)).check(sequence)
+    Preconditions(matched(request)).check(sequence)
 
 
 Check = Callable[[Mapping[str, Any]], Awaitable[None]]
@@ -105,7 +105,9 @@ def made_once(told: Callable[[Told], Response]) -> Callable[[Told], Response]:
     return again
 
 
-def kept_answer(request: Request, told: Callable[[Told], Response]) -> Callable[[Told], KeptAnswer] | None:
+def kept_answer(
+    request: Request, told: Callable[[Told], Response]
+) -> Callable[[Told], StoredResponse] | None:
     """What is to be kept with what a request does, if it came under a key."""
     once: Once | None = request.scope.get(UNDER_KEY)
     return None if once is None else lambda of: once.keeping(told(of))
@@ -114,7 +116,7 @@ def kept_answer(request: Request, told: Callable[[Told], Response]) -> Callable[
 async def terms_of(request: Request) -> OnTerms:
     """The terms a request comes on. Raises `Invalid`."""
     sequences = matched(request)
-    return lambda told: Terms(sequences, kept_answer(request, told))
+    return lambda told: Preconditions(sequences, kept_answer(request, told))
 
 
 TheTerms = Annotated[OnTerms, Depends(terms_of)]

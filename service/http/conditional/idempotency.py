@@ -22,8 +22,8 @@ from typing import Any
 import structlog
 from fastapi import Request, Response
 
-from service.problems import FieldProblem, Invalid, KeyReused
-from service.store import KeptAnswer, Store, StoreError
+from service.problems import FieldProblem, IdempotencyKeyReused, Invalid
+from service.store import Store, StoredResponse, StoreError
 
 _LOG = structlog.get_logger(__name__)
 
@@ -67,7 +67,7 @@ class Answers:
     async def open(self) -> None:
         """Begin to count where the wall clock stands; what is kept is as old as when it was left."""
         self._began = self._wall() - self._steady()
-        await self._store.date_answers(self.now)
+        await self._store.shift_responses(self.now)
         await self._forget()
 
     @asynccontextmanager
@@ -85,26 +85,26 @@ class Answers:
             else:
                 self._turns[key] = (lock, waiting - 1)
 
-    async def find(self, key: str) -> KeptAnswer | None:
+    async def find(self, key: str) -> StoredResponse | None:
         """What was answered under a key, if that is not too long ago."""
         if self.now - self._forgot_at > FORGET_EVERY_S:
             await self._forget()
-        found = await self._store.kept(key)
+        found = await self._store.get_response(key)
         if found is not None and found.at < self.now - KEPT_S:
             await self._forget()
             return None
         return found
 
-    async def keep(self, answer: KeptAnswer) -> None:
+    async def keep(self, answer: StoredResponse) -> None:
         """Keep the answer to something that left nothing in any session, or is stored already."""
         try:
-            await self._store.keep(answer)
+            await self._store.save_response(answer)
         except StoreError as error:
             _LOG.error("an answer was not kept", error=str(error))
 
     async def _forget(self) -> None:
         self._forgot_at = self.now
-        await self._store.forget_answers(self.now - KEPT_S)
+        await self._store.delete_responses(self.now - KEPT_S)
 
 
 class Once:
@@ -116,11 +116,11 @@ class Once:
         self._answers = answers
         self.given = False
 
-    def keeping(self, response: Response) -> KeptAnswer:
+    def keeping(self, response: Response) -> StoredResponse:
         """What is to be kept so that this response can be given again."""
         self.given = True
         headers = {name: value for name, value in response.headers.items() if name not in _NOT_KEPT}
-        return KeptAnswer(
+        return StoredResponse(
             key=self._key,
             request=self._request,
             at=self._answers.now,
@@ -134,7 +134,7 @@ Handler = Callable[[Request], Awaitable[Response]]
 
 
 async def once(request: Request, answers: Answers, handler: Handler) -> Response:
-    """Answer a request, or say again what it was answered before. Raises `KeyReused` or `Invalid`."""
+    """Answer a request, or say again what it was answered before. Raises `IdempotencyKeyReused` or `Invalid`."""
     key = request.headers.get(HEADER)
     if key is None or not _keyed(request.method, request.url.path):
         return await handler(request)
@@ -146,7 +146,7 @@ async def once(request: Request, answers: Answers, handler: Handler) -> Response
         found = await answers.find(key)
         if found is not None:
             if found.request != asked:
-                raise KeyReused
+                raise IdempotencyKeyReused
             return Response(found.body, found.status, {**found.headers, REPLAYED: "true"})
         under_key = Once(key, asked, answers)
         request.scope[UNDER_KEY] = under_key

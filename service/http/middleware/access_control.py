@@ -15,7 +15,7 @@ from starlette.websockets import WebSocket
 from service.http.middleware.body_limit import first_header
 from service.http.responses import problem_response
 from service.http.session_json import PREFIX
-from service.problems import CrossSite, ForeignHost, KeyNeeded, ProblemError
+from service.problems import CrossSite, MisdirectedRequest, ProblemError, Unauthorized
 from service.security.guard import Guard, client_of
 from service.security.hosts import marked_foreign, same_site
 
@@ -49,7 +49,7 @@ class Gate:
     def _check(self, scope: Scope) -> None:
         host = first_header(scope, b"host")
         if not self._guard.hosts.answers_to(host, scope):
-            raise ForeignHost
+            raise MisdirectedRequest
         changing = scope["type"] == "websocket" or scope["method"] not in _READING
         if changing and not same_site(first_header(scope, b"origin"), host):
             raise CrossSite("Only this service's own page may do this, or no page at all. Nothing was done.")
@@ -59,7 +59,7 @@ class Gate:
         if scope["type"] == "websocket" or not _guarded(scope["path"]):
             return
         if not self._guard.key.admits(first_header(scope, b"authorization")):
-            raise KeyNeeded
+            raise Unauthorized
         if changing:
             self._guard.count_change(client_of(scope))
 

@@ -8,7 +8,7 @@ from starlette.requests import ClientDisconnect
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from service.http.responses import problem_response
-from service.problems import TooLarge
+from service.problems import ContentTooLarge
 
 SECURITY_HEADERS = {
     "Content-Security-Policy": (
@@ -86,7 +86,7 @@ class BodyLimit:
         except ClientDisconnect:
             return
         if body is None:
-            refusal = TooLarge(f"At most {most} bytes are read here.", headers={"Connection": "close"})
+            refusal = ContentTooLarge(f"At most {most} bytes are read here.", headers={"Connection": "close"})
             await problem_response(refusal)(scope, receive, send)
             return
         waiting: list[Message] = [{"type": "http.request", "body": body, "more_body": False}]

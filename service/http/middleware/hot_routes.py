@@ -89,7 +89,9 @@ async def _answer(request: Request, call: _Call, body: BaseModel) -> Response:
         here = context_of(request)
         session = await here.manager.get(request.path_params["session_id"])
         if call.on_terms:
-            return await call.endpoint(body=body, session=session, here=here, terms=await terms_of(request))
+            return await call.endpoint(
+                body=body, session=session, here=here, preconditions=await terms_of(request)
+            )
         return await call.endpoint(body=body, session=session, here=here)
 
     try:

@@ -27,7 +27,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from service.http.deps import context_of
 from service.problems import KINDS, MEDIA_TYPE
 from service.server_timing import PARTS, Part, told_to
-from service.sessions.persistence.snapshot_scheduler import FATES
+from service.sessions.persistence.snapshot_scheduler import SNAPSHOT_RESULTS
 from service.store import Store
 
 LATENESS_S = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.25, 0.5, 1.0)
@@ -120,7 +120,7 @@ class Metrics:
         return lambda part, seconds: observed[part](seconds)
 
     def families(
-        self, sessions: int, sleeping: int, watchers: int, snapshots: Mapping[str, int]
+        self, sessions: int, sleeping: int, subscribers: int, snapshots: Mapping[str, int]
     ) -> Iterator[Metric]:
         """Everything, as it is now."""
         yield GaugeMetricFamily("roadtalk_sessions", "Live sessions", value=sessions)
@@ -130,7 +130,7 @@ class Metrics:
             value=sleeping,
         )
         yield GaugeMetricFamily(
-            "roadtalk_watchers", "Subscribers: open streams, sockets and events alike", value=watchers
+            "roadtalk_watchers", "Subscribers: open streams, sockets and events alike", value=subscribers
         )
         yield self.lateness.family("roadtalk_tick_lateness_seconds", "From a tick's deadline to its start")
         yield _labelled(
@@ -245,7 +245,7 @@ async def metrics(request: Request) -> Response:
     manager = context_of(request).manager
     counted = metrics_of(request)
     registry = CollectorRegistry(auto_describe=False)
-    snapshots: dict[str, int] = {fate: manager.keeper.fates[fate] for fate in FATES}
-    figures = counted.families(manager.live, manager.sleeping, manager.watchers, snapshots)
+    snapshots: dict[str, int] = {fate: manager.snapshots.counts[fate] for fate in SNAPSHOT_RESULTS}
+    figures = counted.families(manager.live_count, manager.evicted_count, manager.subscriber_count, snapshots)
     registry.register(cast(Any, _Now(list(figures))))
     return Response(generate_latest(registry), media_type=CONTENT_TYPE_LATEST)

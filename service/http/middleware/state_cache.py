@@ -17,7 +17,7 @@ from starlette.responses import Response
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from service.contract.encode.json import encoded
-from service.contract.encode.state import Standing, state_json
+from service.contract.encode.state import SessionStatus, state_json
 from service.http.conditional.etag import tagged
 from service.http.responses import etag
 from service.http.session_json import PREFIX
@@ -35,7 +35,7 @@ class _Seen:
     """A state that was encoded, and what it was made from."""
 
     run: SimState
-    standing: Standing
+    status: SessionStatus
     body: bytes
 
 
@@ -63,13 +63,13 @@ class Glance:
             await self._answer(scope, session)(scope, receive, send)
 
     def _answer(self, scope: Scope, session: Session) -> Response:
-        run, standing = session.run, session.standing
+        run, status = session.run, session.status
         seen = self._seen.get(session)
-        if seen is None or seen.run is not run or seen.standing != standing:
-            seen = _Seen(run, standing, encoded(state_json(standing, run)))
+        if seen is None or seen.run is not run or seen.status != status:
+            seen = _Seen(run, status, encoded(state_json(status, run)))
             self._seen[session] = seen
-        response = Response(seen.body, headers=etag(standing.sequence), media_type="application/json")
-        return tagged(Request(scope), response, standing.sequence)
+        response = Response(seen.body, headers=etag(status.sequence), media_type="application/json")
+        return tagged(Request(scope), response, status.sequence)
 
 
 def _asked(scope: Scope) -> str | None:

@@ -24,7 +24,7 @@ from service.http.responses import StrictRoute
 from service.problems import Invalid, NotRestorable, UnknownSession
 from service.sessions.messages import state_message
 from service.sessions.session import Session
-from service.sessions.subscribers import Gone, Missed, Watcher, stamped
+from service.sessions.subscribers import MissedTicks, SessionDeleted, Subscriber, add_event_id
 
 KEEP_ALIVE_S = 15
 """After so much silence a comment is sent, so that a reader that has gone is noticed."""
@@ -42,23 +42,23 @@ class Readers:
 
     def __init__(self) -> None:
         self.stopping = False
-        self._watchers: set[Watcher] = set()
+        self._watchers: set[Subscriber] = set()
 
-    def add(self, watcher: Watcher) -> None:
+    def add(self, subscriber: Subscriber) -> None:
         """One more."""
-        self._watchers.add(watcher)
+        self._watchers.add(subscriber)
         if self.stopping:
-            watcher.end()
+            subscriber.close()
 
-    def remove(self, watcher: Watcher) -> None:
+    def remove(self, subscriber: Subscriber) -> None:
         """It has gone."""
-        self._watchers.discard(watcher)
+        self._watchers.discard(subscriber)
 
     def stop(self) -> None:
         """End all streams: a server that stops waits for what is being answered."""
         self.stopping = True
-        for watcher in self._watchers:
-            watcher.end()
+        for subscriber in self._watchers:
+            subscriber.close()
 
 
 _DOCUMENTED: dict[int | str, dict[str, Any]] = {
@@ -95,41 +95,41 @@ async def events_stream(
 
     async def told() -> AsyncIterator[bytes]:
         # Joined here, so that nobody is left behind of whom nothing was ever read.
-        missed = session.watchers.missed(last_event_id or after or "")
-        watcher = session.watchers.join(missed or ())
-        first = _event(hello(here, session), session.watchers.event) if missed is None else b""
-        readers.add(watcher)
+        missed = session.subscribers.messages_since(last_event_id or after or "")
+        subscriber = session.subscribers.subscribe(missed or ())
+        first = _event(hello(here, session), session.subscribers.last_event_id) if missed is None else b""
+        readers.add(subscriber)
         try:
             yield b"retry: %d\n\n" % RETRY_MS + first
-            async for part in _told(session, watcher, readers):
+            async for part in _told(session, subscriber, readers):
                 yield part
         finally:
-            readers.remove(watcher)
-            session.watchers.leave(watcher)
+            readers.remove(subscriber)
+            session.subscribers.unsubscribe(subscriber)
 
     headers = {"Cache-Control": "no-store", "X-Accel-Buffering": "no"}
     return StreamingResponse(told(), media_type=MEDIA_TYPE, headers=headers)
 
 
-async def _told(session: Session, watcher: Watcher, readers: Readers) -> AsyncIterator[bytes]:
+async def _told(session: Session, subscriber: Subscriber, readers: Readers) -> AsyncIterator[bytes]:
     """What is published, at the pace of whoever reads."""
     while True:
         try:
-            heard = await asyncio.wait_for(watcher.next(), KEEP_ALIVE_S)
+            heard = await asyncio.wait_for(subscriber.next(), KEEP_ALIVE_S)
         except TimeoutError:
             yield b": still here\n\n"
             continue
         match heard:
-            case Gone():
+            case SessionDeleted():
                 last = {"type": "stopping", "code": 1012} if readers.stopping else {"type": "gone"}
                 yield _event(encoded(last), None)
                 return
-            case Missed():
-                event = session.watchers.event
-                yield _event(stamped(state_message(session.standing, session.run, heard), event), event)
+            case MissedTicks():
+                event = session.subscribers.last_event_id
+                yield _event(add_event_id(state_message(session.status, session.run, heard), event), event)
             case notices:
                 # In one piece: fewer turns of the loop for a reader that keeps up.
-                events = session.watchers.event_of
+                events = session.subscribers.event_id
                 yield b"".join(_event(notice.data, events(notice.number)) for notice in notices)
 
 

@@ -17,13 +17,13 @@ from service.http.responses import StrictRoute, json_response
 from service.interpreter.interpreter import Source
 from service.problems import (
     Ambiguous,
+    ContentTooLarge,
     FieldProblem,
     Invalid,
     Malformed,
     NotAQuestion,
-    NotJson,
     NotUnderstood,
-    TooLarge,
+    UnsupportedMediaType,
 )
 from service.refusals import refusals
 from service.sessions.facts import Advised
@@ -41,7 +41,9 @@ _FIGURES = ("hazard", "distance_m", "speed_kmh")
     response_model=schemas_advice.Advice,
     summary="Ask what to do about a hazard",
     dependencies=[JSON_ONLY],
-    responses=documented(Malformed, Ambiguous, TooLarge, NotJson, Invalid, NotUnderstood, NotAQuestion),
+    responses=documented(
+        Malformed, Ambiguous, ContentTooLarge, UnsupportedMediaType, Invalid, NotUnderstood, NotAQuestion
+    ),
 )
 async def advice(
     body: Annotated[bodies.AdviceQuestion, Body(openapi_examples=examples.ADVICE)], here: Here
@@ -57,7 +59,7 @@ async def advice(
         field = error.field if body.text is None else "text"
         sentence = refusals(body.language).advice(error)
         raise Invalid(sentence, errors=[FieldProblem(field, sentence)]) from error
-    told = here.words.answer(Advised(found))
+    told = here.narrator.answer(Advised(found))
     said = {"question": told["question"], "text": told["text"], "source": source}
     return json_response(said | advice_json(found))
 
@@ -68,7 +70,7 @@ async def _asked(body: bodies.AdviceQuestion, here: Context) -> tuple[PlaceableK
         twice = [name for name in _FIGURES if getattr(body, name) is not None]
         if twice:
             raise invalid(FieldProblem(name, "is said in the text already") for name in twice)
-        heard = await here.listener.hear(body.text, code=body.language)
+        heard = await here.interpreter.interpret(body.text, code=body.language)
         match heard.actions:
             case (Advise() as asked,):
                 return asked.hazard, asked.distance_m, asked.speed_kmh, heard.source

@@ -20,25 +20,25 @@ from service.http.responses import StrictRoute, etag, json_response
 from service.http.session_json import told_decision
 from service.problems import (
     Ambiguous,
+    ContentTooLarge,
     DoesNotFit,
     Invalid,
     Malformed,
     NotAQuestion,
     NotAvailable,
     NothingToUndo,
-    NotJson,
     NotRestorable,
     NotSaved,
     NotTeachable,
     NotUnderstood,
-    TooLarge,
     UnknownSession,
+    UnsupportedMediaType,
 )
 from service.sessions.utterance import Outcome, Utterance
 
 router = APIRouter(tags=["talking"], route_class=StrictRoute, dependencies=[JSON_ONLY])
 
-_ALWAYS = (Malformed, UnknownSession, TooLarge, NotJson, Invalid, NotRestorable)
+_ALWAYS = (Malformed, UnknownSession, ContentTooLarge, UnsupportedMediaType, Invalid, NotRestorable)
 _CHANGING = (*_ALWAYS, DoesNotFit, NotAvailable, NothingToUndo, NotTeachable, NotSaved)
 
 
@@ -52,21 +52,25 @@ async def say(
     body: Annotated[bodies.Said, Body(openapi_examples=examples.SAID)],
     session: TheSession,
     here: Here,
-    terms: TheTerms,
+    preconditions: TheTerms,
 ) -> Response:
     """Done as a whole or not at all; one undo takes the whole back.
 
     A word that is not understood refuses it all, and says which.
     """
-    heard = await here.listener.hear(body.text, session, body.language)
+    heard = await here.interpreter.interpret(body.text, session, body.language)
 
     @made_once
     def told(outcome: Outcome) -> Response:
         return json_response(result_json(outcome, heard, body.dry_run), headers=etag(outcome.sequence))
 
     return told(
-        await here.listener.do(
-            session, heard.utterance, dry_run=body.dry_run, code=body.language, terms=terms(told)
+        await here.interpreter.execute(
+            session,
+            heard.utterance,
+            dry_run=body.dry_run,
+            code=body.language,
+            preconditions=preconditions(told),
         )
     )
 
@@ -81,7 +85,7 @@ async def act(
     body: Annotated[bodies.TypedActions, Body(openapi_examples=examples.ACTIONS)],
     session: TheSession,
     here: Here,
-    terms: TheTerms,
+    preconditions: TheTerms,
 ) -> Response:
     """The same as saying it, without language."""
 
@@ -90,7 +94,11 @@ async def act(
         return json_response(result_json(outcome, None, body.dry_run), headers=etag(outcome.sequence))
 
     utterance = Utterance(actions=tuple(body.actions))
-    return told(await here.listener.do(session, utterance, dry_run=body.dry_run, terms=terms(told)))
+    return told(
+        await here.interpreter.execute(
+            session, utterance, dry_run=body.dry_run, preconditions=preconditions(told)
+        )
+    )
 
 
 @router.post(
@@ -103,7 +111,7 @@ async def step(
     body: Annotated[bodies.StepTicks, Body(openapi_examples=examples.STEP)],
     session: TheSession,
     here: Here,
-    terms: TheTerms,
+    preconditions: TheTerms,
 ) -> Response:
     """Pauses, then runs the ticks as fast as it can; answers what was decided in each."""
 
@@ -111,10 +119,10 @@ async def step(
     def told(outcome: Outcome) -> Response:
         assert outcome.before is not None
         runs = [outcome.before, *(tick.state for tick in outcome.ticks)]
-        standing = replace(session.standing, paused=True, sequence=outcome.sequence)
-        state = state_json(standing, runs[-1])
+        status = replace(session.status, paused=True, sequence=outcome.sequence)
+        state = state_json(status, runs[-1])
         decisions = [
-            told_decision(here.words, run, tick.decision)
+            told_decision(here.narrator, run, tick.decision)
             for run, tick in zip(runs, outcome.ticks, strict=False)
             if tick.decision is not None
         ]
@@ -124,7 +132,7 @@ async def step(
         )
 
     utterance = Utterance(actions=(contract.Step(ticks=body.ticks),))
-    return told(await session.change(utterance, terms=terms(told)))
+    return told(await session.change(utterance, preconditions=preconditions(told)))
 
 
 @router.post(
@@ -139,6 +147,6 @@ async def ask(
     here: Here,
 ) -> Response:
     """Answers, and changes nothing."""
-    heard = await here.listener.hear_question(body.question, session, body.language)
-    outcome = await here.listener.do(session, heard.utterance, code=body.language)
+    heard = await here.interpreter.interpret_question(body.question, session, body.language)
+    outcome = await here.interpreter.execute(session, heard.utterance, code=body.language)
     return json_response(outcome.answer, headers=etag(outcome.sequence))

@@ -24,17 +24,17 @@ from service.http.errors import documented, invalid
 from service.http.responses import StrictRoute, etag, json_response
 from service.http.suggestions import meant
 from service.problems import (
+    ContentTooLarge,
     DoesNotFit,
     FieldProblem,
     Invalid,
     Malformed,
     NotAvailable,
-    NotJson,
     NotRestorable,
     NotSaved,
     ProblemError,
-    TooLarge,
     UnknownSession,
+    UnsupportedMediaType,
 )
 from service.refusals import refusals
 from service.sessions.utterance import Outcome, Utterance
@@ -78,8 +78,8 @@ async def _patch_only(connection: HTTPConnection) -> None:
     responses=documented(
         Malformed,
         UnknownSession,
-        TooLarge,
-        NotJson,
+        ContentTooLarge,
+        UnsupportedMediaType,
         Invalid,
         DoesNotFit,
         NotAvailable,
@@ -91,7 +91,7 @@ async def patch(
     body: Annotated[Patch, Body(openapi_examples=examples.CONFIG_PATCH)],
     session: TheSession,
     here: Here,
-    terms: TheTerms,
+    preconditions: TheTerms,
 ) -> Response:
     """All or nothing, and one undo takes the whole back; `null` asks for the default.
 
@@ -104,13 +104,17 @@ async def patch(
         return _told(outcome.changes, outcome.reply, outcome.sequence)
 
     if not actions:
-        sequences = terms(told).sequences
+        sequences = preconditions(told).sequences
         if sequences is not None:
-            terms(told).check(session.sequence)
+            preconditions(told).check(session.sequence)
         return _told((), refusals().session("as_it_is"), session.sequence)
     try:
         done = tuple(action for _, action in actions)
-        return told(await here.listener.do(session, Utterance(actions=done), terms=terms(told)))
+        return told(
+            await here.interpreter.execute(
+                session, Utterance(actions=done), preconditions=preconditions(told)
+            )
+        )
     except Invalid as problem:
         raise _of_fields(problem, [name for name, _ in actions]) from problem
 

@@ -19,20 +19,20 @@ from service.http.deps import JSON_ONLY, TheSession
 from service.http.errors import documented, invalid
 from service.http.responses import StrictRoute, etag, json_response
 from service.problems import (
+    ContentTooLarge,
     DoesNotFit,
     FieldProblem,
     Invalid,
     Malformed,
     NotAvailable,
-    NotJson,
     NotRestorable,
-    TooLarge,
     UnknownSession,
+    UnsupportedMediaType,
 )
 from service.refusals import refusals
-from service.sessions.availability import refusal
-from service.sessions.scheduler.offload import QUESTION_S, asks_others, off_loop
-from service.sessions.scheduler.playback_speed import sets_pace
+from service.sessions.availability import refusal_of
+from service.sessions.scheduler.offload import QUESTION_S, run_in_thread, uses_external_planner
+from service.sessions.scheduler.playback_speed import sets_playback_speed
 from sim.actions import (
     Add,
     Adjust,
@@ -94,7 +94,14 @@ class Otherwise(Sent):
     summary="Watch what would have been",
     dependencies=[JSON_ONLY],
     responses=documented(
-        Malformed, UnknownSession, TooLarge, NotJson, Invalid, DoesNotFit, NotAvailable, NotRestorable
+        Malformed,
+        UnknownSession,
+        ContentTooLarge,
+        UnsupportedMediaType,
+        Invalid,
+        DoesNotFit,
+        NotAvailable,
+        NotRestorable,
     ),
 )
 async def counterfactual(
@@ -106,7 +113,7 @@ async def counterfactual(
     """
     if (body.move is None) == (body.actions is None):
         raise invalid([FieldProblem("move", "say either a move or actions")])
-    timeline, standing = session.timeline.copy(), session.standing
+    timeline, status = session.timeline.copy(), session.status
     if body.at_tick is not None:
         tick = body.at_tick
     else:
@@ -118,10 +125,10 @@ async def counterfactual(
             told = compare_move(timeline, tick, Move(body.move))
         else:
             told = compare_change(timeline, tick, actions)
-        return beside_json(standing, told, body.ticks)
+        return beside_json(status, told, body.ticks)
 
     try:
-        value = await off_loop(asks_others(timeline), QUESTION_S, found)
+        value = await run_in_thread(uses_external_planner(timeline), QUESTION_S, found)
     except QuestionError as error:
         field = "move" if error.code in ("off_road", "same_move") else "at_tick"
         raise invalid([FieldProblem(field, _WORDS[error.code].format(**error.facts))]) from error
@@ -129,17 +136,17 @@ async def counterfactual(
         kind = NotAvailable if error.category == "not-available" else DoesNotFit
         sentence = refusals().edit(error)
         raise kind(sentence, errors=[FieldProblem(f"actions.{error.field}", sentence)]) from error
-    return json_response(value, headers=etag(standing.sequence))
+    return json_response(value, headers=etag(status.sequence))
 
 
 def _possible(actions: list[Action]) -> list[WorldAction]:
     """Those, where all of them change the road. Raises `NotAvailable` or `Invalid`."""
     changing: list[WorldAction] = []
     for position, action in enumerate(actions):
-        sentence = refusal(action)
+        sentence = refusal_of(action)
         if sentence is not None:
             raise NotAvailable(sentence, errors=[FieldProblem(f"actions.{position}", sentence)])
-        if not isinstance(action, _WORLD_ACTIONS) or sets_pace(action):
+        if not isinstance(action, _WORLD_ACTIONS) or sets_playback_speed(action):
             raise invalid([FieldProblem(f"actions.{position}", "changes nothing on the road")])
         changing.append(action)
     return changing

@@ -19,7 +19,7 @@ from service.http.errors import documented, invalid
 from service.http.responses import StrictRoute, json_response
 from service.http.session_json import told_decision
 from service.problems import FieldProblem, Invalid, NotRestorable, UnknownSession
-from service.sessions.scheduler.offload import QUESTION_S, asks_others, off_loop
+from service.sessions.scheduler.offload import QUESTION_S, run_in_thread, uses_external_planner
 from sim.decide import sense
 from sim.forecast import predict
 from sim.oracle.regret import regret
@@ -94,7 +94,7 @@ async def forecast(
     way = session.timeline.copy()
     if tick is not None and tick > way.tick:
         raise invalid([FieldProblem("tick", f"has not come yet: it is tick {way.tick}")])
-    run, step = await off_loop(asks_others(way), QUESTION_S, lambda: _decided(way, tick))
+    run, step = await run_in_thread(uses_external_planner(way), QUESTION_S, lambda: _decided(way, tick))
     decision = None if step is None else step.decision
     expected = predict(sense(run)[0] if step is None else step.percept, ticks)
     if decision is not None:
@@ -107,7 +107,7 @@ async def forecast(
         }
         for each in range(ticks)
     ]
-    told = None if decision is None else told_decision(here.words, run, decision)
+    told = None if decision is None else told_decision(here.narrator, run, decision)
     exact = ticks == 1 or not run.config.reacting
     return json_response({"tick": now, "decision": told, "exact": exact, "ahead": ahead})
 

@@ -16,26 +16,26 @@ from service.http.outcome_json import result_json
 from service.http.responses import StrictRoute, etag, json_response
 from service.http.session_json import links_json, session_json
 from service.problems import (
+    ContentTooLarge,
     DoesNotFit,
     Invalid,
     Malformed,
     NotAvailable,
     NothingToUndo,
-    NotJson,
     NotRestorable,
     NotSaved,
-    TooLarge,
     TooManySessions,
     UnknownName,
     UnknownSession,
+    UnsupportedMediaType,
 )
-from service.sessions.rewind import to_tick
+from service.sessions.rewind import rewind_to
 from service.sessions.session import Session
 from service.sessions.utterance import Outcome
 
 router = APIRouter(tags=["time"], route_class=StrictRoute)
 
-_ALWAYS = (Malformed, UnknownSession, TooLarge, NotJson, Invalid, NotRestorable, NotSaved)
+_ALWAYS = (Malformed, UnknownSession, ContentTooLarge, UnsupportedMediaType, Invalid, NotRestorable, NotSaved)
 
 
 @router.post(
@@ -60,7 +60,7 @@ async def fork(
     @made_once
     def told(made: Session) -> Response:
         headers = {"Location": links_json(made.id)["self"], **etag(made.sequence)}
-        return json_response(session_json(made, here.listener.sentence(made.run.config)), 201, headers)
+        return json_response(session_json(made, here.interpreter.sentence_for(made.run.config)), 201, headers)
 
     made = await here.manager.fork(
         session,
@@ -83,7 +83,7 @@ async def fork(
 async def rewind(
     body: Annotated[bodies.RewindTo, Body(openapi_examples=examples.REWIND)],
     session: TheSession,
-    terms: TheTerms,
+    preconditions: TheTerms,
 ) -> Response:
     """A past tick becomes the present, as it was after what was said at it; one undo brings all back."""
 
@@ -91,7 +91,7 @@ async def rewind(
     def told(outcome: Outcome) -> Response:
         return json_response(result_json(outcome, None, False), headers=etag(outcome.sequence))
 
-    return told(await session.change(to_tick(body.tick), terms=terms(told)))
+    return told(await session.change(rewind_to(body.tick), preconditions=preconditions(told)))
 
 
 @router.get(
@@ -108,7 +108,7 @@ async def all_saved(
     limit: Annotated[int, Query(ge=1, le=200)] = 50,
 ) -> Response:
     """Those named last first, in pages. A name belongs to its session: `load` finds it there only."""
-    found = await here.manager.moments(limit + 1, int(after) if after else None)
+    found = await here.manager.bookmarks(limit + 1, int(after) if after else None)
     page = found[:limit]
     items = [
         {
@@ -133,6 +133,6 @@ async def all_saved(
 )
 async def saved(session: TheSession) -> Response:
     """What `{"do": "save", "name": ...}` has kept, by name; `{"do": "load", "name": ...}` goes there."""
-    moments = sorted(session.history.saved.values(), key=lambda moment: moment.name)
+    moments = sorted(session.undo_stack.bookmarks.values(), key=lambda moment: moment.name)
     items = [{"name": each.name, "sequence": each.sequence, "tick": each.tick} for each in moments]
     return json_response({"items": items}, headers=etag(session.sequence))

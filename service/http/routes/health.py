@@ -21,8 +21,8 @@ async def healthz(here: Here) -> Response:
         {
             "status": "ok",
             "version": VERSION,
-            "sessions": here.manager.live,
-            "watchers": here.manager.watchers,
+            "sessions": here.manager.live_count,
+            "watchers": here.manager.subscriber_count,
             "tick_lateness": here.clock.lateness(),
         }
     )

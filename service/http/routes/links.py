@@ -23,7 +23,7 @@ from service.http.deps import TheSession
 from service.http.errors import documented, invalid
 from service.http.responses import StrictRoute, etag, json_response
 from service.problems import FieldProblem, Invalid, NotRestorable, UnknownSession
-from service.sessions.fork import way_to, written_out
+from service.sessions.fork import flatten_log, timeline_until
 from service.sessions.persistence.recording import FORMAT, VERSION
 from sim.session.timeline import Timeline
 
@@ -83,10 +83,10 @@ def opened(said: str, most_bytes: int) -> bodies.Recording | Named:
 
 
 def _carried(timeline: Timeline, tick: int) -> str:
-    way = way_to(timeline, tick)
+    way = timeline_until(timeline, tick)
     entries = [
         {"sequence": each.sequence, "tick": each.tick, "text": None, "actions": each.actions}
-        for each in written_out(way)
+        for each in flatten_log(way)
     ]
     recording = {
         "format": FORMAT,

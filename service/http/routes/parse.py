@@ -14,7 +14,14 @@ from service.http.deps import JSON_ONLY, Here
 from service.http.errors import documented
 from service.http.outcome_json import corrections_json
 from service.http.responses import StrictRoute, json_response
-from service.problems import Ambiguous, Invalid, Malformed, NotJson, NotUnderstood, TooLarge
+from service.problems import (
+    Ambiguous,
+    ContentTooLarge,
+    Invalid,
+    Malformed,
+    NotUnderstood,
+    UnsupportedMediaType,
+)
 
 router = APIRouter(tags=["talking"], route_class=StrictRoute)
 
@@ -24,11 +31,11 @@ router = APIRouter(tags=["talking"], route_class=StrictRoute)
     response_model=schemas.Parsed,
     summary="Understand a sentence",
     dependencies=[JSON_ONLY],
-    responses=documented(Malformed, Ambiguous, TooLarge, NotJson, Invalid, NotUnderstood),
+    responses=documented(Malformed, Ambiguous, ContentTooLarge, UnsupportedMediaType, Invalid, NotUnderstood),
 )
 async def parse(body: Annotated[bodies.Text, Body(openapi_examples=examples.TEXT)], here: Here) -> Response:
     """The actions a sentence means, whether or not this version does them."""
-    heard = await here.listener.hear(body.text, code=body.language)
+    heard = await here.interpreter.interpret(body.text, code=body.language)
     return json_response(
         {
             "text": heard.text,

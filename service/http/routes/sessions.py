@@ -19,23 +19,23 @@ from service.http.routes.links import Named, opened
 from service.http.session_json import links_json, session_json, summary_json
 from service.problems import (
     Ambiguous,
+    ContentTooLarge,
     DoesNotFit,
     FieldProblem,
     Invalid,
     Malformed,
     NotAvailable,
-    NotJson,
     NotRestorable,
     NotSaved,
     NotUnderstood,
     RecordingMismatch,
-    TooLarge,
     TooManySessions,
     UnknownSession,
+    UnsupportedMediaType,
 )
 from service.refusals import refusals
-from service.sessions.manager import Recorded
-from service.sessions.preconditions import Terms
+from service.sessions.manager import Recording
+from service.sessions.preconditions import Preconditions
 from service.sessions.session import Session
 from service.settings import Settings
 from service.store import EntryRecord
@@ -58,8 +58,8 @@ router = APIRouter(tags=["sessions"], route_class=StrictRoute)
     responses=documented(
         Malformed,
         Ambiguous,
-        TooLarge,
-        NotJson,
+        ContentTooLarge,
+        UnsupportedMediaType,
         Invalid,
         DoesNotFit,
         NotAvailable,
@@ -85,7 +85,9 @@ async def make(
     @made_once
     def told(session: Session) -> Response:
         headers = {"Location": links_json(session.id)["self"], **etag(session.sequence)}
-        return json_response(session_json(session, here.listener.sentence(session.run.config)), 201, headers)
+        return json_response(
+            session_json(session, here.interpreter.sentence_for(session.run.config)), 201, headers
+        )
 
     answer = kept_answer(request, told)
     recording, named = _linked(here.settings, body)
@@ -148,7 +150,7 @@ async def newest(
 )
 async def look(session: TheSession, here: Here) -> Response:
     """A session as it stands. One that is kept but not live is brought back, paused."""
-    told = session_json(session, here.listener.sentence(session.run.config))
+    told = session_json(session, here.interpreter.sentence_for(session.run.config))
     return json_response(told, headers=etag(session.sequence))
 
 
@@ -161,7 +163,7 @@ async def look(session: TheSession, here: Here) -> Response:
 )
 async def end(session_id: str, here: Here, request: Request) -> Response:
     """End it and forget it; whoever watches is told."""
-    await here.manager.delete(session_id, Terms(matched(request)))
+    await here.manager.delete(session_id, Preconditions(matched(request)))
     return Response(status_code=204)
 
 
@@ -198,7 +200,7 @@ async def _config(here: Context, body: bodies.NewSession) -> Config:
 
 async def _scenario(here: Context, text: str) -> Scenario:
     """The one scenario a sentence describes; a planner named beside it stands unless it names one."""
-    parse = await here.listener.hear(text, field="scenario")
+    parse = await here.interpreter.interpret(text, field="scenario")
     if len(parse.actions) != 1 or not isinstance(parse.actions[0], Scenario):
         sentence = "does not describe a road; say for instance: a highway with 10 potholes"
         raise NotUnderstood(
@@ -245,7 +247,7 @@ def _of_rules(recording: bodies.Recording) -> dict[str, Any]:
 
 def _recorded(
     settings: Settings, body: bodies.NewSession, recording: bodies.Recording
-) -> tuple[Config, Recorded]:
+) -> tuple[Config, Recording]:
     """What a recording says, checked as far as can be before it is replayed."""
     beside = [name for name in ("scenario", "config", "seed", "planner") if getattr(body, name) is not None]
     if beside:
@@ -277,4 +279,4 @@ def _recorded(
         )
         for entry in recording.entries
     ]
-    return config, Recorded(entries=entries, tick=recording.tick, digest=recording.digest)
+    return config, Recording(entries=entries, tick=recording.tick, digest=recording.digest)

@@ -37,9 +37,9 @@ async def state(
         return json_response(session.state(), headers=etag(session.sequence))
     if tick > session.timeline.tick:
         raise invalid([FieldProblem("tick", f"has not come yet: it is tick {session.timeline.tick}")])
-    standing = session.standing
+    status = session.status
     run = await to_thread.run_sync(session.timeline.copy().at, tick)
-    return json_response(state_json(standing, run), headers=etag(standing.sequence))
+    return json_response(state_json(status, run), headers=etag(status.sequence))
 
 
 @router.get(
@@ -60,7 +60,7 @@ async def decisions(
     timeline = session.timeline.copy()
     first = max(0, timeline.tick - limit) if after is None else min(after + 1, timeline.tick)
     stop = min(timeline.tick, first + limit)
-    items = await to_thread.run_sync(told_runs, here.words, timeline, first, stop)
+    items = await to_thread.run_sync(told_runs, here.narrator, timeline, first, stop)
     return json_response({"items": items, "after": stop - 1, "more": stop < timeline.tick})
 
 
@@ -75,7 +75,7 @@ async def decision(session: TheSession, here: Here, tick: Annotated[int, Path(ge
     timeline = session.timeline.copy()
     if tick >= timeline.tick:
         raise UnknownDecision(f"Tick {tick} has not been decided yet: it is tick {timeline.tick}.")
-    items = await to_thread.run_sync(told_runs, here.words, timeline, tick, tick + 1)
+    items = await to_thread.run_sync(told_runs, here.narrator, timeline, tick, tick + 1)
     if not items:
         raise UnknownDecision(f"At tick {tick} the result of an episode stood; nothing was decided.")
     return json_response(items[0])
@@ -97,9 +97,9 @@ async def events(
     """What happened, in numbered lines; the latest few hundred are kept."""
     log = session.log
     items = log.latest(limit) if after is None else log.after(after, limit)
-    last = items[-1].number if items else min(after or 0, log.last)
+    last = items[-1].number if items else min(after or 0, log.last_number)
     return json_response(
-        {"items": items, "after": last, "more": last < log.last, "first_kept": log.first_kept}
+        {"items": items, "after": last, "more": last < log.last_number, "first_kept": log.first_number}
     )
 
 

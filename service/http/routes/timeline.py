@@ -16,7 +16,7 @@ from fastapi import APIRouter, Query, Response
 from pydantic import Field
 
 from service import actions as contract
-from service.contract.encode.state import Standing, state_json
+from service.contract.encode.state import SessionStatus, state_json
 from service.contract.parts import Answered, CellPair, Decision, State
 from service.contract.requests import Tick
 from service.http.deps import Here, TheSession
@@ -25,7 +25,7 @@ from service.http.responses import StrictRoute, json_response
 from service.http.session_json import told_decision
 from service.problems import FieldProblem, Invalid, NotRestorable, NotSaved, UnknownSession
 from service.resources import DEFAULT_LANGUAGE
-from service.sessions.narrator_protocol import Words
+from service.sessions.narrator_protocol import NarratorProtocol
 from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.types import Cell, Move, Outcome
@@ -153,7 +153,7 @@ async def changes(
         sequence, text = group[0].sequence, said.get(group[0].sequence)
         if text is None:
             dumped = contract.dump(tuple(entry.action for entry in group))
-            told = here.listener.phrasebook.told(contract.load(dumped), DEFAULT_LANGUAGE)
+            told = here.interpreter.aliases.describe(contract.load(dumped), DEFAULT_LANGUAGE)
         else:
             told = text
         items.append({"tick": group[0].tick, "sequence": sequence, "text": told, "said": text is not None})
@@ -173,10 +173,10 @@ async def moments(
     limit: Annotated[int, Query(ge=1, le=MOST_MOMENTS)] = 16,
 ) -> Response:
     """Worlds in a row, each with the decision that led to it, as a reader of the stream had them."""
-    way, standing = session.timeline.copy(), session.standing
+    way, status = session.timeline.copy(), session.status
     _check(first, way.tick)
     stop = min(way.tick + 1, first + limit)
-    items = await to_thread.run_sync(lambda: list(_moments(here.words, standing, way, first, stop)))
+    items = await to_thread.run_sync(lambda: list(_moments(here.narrator, status, way, first, stop)))
     return json_response({"items": items, "now": way.tick})
 
 
@@ -186,7 +186,7 @@ def _check(first: int, now: int) -> None:
 
 
 def _moments(
-    words: Words, standing: Standing, way: Timeline, first: int, stop: int
+    narrator: NarratorProtocol, status: SessionStatus, way: Timeline, first: int, stop: int
 ) -> Iterator[dict[str, Any]]:
     before: SimState | None = None
     for run in way.between(max(0, first - 1), stop):
@@ -194,8 +194,8 @@ def _moments(
             decision = None if before is None else way.decided(before)
             told = None
             if before is not None and decision is not None:
-                told = told_decision(words, before, decision)
-            yield {"state": state_json(standing, run), "decision": told}
+                told = told_decision(narrator, before, decision)
+            yield {"state": state_json(status, run), "decision": told}
         before = run
 
 

@@ -14,7 +14,7 @@ from service.http import json as strictly
 from service.http.deps import JSON_ONLY
 from service.http.errors import documented
 from service.http.responses import StrictRoute, json_response
-from service.problems import Invalid, Malformed, NotJson, TooLarge
+from service.problems import ContentTooLarge, Invalid, Malformed, UnsupportedMediaType
 from service.security.guard import guard_of
 from service.security.ws_tickets import GOOD_FOR_S
 
@@ -55,7 +55,7 @@ class _Auth(BaseModel):
     response_model=Ticket,
     summary="Get a ticket for a socket",
     dependencies=[JSON_ONLY],
-    responses=documented(Malformed, TooLarge, NotJson, Invalid),
+    responses=documented(Malformed, ContentTooLarge, UnsupportedMediaType, Invalid),
 )
 async def ticket(
     body: Annotated[NoFields, Body(openapi_examples={"one": {"summary": "One ticket", "value": {}}})],  # noqa: ARG001
