@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from difflib import get_close_matches
 
 from service.settings import Settings
+from service.suggestions import nearest
 
 PREFIX = "roadtalk_"
 
@@ -19,7 +19,7 @@ def strays(environment: Iterable[str]) -> list[str]:
         part = low.removeprefix(PREFIX)
         if low == part or part in known:
             continue
-        near = get_close_matches(part, known, n=1)
-        meant = f"; did you mean {(PREFIX + near[0]).upper()}?" if near else "."
+        near = nearest(part, known)
+        meant = f"; did you mean {(PREFIX + near).upper()}?" if near else "."
         told.append(f"{name} is no setting{meant}")
     return told

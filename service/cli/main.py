@@ -27,8 +27,7 @@ from service.cli.sessions import sessions
 from service.cli.watch import watch
 from service.env_check import strays
 from service.grammar import LanguageDataError
-from service.http.middleware.header_limits import StrictHead
-from service.http.realtime.websocket_server import StrictSocket
+from service.http.protocol import protocol_options
 from service.llm import MissingExtraError
 from service.llm.prompts import PromptError
 from service.security.guard import exposed
@@ -157,8 +156,7 @@ def server_config(app: FastAPI, settings: Settings) -> uvicorn.Config:
     return uvicorn.Config(
         app,
         loop="auto",
-        http=StrictHead,
-        ws=StrictSocket,
+        **protocol_options(),
         ws_max_size=settings.max_body_bytes,
         ws_per_message_deflate=False,
         access_log=False,
@@ -234,7 +232,7 @@ class _Server(uvicorn.Server):
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         """End the streams of events, which would be waited for, then stop."""
         self._deadline.begin()
-        self.config.app.state.readers.stop()  # type: ignore[union-attr]
+        self.config.app.state.context.event_streams.stop()  # type: ignore[union-attr]
         await super().shutdown(sockets)
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:

@@ -93,12 +93,12 @@ def summary_json(record: SessionRecord, live: Session | None) -> dict[str, Any]:
     }
 
 
-def told_decision(narrator: NarratorProtocol, run: SimState, decision: Decision) -> dict[str, Any]:
+def told_decision(words: NarratorProtocol, run: SimState, decision: Decision) -> dict[str, Any]:
     """A decision, the state it was taken in being `run`, with its narration."""
-    return decision_json(decision, narrator.decision(decision, run))
+    return decision_json(decision, words.decision(decision, run))
 
 
-def told_runs(narrator: NarratorProtocol, timeline: Timeline, first: int, stop: int) -> list[dict[str, Any]]:
+def told_runs(words: NarratorProtocol, timeline: Timeline, first: int, stop: int) -> list[dict[str, Any]]:
     """The decisions taken from tick `first` to before `stop`; where a result stood there is none."""
     decided = ((run, timeline.decided(run)) for run in timeline.between(first, stop))
-    return [told_decision(narrator, run, decision) for run, decision in decided if decision is not None]
+    return [told_decision(words, run, decision) for run, decision in decided if decision is not None]

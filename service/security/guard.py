@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, cast
-
-from starlette.requests import HTTPConnection
+from typing import Any
 
 from service.problems import RateLimited
 from service.security.api_key import Key
@@ -36,11 +34,6 @@ class Guard:
         wait = self.buckets.take(client)
         if wait:
             raise RateLimited(wait)
-
-
-def guard_of(connection: HTTPConnection) -> Guard:
-    """The guard of the service that a request or socket belongs to."""
-    return cast(Guard, connection.app.state.guard)
 
 
 def client_of(scope: Any) -> str:

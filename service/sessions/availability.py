@@ -51,28 +51,28 @@ _WITH_UNITS = {"target_speed_kmh": ("target speed", " km/h"), "sensor_range_m": 
 
 def refusal_of(action: Action, language: str = DEFAULT_LANGUAGE) -> str | None:
     """Why an action is not offered by this version, as a sentence; None if it is."""
-    narrator = refusals(language)
+    words = refusals(language)
     if isinstance(action, Ask):
         return next(
             (said for each in action.change or () if (said := _refuse_imagined(each, language))), None
         )
     if action.do not in _OFFERED:
-        return narrator.session(action.do)
+        return words.session(action.do)
     match action:
         case Add(kind=Kind.AV) | Remove(kind=Kind.AV) | SetCount(kind=Kind.AV):
-            return narrator.session("more_vehicles")
+            return words.session("more_vehicles")
         case Show(view="sensors") | Hide(view="sensors"):
-            return narrator.session("view_of_sensors")
+            return words.session("view_of_sensors")
         case Scenario():
             missing = find_unavailable(action)
-            return None if missing is None else narrator.problem(missing)
+            return None if missing is None else words.problem(missing)
         case Set() | Adjust() if sets_playback_speed(action):
             return None
         case Set() | Adjust() if not is_available(action):
             name, unit = _WITH_UNITS.get(action.parameter, (action.parameter.replace("_", " "), ""))
             if isinstance(action, Set):
-                return narrator.session("changing_to", setting=name, value=f"{action.value}{unit}")
-            return narrator.session("changing", setting=name)
+                return words.session("changing_to", setting=name, value=f"{action.value}{unit}")
+            return words.session("changing", setting=name)
         case Drive() | Reset() | SetMode() | _:
             return None
 

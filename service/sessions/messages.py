@@ -6,6 +6,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import lru_cache
 from typing import Any, Final
 
+import orjson
+
 from service.contract.encode.decision import brief_decision_json
 from service.contract.encode.json import encoded
 from service.contract.encode.state import Json, SessionStatus, metrics_json, state_json
@@ -28,15 +30,15 @@ _SMALL_ROAD: Final = 512
 
 
 def hello_message(
-    session: Json, state: Json, log: Sequence[LogEvent], decision: Json | None, sequence: int
+    session: Json, state: bytes, log: Sequence[LogEvent], decision: Json | None, sequence: int
 ) -> bytes:
-    """The first message on a socket."""
+    """The first message on a socket; `state` is JSON text."""
     return encoded(
         {
             "type": "hello",
             "protocol": PROTOCOL,
             "session": session,
-            "state": state,
+            "state": orjson.Fragment(state),
             "log": log,
             "decision": decision,
             "sequence": sequence,
@@ -101,10 +103,10 @@ def changed_message(
     return encoded(told)
 
 
-def state_message(status: SessionStatus, run: SimState, missed: MissedTicks | None) -> bytes:
-    """All there is to go on from, for a reader that missed some ticks."""
-    told = None if missed is None else [missed.first_tick, missed.last_tick]
-    return encoded({"type": "state", "missed": told, "state": state_json(status, run)})
+def state_message(state: bytes, missed: MissedTicks | None) -> bytes:
+    """The whole state, as JSON text, for a reader that missed some ticks."""
+    ticks = None if missed is None else [missed.first_tick, missed.last_tick]
+    return encoded({"type": "state", "missed": ticks, "state": orjson.Fragment(state)})
 
 
 def motion_json(before: World, after: World) -> dict[str, Any]:

@@ -18,7 +18,7 @@ import structlog
 from anyio import to_thread
 
 from service.actions import Action, Advise, Ask, Hide, Show
-from service.contract.encode.state import SessionStatus, state_json
+from service.contract.encode.state import SessionStatus
 from service.problems import NotSaved, UnknownName, UnknownSession
 from service.resources import DEFAULT_LANGUAGE
 from service.server_timing import part as timed
@@ -52,6 +52,7 @@ from service.sessions.scheduler.playback_speed import (
     ticks_of_turn,
 )
 from service.sessions.scheduler.tick_batch import TickBatch
+from service.sessions.state_cache import StateCache
 from service.sessions.subscribers import Subscribers
 from service.sessions.transaction import Transaction, check_step_ticks
 from service.sessions.undo_stack import UndoStack
@@ -110,6 +111,7 @@ class Session:
         self._narration = BackgroundTask(self._log_late_events)
         self._external_planner = ExternalPlanner(self._on_decision)
         self.reachability = ReachabilityMonitor(lambda: self.run, self._announce_reachability)
+        self._state_cache = StateCache()
         self._services = services
         self._lock = asyncio.Lock()
         self._changing = False
@@ -141,9 +143,9 @@ class Session:
         """Seconds from one turn of the clock to the next."""
         return period_s(self.playback_speed, self.timeline.state.config.step_seconds)
 
-    def state(self) -> dict[str, Any]:
-        """The present state as JSON values."""
-        return state_json(self.status, self.run)
+    def state_body(self) -> bytes:
+        """The present state as JSON text, encoded once for as long as it stands."""
+        return self._state_cache.encode(self.run, self.status)
 
     def latest_decision(self) -> tuple[Decision, SimState] | None:
         """The decision that led to the present state, and the state it was taken in."""

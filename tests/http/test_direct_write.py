@@ -13,7 +13,8 @@ from websockets.protocol import State
 from websockets.server import ServerProtocol
 
 from service.app import create_app
-from service.http.realtime.direct_write import StraightProtocol, framed, straight_of
+from service.http.protocol.direct_write import DirectWriteProtocol, encode_frame
+from service.http.realtime.direct_write import direct_write_of
 from service.sessions.subscribers import QUEUE_SIZE, MissedTicks, Subscriber, Subscribers
 from service.settings import Settings
 from service.store import MemoryStore
@@ -24,12 +25,12 @@ from tests.support.live_server import running
 @pytest.mark.parametrize("size", [0, 1, 125, 126, 127, 65_535, 65_536, 200_000])
 def test_a_frame_is_what_the_library_would_send(size: int) -> None:
     text = b"x" * size
-    assert framed(text) == Frame(Opcode.TEXT, text).serialize(mask=False)
+    assert encode_frame(text) == Frame(Opcode.TEXT, text).serialize(mask=False)
 
 
 def test_a_server_of_another_kind_offers_nothing() -> None:
-    assert straight_of({"type": "websocket"}) is None
-    assert straight_of({"type": "websocket", "extensions": {"websocket.http.response": {}}}) is None
+    assert direct_write_of({"type": "websocket"}) is None
+    assert direct_write_of({"type": "websocket", "extensions": {"websocket.http.response": {}}}) is None
 
 
 class Reader:
@@ -149,21 +150,21 @@ class Written:
 
 
 async def test_nothing_is_written_to_who_is_full_or_going() -> None:
-    protocol = StraightProtocol.__new__(StraightProtocol)
+    protocol = DirectWriteProtocol.__new__(DirectWriteProtocol)
     transport = Written()
     protocol.transport = transport  # type: ignore[assignment]
     protocol.conn = ServerProtocol()
     protocol.writable = asyncio.Event()
     protocol.writable.set()
-    assert not protocol._straight(b"not accepted yet")
+    assert not protocol._write_directly(b"not accepted yet")
     protocol.conn.state = State.OPEN
-    assert protocol._straight(b"now")
+    assert protocol._write_directly(b"now")
     protocol.pause_writing()
-    assert not protocol._straight(b"full")
+    assert not protocol._write_directly(b"full")
     protocol.resume_writing()
     transport.closing = True
-    assert not protocol._straight(b"lost")
+    assert not protocol._write_directly(b"lost")
     transport.closing = False
     protocol.conn.send_close(1012)
-    assert not protocol._straight(b"closing")
-    assert transport.frames == [framed(b"now")]
+    assert not protocol._write_directly(b"closing")
+    assert transport.frames == [encode_frame(b"now")]

@@ -10,31 +10,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from service import actions as contract
-from service.http.routes.links import MOST_CARRIED, Named, opened
-from service.problems import DoesNotFit, Invalid, NotAvailable, NotSaved, ProblemError
+from service.http.routes.links import MOST_CARRIED, Named, open_link
+from service.problems import DoesNotFit, Invalid, NotAvailable, NotSaved
 from service.sessions.persistence.replay import replay
-from service.sessions.session import Session
 from service.store import EntryRecord, MemoryStore, StoreError
-from tests.sessions.test_rewind import SAID, anew
+from tests.support.fork_talk import TALK, talked
 from tests.support.service import Service as Http
+from tests.support.session_talk import anew
 from tests.support.sessions import ADD, ADD_CARS, UNDO, WORDS, Service, do, fingerprint, potholes
 
 Json = dict[str, Any]
-
-
-async def talked(said: list[tuple[int, list[dict[str, object]]]]) -> tuple[Service, Session]:
-    service = Service()
-    session = await service.session()
-    for ticks, actions in said:
-        service.clock.tick(ticks)
-        try:
-            await do(session, *actions)
-        except ProblemError:
-            continue
-    return service, session
-
-
-TALK = st.lists(st.tuples(st.integers(0, 6), SAID), max_size=8)
 
 
 @settings(max_examples=100, deadline=None)
@@ -160,12 +145,12 @@ async def test_a_fork_over_http(service: Http) -> None:
 def test_a_link_opens_to_the_same_digest(
     said: list[tuple[int, list[dict[str, object]]]], share: float
 ) -> None:
-    from service.http.routes.links import _carried
+    from service.http.routes.links import _carry
 
     async def way() -> None:
         _, session = await talked(said)
         tick = round(session.timeline.tick * share)
-        found = opened(_carried(session.timeline, tick), 1_000_000)
+        found = open_link(_carry(session.timeline, tick), 1_000_000)
         assert not isinstance(found, Named)
         assert (found.tick, found.digest) == (tick, session.timeline.at(tick).world.digest())
         entries = [
@@ -251,4 +236,4 @@ def test_a_link_that_unpacks_to_too_much_is_not_unpacked() -> None:
     deflate = zlib.compressobj(9, zlib.DEFLATED, -15)
     bomb = deflate.compress(b" " * 2_000_000) + deflate.flush()
     with pytest.raises(Invalid, match="more than is read here"):
-        opened("#/r/" + urlsafe_b64encode(bomb).decode(), 100_000)
+        open_link("#/r/" + urlsafe_b64encode(bomb).decode(), 100_000)

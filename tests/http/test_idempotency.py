@@ -12,7 +12,7 @@ import httpx
 import pytest
 
 from service.app import create_app
-from service.http.conditional.idempotency import KEPT_S, Answers
+from service.http.conditional.answers import KEPT_S, KeptAnswers
 from service.settings import Settings
 from service.store import EntryRecord, MemoryStore, PhraseRecord, SqlStore, Store, StoredResponse, StoreError
 from tests.support.fakes import FewSentences, HandClock
@@ -197,8 +197,8 @@ class Clocks:
         self.wall += seconds
         self.steady += seconds
 
-    def answers(self, store: MemoryStore) -> Answers:
-        return Answers(store, lambda: self.wall, lambda: self.steady)
+    def answers(self, store: MemoryStore) -> KeptAnswers:
+        return KeptAnswers(store, lambda: self.wall, lambda: self.steady)
 
 
 def answer(key: str, at: int) -> StoredResponse:

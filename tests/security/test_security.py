@@ -6,7 +6,6 @@ import asyncio
 import json
 import re
 from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager
 from typing import Any
 
 import httpx
@@ -16,9 +15,11 @@ from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from service.app import create_app
+from service.problems import QuotaExceeded
 from service.security.api_key import Key
+from service.security.cross_site import same_site
 from service.security.guard import exposed
-from service.security.hosts import Hosts, loopback, same_site
+from service.security.hosts import Hosts, loopback
 from service.security.quotas import Quotas
 from service.security.rate_limit import MOST_CLIENTS, Buckets
 from service.security.ws_tickets import GOOD_FOR_S, MOST, Tickets
@@ -26,33 +27,7 @@ from service.settings import Settings
 from service.store import MemoryStore
 from tests.support.fakes import FewSentences, HandClock
 from tests.support.live_server import Running, running
-
-KEY = "a-key-of-this-test"
-BEARER = {"Authorization": f"Bearer {KEY}"}
-SESSIONS = "/api/v1/sessions"
-
-
-@asynccontextmanager
-async def asked(*, grammar: bool = False, **settings: Any) -> AsyncIterator[httpx.AsyncClient]:
-    app = create_app(
-        Settings(database="memory:", **settings),
-        store=MemoryStore(),
-        language=None if grammar else FewSentences(),
-        clock=HandClock(),
-    )
-    async with (
-        app.router.lifespan_context(app),
-        httpx.AsyncClient(transport=httpx.ASGITransport(app), base_url="http://127.0.0.1") as client,
-    ):
-        yield client
-
-
-def assert_refused(answer: httpx.Response, status: int, slug: str) -> None:
-    assert (answer.status_code, answer.json()["type"]) == (status, f"/problems/{slug}"), answer.text
-    assert answer.headers["content-type"] == "application/problem+json"
-    assert answer.headers["x-content-type-options"] == "nosniff"
-    assert answer.headers["x-request-id"]
-
+from tests.support.strangers import BEARER, KEY, SESSIONS, asked, assert_refused
 
 # Keys
 
@@ -401,13 +376,16 @@ async def test_one_client_has_so_many_sessions_and_so_much_road() -> None:
 
 def test_quotas_count_what_is_being_made() -> None:
     quotas = Quotas(1, None)
-    quotas.begin("a")
-    with pytest.raises(Exception, match="sessions"):
-        quotas.begin("a")
-    quotas.begin("b")
-    quotas.end("a", None, 0)
-    quotas.begin("a")
-    quotas.end("a", "x", 5)
-    quotas.gone("nobody's")
-    quotas.gone("x")
-    quotas.begin("a")
+    with quotas.reserve("a"):
+        with pytest.raises(QuotaExceeded, match="sessions"), quotas.reserve("a"):
+            pass
+        with quotas.reserve("b"):
+            pass
+    with quotas.reserve("a") as reservation:
+        reservation.use("x", 5)
+    with pytest.raises(QuotaExceeded), quotas.reserve("a"):
+        pass
+    quotas.release("nobody's")
+    quotas.release("x")
+    with quotas.reserve("a"):
+        pass

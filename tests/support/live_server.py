@@ -47,7 +47,7 @@ class _Ready(uvicorn.Server):
         self.listening = asyncio.Event()
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
-        self.config.app.state.readers.stop()  # type: ignore[union-attr]
+        self.config.app.state.context.event_streams.stop()  # type: ignore[union-attr]
         await super().shutdown(sockets)
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:

@@ -8,16 +8,19 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from fastapi import APIRouter, Body, Response
+from fastapi import Body, Response
 from pydantic import Field
 
 from service.actions import Action
 from service.contract.counterfactual import Counterfactual
 from service.contract.encode.counterfactual import beside_json
 from service.contract.requests import MAX_ACTIONS, Sent, Strictly, Tick
-from service.http.deps import JSON_ONLY, TheSession
-from service.http.errors import documented, invalid
-from service.http.responses import StrictRoute, etag, json_response
+from service.http.content_type import JSON_ONLY
+from service.http.deps import TheSession
+from service.http.errors import documented
+from service.http.responses import etag, json_response
+from service.http.route import api_router
+from service.http.validation import invalid
 from service.problems import (
     ContentTooLarge,
     DoesNotFit,
@@ -51,7 +54,7 @@ from sim.explain.side_by_side import compare_change, compare_move
 from sim.session.errors import EditError
 from sim.types import Move
 
-router = APIRouter(tags=["time"], route_class=StrictRoute)
+router = api_router("time")
 
 MAX_TICKS = 500
 """Ticks of each run that are told at most; how it ends is told of the whole."""
@@ -104,7 +107,7 @@ class Otherwise(Sent):
         NotRestorable,
     ),
 )
-async def counterfactual(
+async def run_counterfactual(
     body: Annotated[Otherwise, Body(openapi_examples=_EXAMPLES)], session: TheSession
 ) -> Response:
     """Both runs from that tick on: where they begin, tick by tick what moved, and how each ends.
@@ -118,17 +121,17 @@ async def counterfactual(
         tick = body.at_tick
     else:
         tick = timeline.tick if body.actions else max(0, timeline.tick - 1)
-    actions = _possible(body.actions or [])
+    actions = _world_actions(body.actions or [])
 
-    def found() -> dict[str, Any]:
+    def compare() -> dict[str, Any]:
         if body.move is not None:
-            told = compare_move(timeline, tick, Move(body.move))
+            compared = compare_move(timeline, tick, Move(body.move))
         else:
-            told = compare_change(timeline, tick, actions)
-        return beside_json(status, told, body.ticks)
+            compared = compare_change(timeline, tick, actions)
+        return beside_json(status, compared, body.ticks)
 
     try:
-        value = await run_in_thread(uses_external_planner(timeline), QUESTION_S, found)
+        value = await run_in_thread(uses_external_planner(timeline), QUESTION_S, compare)
     except QuestionError as error:
         field = "move" if error.code in ("off_road", "same_move") else "at_tick"
         raise invalid([FieldProblem(field, _WORDS[error.code].format(**error.facts))]) from error
@@ -139,8 +142,8 @@ async def counterfactual(
     return json_response(value, headers=etag(status.sequence))
 
 
-def _possible(actions: list[Action]) -> list[WorldAction]:
-    """Those, where all of them change the road. Raises `NotAvailable` or `Invalid`."""
+def _world_actions(actions: list[Action]) -> list[WorldAction]:
+    """The actions, if all of them change the road. Raises `NotAvailable` or `Invalid`."""
     changing: list[WorldAction] = []
     for position, action in enumerate(actions):
         sentence = refusal_of(action)

@@ -5,19 +5,20 @@ from __future__ import annotations
 from typing import Annotated, Any
 
 from anyio import to_thread
-from fastapi import APIRouter, Query, Response
+from fastapi import Query, Response
 
 from service import actions as contract
 from service.contract import answers as schemas
 from service.http.deps import Here
 from service.http.errors import documented
-from service.http.responses import StrictRoute, json_response
+from service.http.responses import json_response
+from service.http.route import api_router
 from service.interpreter.guide import Intent
 from service.interpreter.preview import Preview
 from service.problems import Invalid, NotRestorable, UnknownSession
 from service.resources import DEFAULT_LANGUAGE
 
-router = APIRouter(tags=["talking"], route_class=StrictRoute)
+router = api_router("talking")
 
 
 @router.get(
@@ -26,7 +27,7 @@ router = APIRouter(tags=["talking"], route_class=StrictRoute)
     summary="What can be said",
     responses=documented(UnknownSession, Invalid, NotRestorable),
 )
-async def language(
+async def read_language(
     here: Here,
     prefix: Annotated[
         str | None,
