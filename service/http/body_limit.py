@@ -14,7 +14,7 @@ from service.problems import ContentTooLarge
 
 
 async def read_body(scope: Scope, receive: Receive, limit: int) -> bytes:
-    """The whole body. Raises `ContentTooLarge` (more than `limit` bytes) or `ClientDisconnect` (incomplete)."""
+    """The whole body. Raises `ContentTooLarge` (over `limit` bytes) or `ClientDisconnect` (incomplete)."""
     length = first_header(scope, b"content-length") or ""
     if length.isdecimal() and int(length) > limit:
         raise _too_large(limit)
