@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from service.cache_files import FOLDER_VARIABLE
 from service.settings import Settings
 from service.suggestions import nearest
 
@@ -12,7 +13,7 @@ PREFIX = "roadtalk_"
 
 def strays(environment: Iterable[str]) -> list[str]:
     """A sentence for each name that begins as settings do and is none."""
-    known = list(Settings.model_fields)
+    known = [*Settings.model_fields, FOLDER_VARIABLE.lower().removeprefix(PREFIX)]
     told = []
     for name in sorted(environment):
         low = name.lower()

@@ -10,9 +10,8 @@ from collections.abc import Mapping
 from functools import lru_cache
 from typing import Any, Literal
 
-import yaml
-
 from service.resources import DEFAULT_LANGUAGE, prompts_folder
+from service.yaml_files import read_cached_yaml
 from sim.config import Problem
 from sim.hazard_advice import NoAdviceError
 from sim.rules.versions import NewerRulesError
@@ -27,7 +26,7 @@ def refusals(language: str = DEFAULT_LANGUAGE) -> Refusals:
     path = folder / language / "refusals.yaml"
     if language not in {each.name for each in folder.iterdir()} or not path.is_file():
         path = folder / DEFAULT_LANGUAGE / "refusals.yaml"
-    return Refusals(yaml.safe_load(path.read_text(encoding="utf-8")))
+    return Refusals(read_cached_yaml([path])[0])
 
 
 class Refusals:

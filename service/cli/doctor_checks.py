@@ -16,7 +16,7 @@ from sqlalchemy.engine import make_url
 from sqlalchemy.exc import ArgumentError
 
 from service.llm import MissingExtraError, create_model
-from service.llm.prompts import PromptError
+from service.llm.failures import PromptError
 from service.settings import Settings
 from service.store import StoreError, open_store
 

@@ -26,7 +26,7 @@ PlaybackSpeed = Annotated[
 class Answered(BaseModel):
     """What callers are answered."""
 
-    model_config = ConfigDict(extra="forbid")
+    model_config = ConfigDict(extra="forbid", defer_build=True)
 
 
 if TYPE_CHECKING:

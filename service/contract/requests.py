@@ -37,7 +37,7 @@ MAX_ACTIONS = 100
 class Sent(BaseModel):
     """What callers send: unknown keys and values of another type are refused."""
 
-    model_config = ConfigDict(extra="forbid", strict=True)
+    model_config = ConfigDict(extra="forbid", strict=True, defer_build=True)
 
 
 class RecordedEntry(Sent):

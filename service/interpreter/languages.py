@@ -53,10 +53,15 @@ class Languages:
         loaded = {
             code: Grammar.load(code, offered=lambda action: refusal_of(action) is None) for code in codes
         }
-        for code, grammar in loaded.items():
+        for code in codes:
             refusals(code)  # read at the start as well
-            grammar.suggestions.nearest("", frozenset())  # ready before anyone is refused
         return cls(loaded)
+
+    def prepare(self) -> None:
+        """Make what the first refusal needs, so that nobody waits for it. For any thread."""
+        for language in self._by_code.values():
+            if isinstance(language, Grammar):
+                language.suggestions.nearest("", frozenset())
 
     @property
     def codes(self) -> tuple[str, ...]:

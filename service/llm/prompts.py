@@ -12,16 +12,12 @@ from typing import Any, Final, get_args
 
 import yaml
 
-from service.llm.failures import ModelFailure, Reason
+from service.llm.failures import ModelFailure, PromptError, Reason
 from service.llm.schema import schema
 from service.resources import prompts_folder
 
 SCHEMA_MARK: Final = "{{actions}}"
 """Stands in a prompt where the actions are described."""
-
-
-class PromptError(RuntimeError):
-    """A file of `prompts/llm` is missing or has a defect."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,8 +10,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
-from rapidfuzz import process
-
 from service.actions import Action, Load
 from service.problems import FieldProblem, UnknownName
 from service.store import EntryRecord, Store, StoreError
@@ -85,6 +83,8 @@ async def add_other_session(store: Store, problem: UnknownName, actions: Sequenc
 
 def unknown_bookmark(name: str, names: Iterable[str], where: str) -> UnknownName:
     """The problem of a name that nothing was saved under, with the nearest there are."""
+    from rapidfuzz import process  # at the first name that is not there
+
     near = [found for found, _, _ in process.extract(name, list(names), limit=MAX_SUGGESTIONS)]
     told = f" There is: {', '.join(near)}." if near else " Nothing has been saved here yet."
     sentence = f"Nothing was saved as {name!r}.{told}"

@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from service.store.base import (
     BookmarkRecord,
     Branch,
@@ -17,7 +19,9 @@ from service.store.base import (
     StoreError,
 )
 from service.store.memory import MemoryStore
-from service.store.sql import SqlStore
+
+if TYPE_CHECKING:
+    from service.store.sql import SqlStore
 
 __all__ = [
     "BookmarkRecord",
@@ -35,11 +39,22 @@ __all__ = [
 ]
 
 
+def __getattr__(name: str) -> object:
+    """`SqlStore`, when it is first used: importing SQLAlchemy takes a tenth of a second."""
+    if name == "SqlStore":
+        from service.store.sql import SqlStore
+
+        return SqlStore
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
 def open_store(url: str) -> Store:
     """The store a URL names, not yet opened. Raises `StoreError` for a URL of no known kind."""
     if url == "memory:":
         return MemoryStore()
     if url.startswith(("sqlite:///", "postgresql://", "postgresql+asyncpg://")):
+        from service.store.sql import SqlStore
+
         return SqlStore(url)
     kind = url.partition(":")[0]  # the rest may hold a password
     raise StoreError(

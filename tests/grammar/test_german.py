@@ -11,12 +11,12 @@ from hypothesis import strategies as st
 
 from service.actions import dump
 from service.grammar import Ambiguous, Language, Refused, Understood
-from service.grammar.data import read_yaml
 from service.grammar.evaluation import evaluate, render, same
 from service.grammar.numbers import NumberWords
 from service.grammar.tokens import Contractions, normalise, tokenise
 from service.grammar.topic import Topic
 from service.resources import prompts_folder
+from service.yaml_files import read_yaml
 from tests.grammar.beside import HERE, meaning
 
 FOLDER = prompts_folder() / "language" / "de"

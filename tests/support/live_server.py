@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import uvicorn
 from fastapi import FastAPI
 
-from service.cli.main import server_config
+from service.cli.serve import server_config
 from service.settings import Settings
 
 SMALL_BYTES = 16_384

@@ -22,7 +22,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 
 import structlog
 from fastapi import APIRouter
-from pydantic import Discriminator, Field, TypeAdapter, ValidationError
+from pydantic import ConfigDict, Discriminator, Field, TypeAdapter, ValidationError
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from service.actions import Action
@@ -99,7 +99,9 @@ class Unsubscribe(Sent):
 
 
 Message: TypeAlias = Command | Actions | Ping | Subscribe | Unsubscribe
-_MESSAGE: TypeAdapter[Message] = TypeAdapter(Annotated[Message, Discriminator("type")])
+_MESSAGE: TypeAdapter[Message] = TypeAdapter(
+    Annotated[Message, Discriminator("type")], config=ConfigDict(defer_build=True)
+)
 
 
 @router.websocket("/sessions/{session_id}/stream")
