@@ -69,7 +69,7 @@ class GuardedTransport(httpx2.AsyncBaseTransport):
             answer = await self._inner.handle_async_request(sent)
             try:
                 _check_head(answer)
-                body = await _bounded(answer)
+                body = await _read_bounded(answer)
             finally:
                 await answer.aclose()
         except (httpx2.ConnectError, httpx2.ConnectTimeout, httpx2.UnsupportedProtocol) as error:
@@ -109,7 +109,7 @@ def _check_head(answer: httpx2.Response) -> None:
         raise ModelFailure("no_answer")
 
 
-async def _bounded(answer: httpx2.Response) -> bytes:
+async def _read_bounded(answer: httpx2.Response) -> bytes:
     """The body as it is sent, unless it is too large. Nothing is unpacked: what is packed is no JSON."""
     body = bytearray()
     async for chunk in answer.aiter_raw():

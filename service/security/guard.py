@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from service.problems import TooManyChanges
+from service.problems import RateLimited
 from service.security.api_key import Key
 from service.security.hosts import Hosts, loopback
 from service.security.quotas import Quotas
@@ -30,10 +30,10 @@ class Guard:
         self.quotas = Quotas(settings.max_client_sessions, settings.max_client_cells)
 
     def count_change(self, client: str) -> None:
-        """One more change of a client. Raises `TooManyChanges`."""
+        """One more change of a client. Raises `RateLimited`."""
         wait = self.rate_limiter.take(client)
         if wait:
-            raise TooManyChanges(wait)
+            raise RateLimited(wait)
 
 
 def client_of(scope: Any) -> str:

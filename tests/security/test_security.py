@@ -15,7 +15,7 @@ from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from service.app import create_app
-from service.problems import OverQuota
+from service.problems import QuotaExceeded
 from service.security.api_key import Key
 from service.security.cross_site import same_site
 from service.security.guard import exposed
@@ -377,13 +377,13 @@ async def test_one_client_has_so_many_sessions_and_so_much_road() -> None:
 def test_quotas_count_what_is_being_made() -> None:
     quotas = Quotas(1, None)
     with quotas.reserve("a"):
-        with pytest.raises(OverQuota, match="sessions"), quotas.reserve("a"):
+        with pytest.raises(QuotaExceeded, match="sessions"), quotas.reserve("a"):
             pass
         with quotas.reserve("b"):
             pass
     with quotas.reserve("a") as reservation:
         reservation.use("x", 5)
-    with pytest.raises(OverQuota), quotas.reserve("a"):
+    with pytest.raises(QuotaExceeded), quotas.reserve("a"):
         pass
     quotas.release("nobody's")
     quotas.release("x")
