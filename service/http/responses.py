@@ -1,4 +1,4 @@
-"""Responses, made straight from JSON values: the models in `schemas` document, they do not encode.
+"""Responses, made straight from JSON values: the models in `service.contract` document, they do not encode.
 
 A state of 26 things takes FastAPI's own encoder 254 µs and orjson 1.5 µs.
 """

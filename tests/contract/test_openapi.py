@@ -12,16 +12,10 @@ import httpx
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from pydantic import TypeAdapter
+from jsonschema import Draft202012Validator
 
 from service import problems
-from service.contract import advice as schemas_advice
-from service.contract import answers as schemas
-from service.contract import counterfactual as schemas_counterfactual
 from service.contract import requests as bodies
-from service.http.routes import forecast as insight
-from service.http.routes import timeline
-from service.http.routes import ws_tickets as tickets
 from tests.contract.document import Json, asked, document, operations
 
 APP = asked()
@@ -66,38 +60,12 @@ ROUTES = {
     "GET /metrics",
     "POST /api/v1/tickets",
 }
-MODELS: dict[str, type] = {
-    "sessions_make": schemas.Session,
-    "sessions_newest": schemas.SessionPage,
-    "sessions_look": schemas.Session,
-    "sessions_patch": schemas.ConfigChanged,
-    "talking_say": schemas.CommandResult,
-    "talking_act": schemas.CommandResult,
-    "talking_step": schemas.StepResult,
-    "talking_ask": schemas.Answer,
-    "talking_parse": schemas.Parsed,
-    "talking_advice": schemas_advice.Advice,
-    "talking_language": schemas.LanguageGuide,
-    "watching_state": schemas.State,
-    "watching_decisions": schemas.DecisionPage,
-    "watching_decision": schemas.Decision,
-    "watching_events": schemas.EventPage,
-    "watching_recording": bodies.Recording,
-    "time_fork": schemas.Session,
-    "time_rewind": schemas.CommandResult,
-    "time_saved": schemas.SavedMoments,
-    "time_all_saved": schemas.MomentPage,
-    "time_counterfactual": schemas_counterfactual.Counterfactual,
-    "time_link": schemas.Link,
-    "watching_forecast": insight.Expected,
-    "watching_regrets": insight.Judged,
-    "time_timeline": timeline.TimelinePage,
-    "time_changes": timeline.RoadChanges,
-    "time_moments": timeline.Moments,
-    "operating_healthz": schemas.Health,
-    "operating_readyz": schemas.Ready,
-    "operating_ticket": tickets.Ticket,
-}
+def validator(schema: Json) -> Draft202012Validator:
+    """Checks values against a schema of the document."""
+    return Draft202012Validator({**schema, "components": DOCUMENT["components"]})
+
+
+PROBLEM = validator({"$ref": "#/components/schemas/ProblemDocument"})
 
 
 @pytest.fixture
@@ -166,7 +134,7 @@ def test_every_status_says_what_comes_with_it(path: str, method: str, operation:
             known = {kind.slug: kind for kind in problems.KINDS}
             for slug, example in examples.items():
                 assert example["value"]["status"] == known[slug].status == int(status)
-                schemas.ProblemDocument.model_validate(example["value"])
+                PROBLEM.validate(example["value"])
 
 
 def request_examples() -> Iterator[Any]:
@@ -201,15 +169,13 @@ async def test_answers_have_the_documented_shape(
     answer = await client.request(method, path.format(session_id=identity, tick=2), json=body)
     assert str(answer.status_code) in operation["responses"]
     assert answer.is_success
-    if operation["operationId"] in MODELS:
-        TypeAdapter(MODELS[operation["operationId"]]).validate_json(answer.content)
-    else:
-        assert operation["operationId"] in (
-            "sessions_end",
-            "watching_frame",
-            "watching_moving",
-            "operating_metrics",
-        )
+    documented = operation["responses"][str(answer.status_code)].get("content", {})
+    if answer.content:
+        assert answer.headers["content-type"].partition(";")[0] in documented
+    if "application/json" in documented:
+        schema = documented["application/json"]["schema"]
+        assert "$ref" in schema
+        validator(schema).validate(answer.json())
 
 
 @pytest.mark.parametrize("path", POSTS)
@@ -337,9 +303,9 @@ def assert_in_contract(path: str, answer: httpx.Response) -> None:
     assert str(answer.status_code) in responses, (answer.status_code, answer.text)
     if not answer.is_success:
         assert answer.headers["content-type"] == "application/problem+json"
-        document = schemas.ProblemDocument.model_validate_json(answer.content)
-        assert document.detail
-        assert document.status == answer.status_code
+        PROBLEM.validate(answer.json())
+        assert answer.json()["detail"]
+        assert answer.json()["status"] == answer.status_code
 
 
 async def post(path: str, content: bytes) -> None:

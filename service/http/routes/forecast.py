@@ -10,10 +10,8 @@ from typing import Annotated, Any
 
 from anyio import to_thread
 from fastapi import APIRouter, Query, Response
-from pydantic import Field
 
-from service.contract.parts import Answered, CellPair, Decision
-from service.contract.requests import Tick
+from service.contract.forecast import Expected, Judged
 from service.http.deps import Here, TheSession
 from service.http.errors import documented, invalid
 from service.http.responses import StrictRoute, json_response
@@ -25,7 +23,6 @@ from sim.forecast import predict
 from sim.oracle.regret import regret
 from sim.session.timeline import Timeline
 from sim.state import EgoStep, SimState
-from sim.types import Move
 
 router = APIRouter(tags=["watching"], route_class=StrictRoute)
 
@@ -35,44 +32,6 @@ MOST_JUDGED = 200
 """Decisions that are judged at most in one answer, each against the best that could have been done."""
 
 _MOST = 2**53 - 1
-
-
-class ExpectedTick(Answered):
-    """Where movers are expected to be at a tick to come."""
-
-    tick: Tick
-    movers: dict[str, CellPair] = Field(description="Their cells, by id.")
-
-
-class Expected(Answered):
-    """What is expected at a tick: what the vehicle is about to do, and where the movers will be."""
-
-    tick: Tick
-    decision: Decision | None = Field(description="The decision taken at it; null where a result stands.")
-    exact: bool = Field(
-        description="Whether it is sure: false beyond the first tick where others react to the vehicle."
-    )
-    ahead: list[ExpectedTick]
-
-
-class JudgedDecision(Answered):
-    """A decision against the best that could have been done at its moment."""
-
-    tick: Tick
-    move: Move
-    blocked: int = Field(description="How many of the six moves would have ended badly or off the road.")
-    ticks: int | None = Field(description="Ticks lost; null where the goal is, or was, out of reach.")
-    cost: int | None = Field(description="Cost lost, by the configuration's charges; null as for `ticks`.")
-    lost: bool = Field(description="Whether the goal could be reached before the move, and not after it.")
-
-
-class Judged(Answered):
-    """Decisions in a row, each with its regret."""
-
-    first: Tick = Field(alias="from")
-    now: Tick = Field(description="The session's present tick.")
-    items: list[JudgedDecision] = Field(description="None for ticks at which a result stood.")
-    more: bool
 
 
 @router.get(

@@ -9,16 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import groupby, pairwise
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from anyio import to_thread
 from fastapi import APIRouter, Query, Response
-from pydantic import Field
 
 from service import actions as contract
 from service.contract.encode.state import Standing, state_json
-from service.contract.parts import Answered, CellPair, Decision, State
-from service.contract.requests import Tick
+from service.contract.timeline import Moments, RoadChanges, TimelinePage
 from service.http.deps import Here, TheSession
 from service.http.errors import documented, invalid
 from service.http.responses import StrictRoute, json_response
@@ -51,61 +49,6 @@ _BY_OFFSET = {move.offset: letter for move, letter in _LETTERS.items()}
 _HELD = "-"
 """The letter of a tick at which a result stood."""
 _ALWAYS = (UnknownSession, Invalid, NotRestorable)
-
-
-class TimelineMark(Answered):
-    """A tick that matters."""
-
-    tick: Tick
-    kind: Literal["crash", "success", "stuck", "near_miss", "episode"] = Field(
-        description="`near_miss`: something that moves came into the cell that the vehicle had just left, "
-        "and would have hit it had it stayed. `episode`: one begins."
-    )
-    ids: list[str]
-    cell: CellPair | None
-
-
-class TimelinePage(Answered):
-    """A stretch of a run."""
-
-    first: Tick = Field(alias="from")
-    now: Tick = Field(description="The session's present tick.")
-    moves: str = Field(
-        description="A letter for each tick from `from` on: F forward, L left, R right, l forward left, "
-        "r forward right, s stay, - where the result of an episode stood."
-    )
-    marks: list[TimelineMark]
-    more: bool
-
-
-class RoadChange(Answered):
-    """Something said or done that changed the road, and still stands."""
-
-    tick: Tick
-    sequence: int
-    text: str = Field(description="As it was said; of typed actions, what says the same.")
-    said: bool = Field(description="Whether it was said, rather than done by typed actions.")
-
-
-class RoadChanges(Answered):
-    """The newest changes that stand, oldest first."""
-
-    items: list[RoadChange]
-    more: bool = Field(description="Whether older ones are left out.")
-
-
-class Moment(Answered):
-    """A world, with the decision that led to it."""
-
-    state: State
-    decision: Decision | None
-
-
-class Moments(Answered):
-    """Several ticks in a row."""
-
-    items: list[Moment]
-    now: Tick = Field(description="The session's present tick.")
 
 
 @router.get(

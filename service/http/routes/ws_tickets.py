@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import asyncio
 from json import JSONDecodeError
-from typing import Annotated, Literal
+from typing import Annotated
 
 from fastapi import APIRouter, Body, Request, Response
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, ValidationError
 from starlette.websockets import WebSocket
 
+from service.contract.operations import Ticket
+from service.contract.stream_requests import Auth
 from service.http import json as strictly
 from service.http.deps import JSON_ONLY
 from service.http.errors import documented
@@ -31,23 +33,6 @@ class NoFields(BaseModel):
     """Nothing to be said."""
 
     model_config = ConfigDict(extra="forbid")
-
-
-class Ticket(BaseModel):
-    """Good for one socket."""
-
-    ticket: str = Field(description="To be sent as the first message of a socket.")
-    good_for_s: int = Field(description="Seconds within which it must be used.")
-
-
-class _Auth(BaseModel):
-    """The first message of a socket where a key is asked for."""
-
-    model_config = ConfigDict(extra="forbid", strict=True)
-
-    type: Literal["auth"]
-    key: str | None = Field(default=None, max_length=1_000)
-    ticket: str | None = Field(default=None, max_length=100)
 
 
 @router.post(
@@ -86,9 +71,9 @@ async def admitted(socket: WebSocket) -> bool:
     if received["type"] == "websocket.disconnect":
         return False
     try:
-        said = _Auth.model_validate(strictly.loads(received.get("text") or ""))
+        said = Auth.model_validate(strictly.loads(received.get("text") or ""))
     except (JSONDecodeError, ValidationError):
-        said = _Auth(type="auth")
+        said = Auth(type="auth")
     if (said.ticket is not None and guard.tickets.take(said.ticket)) or (
         said.key is not None and guard.key.right(said.key)
     ):
