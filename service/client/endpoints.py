@@ -1,109 +1,21 @@
-"""What is sent for each call and how its answer is read; nothing here sends anything.
-
-Both clients are thin over this, so that they cannot differ.
-"""
+"""The calls of the service: what is sent for each and how its answer is read. Nothing here sends anything."""
 
 from __future__ import annotations
 
-import os
-import secrets
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from typing import Any, Generic, TypeVar
+from collections.abc import Callable, Sequence
+from typing import Any, TypeVar
 from urllib.parse import quote
 
 import httpx
 
-from service.client import media, reading, results, runs, unbound
-from service.client.errors import Ambiguous, NotReachable, Refused, TimedOut, UnexpectedAnswer, refusal
+from service.client import media, reading
+from service.client.call import Call, Json, body_of, new_key
+from service.client.errors import UnexpectedAnswer
+from service.client.recording import Recording
+from service.contract import answers
 
 PREFIX = "/api/v1"
-KEY_VARIABLE = "ROADTALK_API_KEY"
-"""Where the key is looked for that was not said; an empty one says that there is none."""
 T = TypeVar("T")
-U = TypeVar("U")
-Json = Mapping[str, Any]
-
-LOST = (httpx.NetworkError, httpx.RemoteProtocolError)
-"""The connection was lost: nobody knows whether the call was done."""
-
-
-@dataclass(frozen=True)
-class Call(Generic[T]):
-    """One request and the reader of its answer.
-
-    `said` names the key of the body that holds a sentence, for calls that can be ambiguous.
-    A call that changes something has a key, by which the service knows a second try.
-    """
-
-    method: str
-    path: str
-    read: Callable[[httpx.Response], T]
-    body: Json | None = None
-    params: Json = field(default_factory=dict)
-    said: str | None = None
-    key: str | None = None
-
-    def request(self) -> dict[str, Any]:
-        """What httpx is given."""
-        headers = {"Idempotency-Key": self.key} if self.key else {}
-        params = {name: value for name, value in self.params.items() if value is not None}
-        given = {"json": self.body} if self.body is not None else {}
-        return {"method": self.method, "url": self.path, "headers": headers, "params": params, **given}
-
-    def saying(self, text: str) -> Call[T]:
-        """The same with another sentence, which is another change."""
-        return replace(self, body={**(self.body or {}), str(self.said): text}, key=_key())
-
-    def then(self, made: Callable[[T], U]) -> Call[U]:
-        """The same with something made of its answer."""
-        return Call(
-            self.method,
-            self.path,
-            lambda response: made(self.read(response)),
-            self.body,
-            self.params,
-            self.said,
-            self.key,
-        )
-
-
-def answered(call: Call[T], response: httpx.Response, again: Callable[[Call[T]], Any], *, second: bool) -> T:
-    """The answer as its type. Raises `Refused` for a problem, `UnexpectedAnswer` for anything else."""
-    if response.is_success:
-        return call.read(response)
-    refused = problem(response)
-    if second and call.method == "DELETE" and response.status_code == 404:
-        return call.read(response)  # the first try, whose answer was lost, has done it
-    if isinstance(refused, Ambiguous) and call.said is not None:
-        refused.again = lambda text: again(call.saying(text))
-    raise refused
-
-
-def unreachable(url: str, error: Exception) -> NotReachable:
-    """The exception for a call that had no answer."""
-    if isinstance(error, httpx.TimeoutException) and not isinstance(error, httpx.ConnectTimeout):
-        return TimedOut(f"{url} did not answer in time. Whether it was done is not known.")
-    said = str(error) or type(error).__name__
-    return NotReachable(
-        f"There is no answer from {url} ({said}). Is the service running? Start it with: roadtalk serve"
-    )
-
-
-def body_of(response: httpx.Response) -> Any:
-    """The JSON of an answer. Raises `UnexpectedAnswer` where it is none."""
-    try:
-        return response.json()
-    except ValueError:
-        raise UnexpectedAnswer(f"What answers at {response.url.host} is not this service.") from None
-
-
-def problem(response: httpx.Response) -> Refused:
-    """What was refused. Raises `UnexpectedAnswer` where that is no problem document."""
-    document = body_of(response)
-    if not isinstance(document, dict) or "detail" not in document:
-        raise UnexpectedAnswer(f"What answers at {response.url.host} is not this service.")
-    return refusal(document, response.status_code, response.headers)
 
 
 def _reading(kind: type[T]) -> Callable[[httpx.Response], T]:
@@ -112,14 +24,6 @@ def _reading(kind: type[T]) -> Callable[[httpx.Response], T]:
         return value
 
     return read
-
-
-def _paging(kind: type[T]) -> Callable[[httpx.Response], reading.Page[T]]:
-    return lambda response: reading.read_page(kind, body_of(response))
-
-
-def _key() -> str:
-    return secrets.token_urlsafe(16)
 
 
 def _sent(**values: Any) -> dict[str, Any]:
@@ -131,20 +35,20 @@ def _own(session: str, part: str = "") -> str:
     return f"{PREFIX}/sessions/{quote(session, safe='')}{part}"
 
 
-def health() -> Call[results.Health]:
+def health() -> Call[answers.Health]:
     """Is it alive."""
-    return Call("GET", "/healthz", _reading(results.Health))
+    return Call("GET", "/healthz", _reading(answers.Health))
 
 
-def ready() -> Call[results.Ready]:
+def ready() -> Call[answers.Ready]:
     """Does its store answer."""
-    return Call("GET", "/readyz", _reading(results.Ready))
+    return Call("GET", "/readyz", _reading(answers.Ready))
 
 
-def parse(text: str, language: str) -> Call[results.Parsed]:
+def parse(text: str, language: str) -> Call[answers.Parsed]:
     """What a sentence means."""
     body = {"text": text, "language": language}
-    return Call("POST", f"{PREFIX}/parse", _reading(results.Parsed), body, said="text")
+    return Call("POST", f"{PREFIX}/parse", _reading(answers.Parsed), body, said="text")
 
 
 def create(
@@ -154,11 +58,11 @@ def create(
     seed: int | None,
     planner: str | None,
     paused: bool | None,
-    recording: results.Recording | Json | None,
-    link: results.Link | str | None,
-) -> Call[results.SessionInfo]:
+    recording: Recording | Json | None,
+    link: answers.Link | str | None,
+) -> Call[answers.Session]:
     """A new session."""
-    file = recording.raw if isinstance(recording, results.Recording) else recording
+    file = recording.raw if isinstance(recording, Recording) else recording
     body = _sent(
         name=name,
         scenario=scenario,
@@ -167,97 +71,97 @@ def create(
         planner=planner,
         paused=paused,
         recording=file,
-        link=link.link if isinstance(link, results.Link) else link,
+        link=link.link if isinstance(link, answers.Link) else link,
     )
     path = f"{PREFIX}/sessions"
-    return Call("POST", path, _reading(results.SessionInfo), body, said="scenario", key=_key())
+    return Call("POST", path, _reading(answers.Session), body, said="scenario", key=new_key())
 
 
-def listed(after: str | None, limit: int) -> Call[reading.Page[results.SessionSummary]]:
+def listed(after: str | None, limit: int) -> Call[answers.SessionPage]:
     """A page of sessions."""
     params = {"after": after, "limit": limit}
-    return Call("GET", f"{PREFIX}/sessions", _paging(results.SessionSummary), params=params)
+    return Call("GET", f"{PREFIX}/sessions", _reading(answers.SessionPage), params=params)
 
 
-def look(session: str) -> Call[results.SessionInfo]:
+def look(session: str) -> Call[answers.Session]:
     """A session as it stands."""
-    return Call("GET", _own(session), _reading(results.SessionInfo))
+    return Call("GET", _own(session), _reading(answers.Session))
 
 
 def delete(session: str) -> Call[None]:
     """End a session."""
-    return Call("DELETE", _own(session), lambda _: None, key=_key())
+    return Call("DELETE", _own(session), lambda _: None, key=new_key())
 
 
-def say(session: str, text: str, dry_run: bool, language: str) -> Call[results.CommandResult]:
+def say(session: str, text: str, dry_run: bool, language: str) -> Call[answers.CommandResult]:
     """Something said."""
     body = {"text": text, "dry_run": dry_run, "language": language}
     path = _own(session, "/commands")
-    return Call("POST", path, _reading(results.CommandResult), body, said="text", key=_key())
+    return Call("POST", path, _reading(answers.CommandResult), body, said="text", key=new_key())
 
 
-def act(session: str, actions: Sequence[Json], dry_run: bool) -> Call[results.CommandResult]:
+def act(session: str, actions: Sequence[Json], dry_run: bool) -> Call[answers.CommandResult]:
     """Typed actions."""
     body = {"actions": list(actions), "dry_run": dry_run}
-    return Call("POST", _own(session, "/actions"), _reading(results.CommandResult), body, key=_key())
+    return Call("POST", _own(session, "/actions"), _reading(answers.CommandResult), body, key=new_key())
 
 
-def configure(session: str, parts: Json) -> Call[results.ConfigChanged]:
+def configure(session: str, parts: Json) -> Call[answers.ConfigChanged]:
     """Settings, as a merge patch."""
-    return Call("PATCH", _own(session, "/config"), _reading(results.ConfigChanged), parts, key=_key())
+    return Call("PATCH", _own(session, "/config"), _reading(answers.ConfigChanged), parts, key=new_key())
 
 
-def ask(session: str, question: str, language: str) -> Call[results.Answer]:
+def ask(session: str, question: str, language: str) -> Call[answers.Answer]:
     """A question."""
     body = {"question": question, "language": language}
-    return Call("POST", _own(session, "/ask"), _reading(results.Answer), body, said="question")
+    return Call("POST", _own(session, "/ask"), _reading(answers.Answer), body, said="question")
 
 
-def step(session: str, ticks: int) -> Call[results.StepResult]:
+def step(session: str, ticks: int) -> Call[answers.StepResult]:
     """Some ticks."""
     body = {"ticks": ticks}
-    return Call("POST", _own(session, "/step"), _reading(results.StepResult), body, key=_key())
+    return Call("POST", _own(session, "/step"), _reading(answers.StepResult), body, key=new_key())
 
 
 def fork(
     session: str, at_tick: int | None, actions: Sequence[Json], name: str | None, paused: bool | None
-) -> Call[results.SessionInfo]:
+) -> Call[answers.Session]:
     """Another session, the same up to a tick."""
     body = _sent(at_tick=at_tick, actions=list(actions) or None, name=name, paused=paused)
-    return Call("POST", _own(session, "/forks"), _reading(results.SessionInfo), body, key=_key())
+    return Call("POST", _own(session, "/forks"), _reading(answers.Session), body, key=new_key())
 
 
-def rewind(session: str, tick: int) -> Call[results.CommandResult]:
+def rewind(session: str, tick: int) -> Call[answers.CommandResult]:
     """Back to a tick."""
     body = {"tick": tick}
-    return Call("POST", _own(session, "/rewind"), _reading(results.CommandResult), body, key=_key())
+    return Call("POST", _own(session, "/rewind"), _reading(answers.CommandResult), body, key=new_key())
 
 
-def state(session: str, tick: int | None) -> Call[results.State]:
+def state(session: str, tick: int | None) -> Call[answers.State]:
     """The world at a tick."""
-    return Call("GET", _own(session, "/state"), _reading(results.State), params={"tick": tick})
+    return Call("GET", _own(session, "/state"), _reading(answers.State), params={"tick": tick})
 
 
-def decisions(session: str, after: int | None, limit: int) -> Call[reading.Page[results.Decision]]:
+def decisions(session: str, after: int | None, limit: int) -> Call[answers.DecisionPage]:
     """A page of decisions."""
     params = {"after": after, "limit": limit}
-    return Call("GET", _own(session, "/decisions"), _paging(results.Decision), params=params)
+    return Call("GET", _own(session, "/decisions"), _reading(answers.DecisionPage), params=params)
 
 
-def decision(session: str, tick: int) -> Call[results.Decision]:
+def decision(session: str, tick: int) -> Call[answers.Decision]:
     """One decision."""
-    return Call("GET", _own(session, f"/decisions/{tick}"), _reading(results.Decision))
+    return Call("GET", _own(session, f"/decisions/{tick}"), _reading(answers.Decision))
 
 
-def events(session: str, after: int | None, limit: int) -> Call[reading.Page[results.LogEvent]]:
+def events(session: str, after: int | None, limit: int) -> Call[answers.EventPage]:
     """A page of the log."""
     params = {"after": after, "limit": limit}
-    return Call("GET", _own(session, "/events"), _paging(results.LogEvent), params=params)
+    return Call("GET", _own(session, "/events"), _reading(answers.EventPage), params=params)
 
 
-def recording(session: str) -> Call[results.Recording]:
+def recording(session: str) -> Call[Recording]:
     """The session as a file."""
-    return Call("GET", _own(session, "/recording"), _reading(results.Recording))
+    return Call("GET", _own(session, "/recording"), _reading(Recording))
 
 
 def frame(session: str, view: str, form: str) -> Call[media.Frame]:
@@ -272,63 +176,63 @@ def film(session: str, first: int | None, last: int | None, **asked: Any) -> Cal
     return Call("GET", _own(session, "/film"), _seen(media.Film), params=params)
 
 
-def link(session: str, tick: int | None) -> Call[results.Link]:
+def link(session: str, tick: int | None) -> Call[answers.Link]:
     """A piece of a URL."""
-    return Call("GET", _own(session, "/link"), _reading(results.Link), params={"tick": tick})
+    return Call("GET", _own(session, "/link"), _reading(answers.Link), params={"tick": tick})
 
 
-def saved(session: str) -> Call[results.SavedMoments]:
+def saved(session: str) -> Call[answers.SavedMoments]:
     """Moments with a name."""
-    return Call("GET", _own(session, "/saved"), _reading(results.SavedMoments))
+    return Call("GET", _own(session, "/saved"), _reading(answers.SavedMoments))
 
 
-def all_saved(after: str | None, limit: int) -> Call[reading.Page[results.SessionMoment]]:
+def all_saved(after: str | None, limit: int) -> Call[answers.MomentPage]:
     """A page of moments with a name, of all sessions."""
     params = {"after": after, "limit": limit}
-    return Call("GET", f"{PREFIX}/saved", _paging(results.SessionMoment), params=params)
+    return Call("GET", f"{PREFIX}/saved", _reading(answers.MomentPage), params=params)
 
 
-def timeline(session: str, first: int, limit: int) -> Call[runs.Timeline]:
+def timeline(session: str, first: int, limit: int) -> Call[answers.TimelinePage]:
     """A stretch of the run at a glance."""
     params = {"from": first, "limit": limit}
-    return Call("GET", _own(session, "/timeline"), _reading(runs.Timeline), params=params)
+    return Call("GET", _own(session, "/timeline"), _reading(answers.TimelinePage), params=params)
 
 
-def changes(session: str, limit: int) -> Call[runs.RoadChanges]:
+def changes(session: str, limit: int) -> Call[answers.RoadChanges]:
     """What was said and stands."""
-    return Call("GET", _own(session, "/changes"), _reading(runs.RoadChanges), params={"limit": limit})
+    return Call("GET", _own(session, "/changes"), _reading(answers.RoadChanges), params={"limit": limit})
 
 
-def moments(session: str, first: int, limit: int) -> Call[runs.Moments]:
+def moments(session: str, first: int, limit: int) -> Call[answers.Moments]:
     """Several ticks in full."""
     params = {"from": first, "limit": limit}
-    return Call("GET", _own(session, "/moments"), _reading(runs.Moments), params=params)
+    return Call("GET", _own(session, "/moments"), _reading(answers.Moments), params=params)
 
 
-def forecast(session: str, ticks: int, tick: int | None) -> Call[runs.Expected]:
+def forecast(session: str, ticks: int, tick: int | None) -> Call[answers.Expected]:
     """What is about to happen."""
     params = {"ticks": ticks, "tick": tick}
-    return Call("GET", _own(session, "/forecast"), _reading(runs.Expected), params=params)
+    return Call("GET", _own(session, "/forecast"), _reading(answers.Expected), params=params)
 
 
-def regret(session: str, first: int, limit: int) -> Call[runs.Judged]:
+def regret(session: str, first: int, limit: int) -> Call[answers.Judged]:
     """What decisions cost against the best."""
     params = {"from": first, "limit": limit}
-    return Call("GET", _own(session, "/regret"), _reading(runs.Judged), params=params)
+    return Call("GET", _own(session, "/regret"), _reading(answers.Judged), params=params)
 
 
 def counterfactual(
     session: str, actions: Sequence[Json], move: str | None, at_tick: int | None, ticks: int | None
-) -> Call[runs.Counterfactual]:
+) -> Call[answers.Counterfactual]:
     """What would have been."""
     body = _sent(at_tick=at_tick, move=move, actions=list(actions) or None, ticks=ticks)
     path = _own(session, "/counterfactual")
-    return Call("POST", path, _reading(runs.Counterfactual), body, key=_key())
+    return Call("POST", path, _reading(answers.Counterfactual), body, key=new_key())
 
 
-def ticket() -> Call[results.Ticket]:
+def ticket() -> Call[answers.Ticket]:
     """Something that lets one socket in; each is another, so none is asked for under a key."""
-    return Call("POST", f"{PREFIX}/tickets", _reading(results.Ticket), {})
+    return Call("POST", f"{PREFIX}/tickets", _reading(answers.Ticket), {})
 
 
 def advice(
@@ -338,17 +242,17 @@ def advice(
     speed_kmh: float | None,
     weather: str | None,
     language: str,
-) -> Call[unbound.Advice]:
+) -> Call[answers.Advice]:
     """What to do about a hazard."""
     figures = {"hazard": hazard, "distance_m": distance_m, "speed_kmh": speed_kmh, "weather": weather}
     body = _sent(text=text, **figures, language=language)
-    return Call("POST", f"{PREFIX}/advice", _reading(unbound.Advice), body, said="text")
+    return Call("POST", f"{PREFIX}/advice", _reading(answers.Advice), body, said="text")
 
 
-def guide(prefix: str | None, session: str | None, language: str) -> Call[unbound.Guide]:
+def guide(prefix: str | None, session: str | None, language: str) -> Call[answers.LanguageGuide]:
     """What can be said."""
     params = {"prefix": prefix, "session": session, "language": language}
-    return Call("GET", f"{PREFIX}/language", _reading(unbound.Guide), params=params)
+    return Call("GET", f"{PREFIX}/language", _reading(answers.LanguageGuide), params=params)
 
 
 Seen = TypeVar("Seen", bound=media.Media)
@@ -363,20 +267,3 @@ def _seen(kind: type[Seen]) -> Callable[[httpx.Response], Seen]:
         return kind(response.content, response.headers.get("content-type", "").partition(";")[0])
 
     return made
-
-
-def checked_url(url: str) -> str:
-    """Where a service is, without a slash at its end. Raises `ValueError` for no such address."""
-    try:
-        given = httpx.URL(url)
-    except httpx.InvalidURL as error:
-        raise ValueError(f"{url!r} is no address: {error}") from None
-    if given.scheme not in ("http", "https") or not given.host:
-        raise ValueError(f"{url!r} is no address; it begins with http:// or https://")
-    return url.rstrip("/")
-
-
-def headers(api_key: str | None) -> dict[str, str]:
-    """The key goes in a header, never into an address; not said, it is `ROADTALK_API_KEY`'s."""
-    api_key = os.environ.get(KEY_VARIABLE) if api_key is None else api_key
-    return {"Authorization": f"Bearer {api_key}"} if api_key else {}

@@ -8,9 +8,10 @@ from urllib.parse import quote
 
 import httpx
 
-from service.client import endpoints as calls
+from service.client.endpoints import PREFIX
 from service.client.errors import UnexpectedAnswer
-from service.client.messages import Message, Watching
+from service.client.messages import Message
+from service.client.watching import Watching
 
 SILENCE_S = 45.0
 """The service says that it is still there every 15 s; after so much silence it is not."""
@@ -29,7 +30,7 @@ class Following(Watching):
             headers["Last-Event-ID"] = self.after
         return {
             "method": "GET",
-            "url": f"{calls.PREFIX}/sessions/{quote(self.session, safe='')}/events/stream",
+            "url": f"{PREFIX}/sessions/{quote(self.session, safe='')}/events/stream",
             "headers": headers,
             "timeout": httpx.Timeout(timeout_s, read=SILENCE_S),
         }

@@ -23,7 +23,7 @@ from service.client import (
     Tick,
     UnknownSession,
 )
-from service.client.messages import Watching
+from service.client.watching import Watching
 from tests.support.service_process import ServiceProcess
 
 

@@ -8,9 +8,9 @@ from typing import Any
 
 import pytest
 
-from service.client import AsyncClient, BlockedMove, runs
+from service.client import AsyncClient, BlockedMove, Counterfactual
 from service.client import endpoints as calls
-from service.client.endpoints import Call
+from service.client.call import Call
 from service.client.sse import Following
 from tests.contract.document import document
 
@@ -127,7 +127,7 @@ async def test_what_would_have_been(inside: AsyncClient) -> None:
     session = await inside.create(seed=13, config={"potholes": 4}, paused=True)
     moves = [each.move for each in (await session.step(3)).decisions]
     beside = await session.counterfactual(move="stay", at_tick=1, ticks=5)
-    assert isinstance(beside, runs.Counterfactual)
+    assert isinstance(beside, Counterfactual)
     assert (beside.at_tick, beside.instead_of) == (1, moves[1])
     assert [each.tick for each in beside.real.ticks] == [2, 3, 4, 5, 6]
     first = beside.changed.ticks[0].decision

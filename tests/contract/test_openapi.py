@@ -60,6 +60,8 @@ ROUTES = {
     "GET /metrics",
     "POST /api/v1/tickets",
 }
+
+
 def validator(schema: Json) -> Draft202012Validator:
     """Checks values against a schema of the document."""
     return Draft202012Validator({**schema, "components": DOCUMENT["components"]})
