@@ -11,15 +11,25 @@ from typing import TypeVar
 import httpx
 from websockets.asyncio.client import connect
 
-from service.client import call as calling
 from service.client import endpoints
 from service.client.async_session import AsyncSession
-from service.client.call import DEFAULT_URL, TIMEOUT_S, Call, Json
+from service.client.call import (
+    DEFAULT_URL,
+    LOST,
+    TIMEOUT_S,
+    Call,
+    Json,
+    auth_headers,
+    check_url,
+    read_answer,
+    read_problem,
+    unreachable,
+)
 from service.client.media import Picture
 from service.client.messages import Gone, Message
 from service.client.recording import Recording
-from service.client.sse import Events, Following
-from service.client.watching import FAILURES, MAX_MESSAGE_BYTES, Watching
+from service.client.sse import EventParser, EventStreamReader
+from service.client.stream_reader import FAILURES, MAX_MESSAGE_BYTES, StreamReader
 from service.contract import answers
 
 T = TypeVar("T")
@@ -40,8 +50,8 @@ class AsyncClient:
         timeout_s: float = TIMEOUT_S,
         transport: httpx.AsyncBaseTransport | None = None,
     ) -> None:
-        self.url = calling.checked_url(url)
-        self._headers = calling.headers(api_key)
+        self.url = check_url(url)
+        self._headers = auth_headers(api_key)
         self._timeout_s = timeout_s
         self._http = httpx.AsyncClient(
             base_url=self.url, headers=self._headers, timeout=timeout_s, transport=transport
@@ -56,20 +66,20 @@ class AsyncClient:
         await self.aclose()
 
     async def aclose(self) -> None:
-        """Let go of the connections."""
+        """Closes the connections."""
         await self._http.aclose()
 
     async def health(self) -> answers.Health:
         """Is it alive, and what does it hold."""
-        return await self._do(endpoints.health())
+        return await self._send(endpoints.read_health())
 
     async def ready(self) -> answers.Ready:
         """Does its store answer. Raises `Unavailable` where it does not."""
-        return await self._do(endpoints.ready())
+        return await self._send(endpoints.read_readiness())
 
     async def parse(self, text: str, *, language: str = "en") -> answers.Parsed:
         """What a sentence means; nothing is done."""
-        return await self._do(endpoints.parse(text, language))
+        return await self._send(endpoints.parse_text(text, language))
 
     async def advice(
         self,
@@ -82,17 +92,17 @@ class AsyncClient:
         language: str = "en",
     ) -> answers.Advice:
         """What to do about a hazard ahead: `advice("pothole 2m ahead, speed 40 km/h")`, or in figures."""
-        return await self._do(endpoints.advice(text, hazard, distance_m, speed_kmh, weather, language))
+        return await self._send(endpoints.ask_advice(text, hazard, distance_m, speed_kmh, weather, language))
 
     async def guide(
         self, prefix: str | None = None, *, session: str | None = None, language: str = "en"
     ) -> answers.LanguageGuide:
         """What can be said; with `prefix`, how a sentence that was begun could go on, there or anywhere."""
-        return await self._do(endpoints.guide(prefix, session, language))
+        return await self._send(endpoints.read_language(prefix, session, language))
 
     async def ticket(self) -> answers.Ticket:
         """Lets one socket in that cannot send the key, such as a page's."""
-        return await self._do(endpoints.ticket())
+        return await self._send(endpoints.create_ticket())
 
     async def create(
         self,
@@ -107,52 +117,52 @@ class AsyncClient:
         link: answers.Link | str | None = None,
     ) -> AsyncSession:
         """A new session, from a sentence, from figures, from a recording or from a link."""
-        call = endpoints.create(name, scenario, config, seed, planner, paused, recording, link)
-        return await self._do(call.then(lambda info: AsyncSession(self, info.id)))
+        call = endpoints.create_session(name, scenario, config, seed, planner, paused, recording, link)
+        return await self._send(call.then(lambda info: AsyncSession(self, info.id)))
 
     async def list(self, *, after: str | None = None, limit: int = 50) -> answers.SessionPage:
         """Sessions, newest first, a page of them."""
-        return await self._do(endpoints.listed(after, limit))
+        return await self._send(endpoints.list_sessions(after, limit))
 
     async def saved(self, *, after: str | None = None, limit: int = 50) -> answers.MomentPage:
         """Moments that were given a name, of all sessions, those named last first, a page of them."""
-        return await self._do(endpoints.all_saved(after, limit))
+        return await self._send(endpoints.list_all_bookmarks(after, limit))
 
     def session(self, session_id: str) -> AsyncSession:
         """The session of this id; nothing is asked before it is used."""
         return AsyncSession(self, session_id)
 
-    async def _do(self, call: Call[T]) -> T:
+    async def _send(self, call: Call[T]) -> T:
         second = False
         try:
             response = await self._http.request(**call.request())
-        except calling.LOST as lost:
+        except LOST as lost:
             second = True
             try:
                 response = await self._http.request(**call.request())
             except httpx.TransportError as error:
-                raise calling.unreachable(self.url, error) from lost
+                raise unreachable(self.url, error) from lost
         except httpx.TransportError as error:
-            raise calling.unreachable(self.url, error) from error
-        return calling.answered(call, response, self._do, second=second)
+            raise unreachable(self.url, error) from error
+        return read_answer(call, response, self._send, second=second)
 
     async def _watch(self, session: str, after: str | None, patience_s: float) -> AsyncIterator[Message]:
-        watching = Watching(self.url, session, after, patience_s)
-        async with aclosing(self._received(watching)) as received:
+        watching = StreamReader(self.url, session, after, patience_s)
+        async with aclosing(self._receive(watching)) as received:
             async for data in received:
-                message = watching.take(data)
+                message = watching.read(data)
                 if message is not None:
                     yield message
 
     async def _pictures(self, session: str, patience_s: float, wanted: Json) -> AsyncIterator[Picture]:
-        watching = Watching(self.url, session, None, patience_s, wanted)
-        async with aclosing(self._received(watching)) as received:
+        watching = StreamReader(self.url, session, None, patience_s, wanted)
+        async with aclosing(self._receive(watching)) as received:
             async for data in received:
-                picture = watching.seen(data)
+                picture = watching.read_picture(data)
                 if picture is not None:
                     yield picture
 
-    async def _received(self, watching: Watching) -> AsyncGenerator[str | bytes, None]:
+    async def _receive(self, watching: StreamReader) -> AsyncGenerator[str | bytes, None]:
         while True:
             try:
                 async with connect(
@@ -161,33 +171,33 @@ class AsyncClient:
                     open_timeout=self._timeout_s,
                     max_size=MAX_MESSAGE_BYTES,
                 ) as socket:
-                    watching.opened()
+                    watching.on_connected()
                     if watching.greeting is not None:
                         await socket.send(watching.greeting)
                     while True:
                         yield await socket.recv()
             except FAILURES as error:
-                delay_s = watching.lost(error)
+                delay_s = watching.retry_delay_s(error)
                 if delay_s is None:
                     return
                 await asyncio.sleep(delay_s)
 
     async def _follow(self, session: str, after: str | None, patience_s: float) -> AsyncIterator[Message]:
-        following = Following(self.url, session, after, patience_s)
+        following = EventStreamReader(self.url, session, after, patience_s)
         while True:
             ended: Exception = httpx.RemoteProtocolError("the stream ended")
             try:
                 async with self._http.stream(**following.request(self._timeout_s)) as response:
                     if not response.is_success:
                         await response.aread()
-                        raise calling.problem(response)
-                    following.answered(response)
-                    events = Events()
+                        raise read_problem(response)
+                    following.check(response)
+                    events = EventParser()
                     async for part in response.aiter_bytes():
-                        for message in events.messages(part, following):
+                        for message in events.feed(part, following):
                             yield message
                             if isinstance(message, Gone):
                                 return
             except httpx.TransportError as error:
                 ended = error
-            await asyncio.sleep(following.lost(ended) or 0)
+            await asyncio.sleep(following.retry_delay_s(ended) or 0)

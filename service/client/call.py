@@ -1,4 +1,4 @@
-"""One request and the reader of its answer, and what can go wrong between; nothing here sends anything."""
+"""A request with the reader of its answer, and the exceptions for what goes wrong. Nothing here is sent."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Call(Generic[T]):
     """One request and the reader of its answer.
 
     `said` names the key of the body that holds a sentence, for calls that can be ambiguous.
-    A call that changes something has a key, by which the service knows a second try.
+    A call that changes something has a `key`, by which the service recognises a second try.
     """
 
     method: str
@@ -49,7 +49,7 @@ class Call(Generic[T]):
         given = {"json": self.body} if self.body is not None else {}
         return {"method": self.method, "url": self.path, "headers": headers, "params": params, **given}
 
-    def saying(self, text: str) -> Call[T]:
+    def with_text(self, text: str) -> Call[T]:
         """The same with another sentence, which is another change."""
         return replace(self, body={**(self.body or {}), str(self.said): text}, key=new_key())
 
@@ -66,15 +66,17 @@ class Call(Generic[T]):
         )
 
 
-def answered(call: Call[T], response: httpx.Response, again: Callable[[Call[T]], Any], *, second: bool) -> T:
+def read_answer(
+    call: Call[T], response: httpx.Response, again: Callable[[Call[T]], Any], *, second: bool
+) -> T:
     """The answer as its type. Raises `Refused` for a problem, `UnexpectedAnswer` for anything else."""
     if response.is_success:
         return call.read(response)
-    refused = problem(response)
+    refused = read_problem(response)
     if second and call.method == "DELETE" and response.status_code == 404:
         return call.read(response)  # the first try, whose answer was lost, has done it
     if isinstance(refused, Ambiguous) and call.said is not None:
-        refused.again = lambda text: again(call.saying(text))
+        refused.again = lambda text: again(call.with_text(text))
     raise refused
 
 
@@ -88,7 +90,7 @@ def unreachable(url: str, error: Exception) -> NotReachable:
     )
 
 
-def body_of(response: httpx.Response) -> Any:
+def read_json(response: httpx.Response) -> Any:
     """The JSON of an answer. Raises `UnexpectedAnswer` where it is none."""
     try:
         return response.json()
@@ -96,21 +98,21 @@ def body_of(response: httpx.Response) -> Any:
         raise UnexpectedAnswer(f"What answers at {response.url.host} is not this service.") from None
 
 
-def problem(response: httpx.Response) -> Refused:
+def read_problem(response: httpx.Response) -> Refused:
     """What was refused. Raises `UnexpectedAnswer` where that is no problem document."""
-    document = body_of(response)
+    document = read_json(response)
     if not isinstance(document, dict) or "detail" not in document:
         raise UnexpectedAnswer(f"What answers at {response.url.host} is not this service.")
     return refusal(document, response.status_code, response.headers)
 
 
 def new_key() -> str:
-    """An `Idempotency-Key`, by which the service knows a second try."""
+    """An `Idempotency-Key`, by which the service recognises a second try."""
     return secrets.token_urlsafe(16)
 
 
-def checked_url(url: str) -> str:
-    """Where a service is, without a slash at its end. Raises `ValueError` for no such address."""
+def check_url(url: str) -> str:
+    """The address of a service without a slash at its end. Raises `ValueError` where it is none."""
     try:
         given = httpx.URL(url)
     except httpx.InvalidURL as error:
@@ -120,7 +122,7 @@ def checked_url(url: str) -> str:
     return url.rstrip("/")
 
 
-def headers(api_key: str | None) -> dict[str, str]:
-    """The key goes in a header, never into an address; not said, it is `ROADTALK_API_KEY`'s."""
+def auth_headers(api_key: str | None) -> dict[str, str]:
+    """The key as a header, never in an address; where none is given, that of `ROADTALK_API_KEY`."""
     api_key = os.environ.get(KEY_VARIABLE) if api_key is None else api_key
     return {"Authorization": f"Bearer {api_key}"} if api_key else {}

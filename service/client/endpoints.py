@@ -9,49 +9,64 @@ from urllib.parse import quote
 import httpx
 
 from service.client import media, reading
-from service.client.call import Call, Json, body_of, new_key
+from service.client.call import Call, Json, new_key, read_json
 from service.client.errors import UnexpectedAnswer
 from service.client.recording import Recording
 from service.contract import answers
+from service.contract.model import Model
 
 PREFIX = "/api/v1"
-T = TypeVar("T")
+T = TypeVar("T", bound=Model)
+Seen = TypeVar("Seen", bound=media.Media)
 
 
-def _reading(kind: type[T]) -> Callable[[httpx.Response], T]:
+def _json(kind: type[T]) -> Callable[[httpx.Response], T]:
+    """Reads an answer as a model."""
+
     def read(response: httpx.Response) -> T:
-        value: T = reading.read(kind, body_of(response))
-        return value
+        return reading.read(kind, read_json(response))
 
     return read
 
 
-def _sent(**values: Any) -> dict[str, Any]:
-    """The values that were given."""
+def _media(kind: type[Seen]) -> Callable[[httpx.Response], Seen]:
+    """Reads a picture or a film. Raises `UnexpectedAnswer` where there is none."""
+
+    def read(response: httpx.Response) -> Seen:
+        if not response.content:
+            raise UnexpectedAnswer("There is nothing to be seen in the answer.")
+        return kind(response.content, response.headers.get("content-type", "").partition(";")[0])
+
+    return read
+
+
+def _without_none(**values: Any) -> dict[str, Any]:
+    """The values that are not None."""
     return {name: value for name, value in values.items() if value is not None}
 
 
-def _own(session: str, part: str = "") -> str:
+def _session_path(session: str, part: str = "") -> str:
+    """The path of a session, or of a part of it."""
     return f"{PREFIX}/sessions/{quote(session, safe='')}{part}"
 
 
-def health() -> Call[answers.Health]:
-    """Is it alive."""
-    return Call("GET", "/healthz", _reading(answers.Health))
+def read_health() -> Call[answers.Health]:
+    """Whether the service is alive, and what it holds."""
+    return Call("GET", "/healthz", _json(answers.Health))
 
 
-def ready() -> Call[answers.Ready]:
-    """Does its store answer."""
-    return Call("GET", "/readyz", _reading(answers.Ready))
+def read_readiness() -> Call[answers.Ready]:
+    """Whether the store answers."""
+    return Call("GET", "/readyz", _json(answers.Ready))
 
 
-def parse(text: str, language: str) -> Call[answers.Parsed]:
+def parse_text(text: str, language: str) -> Call[answers.Parsed]:
     """What a sentence means."""
     body = {"text": text, "language": language}
-    return Call("POST", f"{PREFIX}/parse", _reading(answers.Parsed), body, said="text")
+    return Call("POST", f"{PREFIX}/parse", _json(answers.Parsed), body, said="text")
 
 
-def create(
+def create_session(
     name: str | None,
     scenario: str | None,
     config: Json | None,
@@ -61,9 +76,9 @@ def create(
     recording: Recording | Json | None,
     link: answers.Link | str | None,
 ) -> Call[answers.Session]:
-    """A new session."""
+    """Makes a session."""
     file = recording.raw if isinstance(recording, Recording) else recording
-    body = _sent(
+    body = _without_none(
         name=name,
         scenario=scenario,
         config=config,
@@ -74,168 +89,172 @@ def create(
         link=link.link if isinstance(link, answers.Link) else link,
     )
     path = f"{PREFIX}/sessions"
-    return Call("POST", path, _reading(answers.Session), body, said="scenario", key=new_key())
+    return Call("POST", path, _json(answers.Session), body, said="scenario", key=new_key())
 
 
-def listed(after: str | None, limit: int) -> Call[answers.SessionPage]:
+def list_sessions(after: str | None, limit: int) -> Call[answers.SessionPage]:
     """A page of sessions."""
     params = {"after": after, "limit": limit}
-    return Call("GET", f"{PREFIX}/sessions", _reading(answers.SessionPage), params=params)
+    return Call("GET", f"{PREFIX}/sessions", _json(answers.SessionPage), params=params)
 
 
-def look(session: str) -> Call[answers.Session]:
+def read_session(session: str) -> Call[answers.Session]:
     """A session as it stands."""
-    return Call("GET", _own(session), _reading(answers.Session))
+    return Call("GET", _session_path(session), _json(answers.Session))
 
 
-def delete(session: str) -> Call[None]:
-    """End a session."""
-    return Call("DELETE", _own(session), lambda _: None, key=new_key())
+def delete_session(session: str) -> Call[None]:
+    """Ends a session."""
+    return Call("DELETE", _session_path(session), lambda _: None, key=new_key())
 
 
-def say(session: str, text: str, dry_run: bool, language: str) -> Call[answers.CommandResult]:
-    """Something said."""
+def run_command(session: str, text: str, dry_run: bool, language: str) -> Call[answers.CommandResult]:
+    """Says something to a session."""
     body = {"text": text, "dry_run": dry_run, "language": language}
-    path = _own(session, "/commands")
-    return Call("POST", path, _reading(answers.CommandResult), body, said="text", key=new_key())
+    path = _session_path(session, "/commands")
+    return Call("POST", path, _json(answers.CommandResult), body, said="text", key=new_key())
 
 
-def act(session: str, actions: Sequence[Json], dry_run: bool) -> Call[answers.CommandResult]:
-    """Typed actions."""
+def run_actions(session: str, actions: Sequence[Json], dry_run: bool) -> Call[answers.CommandResult]:
+    """Does typed actions."""
     body = {"actions": list(actions), "dry_run": dry_run}
-    return Call("POST", _own(session, "/actions"), _reading(answers.CommandResult), body, key=new_key())
+    return Call("POST", _session_path(session, "/actions"), _json(answers.CommandResult), body, key=new_key())
 
 
-def configure(session: str, parts: Json) -> Call[answers.ConfigChanged]:
-    """Settings, as a merge patch."""
-    return Call("PATCH", _own(session, "/config"), _reading(answers.ConfigChanged), parts, key=new_key())
+def patch_config(session: str, parts: Json) -> Call[answers.ConfigChanged]:
+    """Changes settings, as a merge patch."""
+    return Call(
+        "PATCH", _session_path(session, "/config"), _json(answers.ConfigChanged), parts, key=new_key()
+    )
 
 
-def ask(session: str, question: str, language: str) -> Call[answers.Answer]:
-    """A question."""
+def ask_question(session: str, question: str, language: str) -> Call[answers.Answer]:
+    """Asks a question."""
     body = {"question": question, "language": language}
-    return Call("POST", _own(session, "/ask"), _reading(answers.Answer), body, said="question")
+    return Call("POST", _session_path(session, "/ask"), _json(answers.Answer), body, said="question")
 
 
-def step(session: str, ticks: int) -> Call[answers.StepResult]:
-    """Some ticks."""
+def step_session(session: str, ticks: int) -> Call[answers.StepResult]:
+    """Runs some ticks."""
     body = {"ticks": ticks}
-    return Call("POST", _own(session, "/step"), _reading(answers.StepResult), body, key=new_key())
+    return Call("POST", _session_path(session, "/step"), _json(answers.StepResult), body, key=new_key())
 
 
-def fork(
+def fork_session(
     session: str, at_tick: int | None, actions: Sequence[Json], name: str | None, paused: bool | None
 ) -> Call[answers.Session]:
-    """Another session, the same up to a tick."""
-    body = _sent(at_tick=at_tick, actions=list(actions) or None, name=name, paused=paused)
-    return Call("POST", _own(session, "/forks"), _reading(answers.Session), body, key=new_key())
+    """Makes another session, the same up to a tick."""
+    body = _without_none(at_tick=at_tick, actions=list(actions) or None, name=name, paused=paused)
+    return Call("POST", _session_path(session, "/forks"), _json(answers.Session), body, key=new_key())
 
 
-def rewind(session: str, tick: int) -> Call[answers.CommandResult]:
-    """Back to a tick."""
+def rewind_session(session: str, tick: int) -> Call[answers.CommandResult]:
+    """Goes back to a tick."""
     body = {"tick": tick}
-    return Call("POST", _own(session, "/rewind"), _reading(answers.CommandResult), body, key=new_key())
+    return Call("POST", _session_path(session, "/rewind"), _json(answers.CommandResult), body, key=new_key())
 
 
-def state(session: str, tick: int | None) -> Call[answers.State]:
+def read_state(session: str, tick: int | None) -> Call[answers.State]:
     """The world at a tick."""
-    return Call("GET", _own(session, "/state"), _reading(answers.State), params={"tick": tick})
+    return Call("GET", _session_path(session, "/state"), _json(answers.State), params={"tick": tick})
 
 
-def decisions(session: str, after: int | None, limit: int) -> Call[answers.DecisionPage]:
+def list_decisions(session: str, after: int | None, limit: int) -> Call[answers.DecisionPage]:
     """A page of decisions."""
     params = {"after": after, "limit": limit}
-    return Call("GET", _own(session, "/decisions"), _reading(answers.DecisionPage), params=params)
+    return Call("GET", _session_path(session, "/decisions"), _json(answers.DecisionPage), params=params)
 
 
-def decision(session: str, tick: int) -> Call[answers.Decision]:
+def read_decision(session: str, tick: int) -> Call[answers.Decision]:
     """One decision."""
-    return Call("GET", _own(session, f"/decisions/{tick}"), _reading(answers.Decision))
+    return Call("GET", _session_path(session, f"/decisions/{tick}"), _json(answers.Decision))
 
 
-def events(session: str, after: int | None, limit: int) -> Call[answers.EventPage]:
+def list_events(session: str, after: int | None, limit: int) -> Call[answers.EventPage]:
     """A page of the log."""
     params = {"after": after, "limit": limit}
-    return Call("GET", _own(session, "/events"), _reading(answers.EventPage), params=params)
+    return Call("GET", _session_path(session, "/events"), _json(answers.EventPage), params=params)
 
 
-def recording(session: str) -> Call[Recording]:
+def read_recording(session: str) -> Call[Recording]:
     """The session as a file."""
-    return Call("GET", _own(session, "/recording"), _reading(Recording))
+    return Call("GET", _session_path(session, "/recording"), _json(Recording))
 
 
-def frame(session: str, view: str, form: str) -> Call[media.Frame]:
+def read_frame(session: str, view: str, form: str) -> Call[media.Frame]:
     """A picture."""
     params = {"view": view, "format": form}
-    return Call("GET", _own(session, "/frame"), _seen(media.Frame), params=params)
+    return Call("GET", _session_path(session, "/frame"), _media(media.Frame), params=params)
 
 
-def film(session: str, first: int | None, last: int | None, **asked: Any) -> Call[media.Film]:
+def read_video(session: str, first: int | None, last: int | None, **asked: Any) -> Call[media.Film]:
     """A stretch of ticks as a moving picture."""
     params = {"from": first, "to": last, **asked}
-    return Call("GET", _own(session, "/film"), _seen(media.Film), params=params)
+    return Call("GET", _session_path(session, "/film"), _media(media.Film), params=params)
 
 
-def link(session: str, tick: int | None) -> Call[answers.Link]:
-    """A piece of a URL."""
-    return Call("GET", _own(session, "/link"), _reading(answers.Link), params={"tick": tick})
+def read_link(session: str, tick: int | None) -> Call[answers.Link]:
+    """A link to a tick."""
+    return Call("GET", _session_path(session, "/link"), _json(answers.Link), params={"tick": tick})
 
 
-def saved(session: str) -> Call[answers.SavedMoments]:
+def list_bookmarks(session: str) -> Call[answers.SavedMoments]:
     """Moments with a name."""
-    return Call("GET", _own(session, "/saved"), _reading(answers.SavedMoments))
+    return Call("GET", _session_path(session, "/saved"), _json(answers.SavedMoments))
 
 
-def all_saved(after: str | None, limit: int) -> Call[answers.MomentPage]:
+def list_all_bookmarks(after: str | None, limit: int) -> Call[answers.MomentPage]:
     """A page of moments with a name, of all sessions."""
     params = {"after": after, "limit": limit}
-    return Call("GET", f"{PREFIX}/saved", _reading(answers.MomentPage), params=params)
+    return Call("GET", f"{PREFIX}/saved", _json(answers.MomentPage), params=params)
 
 
-def timeline(session: str, first: int, limit: int) -> Call[answers.TimelinePage]:
+def read_timeline(session: str, first: int, limit: int) -> Call[answers.TimelinePage]:
     """A stretch of the run at a glance."""
     params = {"from": first, "limit": limit}
-    return Call("GET", _own(session, "/timeline"), _reading(answers.TimelinePage), params=params)
+    return Call("GET", _session_path(session, "/timeline"), _json(answers.TimelinePage), params=params)
 
 
-def changes(session: str, limit: int) -> Call[answers.RoadChanges]:
-    """What was said and stands."""
-    return Call("GET", _own(session, "/changes"), _reading(answers.RoadChanges), params={"limit": limit})
+def list_changes(session: str, limit: int) -> Call[answers.RoadChanges]:
+    """The changes of the road that stand."""
+    return Call(
+        "GET", _session_path(session, "/changes"), _json(answers.RoadChanges), params={"limit": limit}
+    )
 
 
-def moments(session: str, first: int, limit: int) -> Call[answers.Moments]:
+def list_moments(session: str, first: int, limit: int) -> Call[answers.Moments]:
     """Several ticks in full."""
     params = {"from": first, "limit": limit}
-    return Call("GET", _own(session, "/moments"), _reading(answers.Moments), params=params)
+    return Call("GET", _session_path(session, "/moments"), _json(answers.Moments), params=params)
 
 
-def forecast(session: str, ticks: int, tick: int | None) -> Call[answers.Expected]:
-    """What is about to happen."""
+def read_forecast(session: str, ticks: int, tick: int | None) -> Call[answers.Expected]:
+    """What is expected of the ticks to come."""
     params = {"ticks": ticks, "tick": tick}
-    return Call("GET", _own(session, "/forecast"), _reading(answers.Expected), params=params)
+    return Call("GET", _session_path(session, "/forecast"), _json(answers.Expected), params=params)
 
 
-def regret(session: str, first: int, limit: int) -> Call[answers.Judged]:
+def read_regret(session: str, first: int, limit: int) -> Call[answers.Judged]:
     """What decisions cost against the best."""
     params = {"from": first, "limit": limit}
-    return Call("GET", _own(session, "/regret"), _reading(answers.Judged), params=params)
+    return Call("GET", _session_path(session, "/regret"), _json(answers.Judged), params=params)
 
 
-def counterfactual(
+def run_counterfactual(
     session: str, actions: Sequence[Json], move: str | None, at_tick: int | None, ticks: int | None
 ) -> Call[answers.Counterfactual]:
-    """What would have been."""
-    body = _sent(at_tick=at_tick, move=move, actions=list(actions) or None, ticks=ticks)
-    path = _own(session, "/counterfactual")
-    return Call("POST", path, _reading(answers.Counterfactual), body, key=new_key())
+    """Runs a counterfactual beside the real run."""
+    body = _without_none(at_tick=at_tick, move=move, actions=list(actions) or None, ticks=ticks)
+    path = _session_path(session, "/counterfactual")
+    return Call("POST", path, _json(answers.Counterfactual), body, key=new_key())
 
 
-def ticket() -> Call[answers.Ticket]:
-    """Something that lets one socket in; each is another, so none is asked for under a key."""
-    return Call("POST", f"{PREFIX}/tickets", _reading(answers.Ticket), {})
+def create_ticket() -> Call[answers.Ticket]:
+    """Makes a ticket for a socket. Each call makes another, so it has no `Idempotency-Key`."""
+    return Call("POST", f"{PREFIX}/tickets", _json(answers.Ticket), {})
 
 
-def advice(
+def ask_advice(
     text: str | None,
     hazard: str | None,
     distance_m: float | None,
@@ -245,25 +264,11 @@ def advice(
 ) -> Call[answers.Advice]:
     """What to do about a hazard."""
     figures = {"hazard": hazard, "distance_m": distance_m, "speed_kmh": speed_kmh, "weather": weather}
-    body = _sent(text=text, **figures, language=language)
-    return Call("POST", f"{PREFIX}/advice", _reading(answers.Advice), body, said="text")
+    body = _without_none(text=text, **figures, language=language)
+    return Call("POST", f"{PREFIX}/advice", _json(answers.Advice), body, said="text")
 
 
-def guide(prefix: str | None, session: str | None, language: str) -> Call[answers.LanguageGuide]:
+def read_language(prefix: str | None, session: str | None, language: str) -> Call[answers.LanguageGuide]:
     """What can be said."""
     params = {"prefix": prefix, "session": session, "language": language}
-    return Call("GET", f"{PREFIX}/language", _reading(answers.LanguageGuide), params=params)
-
-
-Seen = TypeVar("Seen", bound=media.Media)
-
-
-def _seen(kind: type[Seen]) -> Callable[[httpx.Response], Seen]:
-    """Bytes of their own kind. Raises `UnexpectedAnswer` where there are none."""
-
-    def made(response: httpx.Response) -> Seen:
-        if not response.content:
-            raise UnexpectedAnswer("There is nothing to be seen in the answer.")
-        return kind(response.content, response.headers.get("content-type", "").partition(";")[0])
-
-    return made
+    return Call("GET", f"{PREFIX}/language", _json(answers.LanguageGuide), params=params)

@@ -12,15 +12,25 @@ from typing import TypeVar
 import httpx
 from websockets.sync.client import connect
 
-from service.client import call as calling
 from service.client import endpoints
-from service.client.call import DEFAULT_URL, TIMEOUT_S, Call, Json
+from service.client.call import (
+    DEFAULT_URL,
+    LOST,
+    TIMEOUT_S,
+    Call,
+    Json,
+    auth_headers,
+    check_url,
+    read_answer,
+    read_problem,
+    unreachable,
+)
 from service.client.media import Picture
 from service.client.messages import Gone, Message
 from service.client.recording import Recording
-from service.client.sse import Events, Following
+from service.client.sse import EventParser, EventStreamReader
+from service.client.stream_reader import FAILURES, MAX_MESSAGE_BYTES, StreamReader
 from service.client.sync_session import Session
-from service.client.watching import FAILURES, MAX_MESSAGE_BYTES, Watching
 from service.contract import answers
 
 T = TypeVar("T")
@@ -41,8 +51,8 @@ class Client:
         timeout_s: float = TIMEOUT_S,
         transport: httpx.BaseTransport | None = None,
     ) -> None:
-        self.url = calling.checked_url(url)
-        self._headers = calling.headers(api_key)
+        self.url = check_url(url)
+        self._headers = auth_headers(api_key)
         self._timeout_s = timeout_s
         self._http = httpx.Client(
             base_url=self.url, headers=self._headers, timeout=timeout_s, transport=transport
@@ -57,20 +67,20 @@ class Client:
         self.close()
 
     def close(self) -> None:
-        """Let go of the connections."""
+        """Closes the connections."""
         self._http.close()
 
     def health(self) -> answers.Health:
         """Is it alive, and what does it hold."""
-        return self._do(endpoints.health())
+        return self._send(endpoints.read_health())
 
     def ready(self) -> answers.Ready:
         """Does its store answer. Raises `Unavailable` where it does not."""
-        return self._do(endpoints.ready())
+        return self._send(endpoints.read_readiness())
 
     def parse(self, text: str, *, language: str = "en") -> answers.Parsed:
         """What a sentence means; nothing is done."""
-        return self._do(endpoints.parse(text, language))
+        return self._send(endpoints.parse_text(text, language))
 
     def advice(
         self,
@@ -83,17 +93,17 @@ class Client:
         language: str = "en",
     ) -> answers.Advice:
         """What to do about a hazard ahead: `advice("pothole 2m ahead, speed 40 km/h")`, or in figures."""
-        return self._do(endpoints.advice(text, hazard, distance_m, speed_kmh, weather, language))
+        return self._send(endpoints.ask_advice(text, hazard, distance_m, speed_kmh, weather, language))
 
     def guide(
         self, prefix: str | None = None, *, session: str | None = None, language: str = "en"
     ) -> answers.LanguageGuide:
         """What can be said; with `prefix`, how a sentence that was begun could go on, there or anywhere."""
-        return self._do(endpoints.guide(prefix, session, language))
+        return self._send(endpoints.read_language(prefix, session, language))
 
     def ticket(self) -> answers.Ticket:
         """Lets one socket in that cannot send the key, such as a page's."""
-        return self._do(endpoints.ticket())
+        return self._send(endpoints.create_ticket())
 
     def create(
         self,
@@ -108,52 +118,52 @@ class Client:
         link: answers.Link | str | None = None,
     ) -> Session:
         """A new session, from a sentence, from figures, from a recording or from a link."""
-        call = endpoints.create(name, scenario, config, seed, planner, paused, recording, link)
-        return self._do(call.then(lambda info: Session(self, info.id)))
+        call = endpoints.create_session(name, scenario, config, seed, planner, paused, recording, link)
+        return self._send(call.then(lambda info: Session(self, info.id)))
 
     def list(self, *, after: str | None = None, limit: int = 50) -> answers.SessionPage:
         """Sessions, newest first, a page of them."""
-        return self._do(endpoints.listed(after, limit))
+        return self._send(endpoints.list_sessions(after, limit))
 
     def saved(self, *, after: str | None = None, limit: int = 50) -> answers.MomentPage:
         """Moments that were given a name, of all sessions, those named last first, a page of them."""
-        return self._do(endpoints.all_saved(after, limit))
+        return self._send(endpoints.list_all_bookmarks(after, limit))
 
     def session(self, session_id: str) -> Session:
         """The session of this id; nothing is asked before it is used."""
         return Session(self, session_id)
 
-    def _do(self, call: Call[T]) -> T:
+    def _send(self, call: Call[T]) -> T:
         second = False
         try:
             response = self._http.request(**call.request())
-        except calling.LOST as lost:
+        except LOST as lost:
             second = True
             try:
                 response = self._http.request(**call.request())
             except httpx.TransportError as error:
-                raise calling.unreachable(self.url, error) from lost
+                raise unreachable(self.url, error) from lost
         except httpx.TransportError as error:
-            raise calling.unreachable(self.url, error) from error
-        return calling.answered(call, response, self._do, second=second)
+            raise unreachable(self.url, error) from error
+        return read_answer(call, response, self._send, second=second)
 
     def _watch(self, session: str, after: str | None, patience_s: float) -> Iterator[Message]:
-        watching = Watching(self.url, session, after, patience_s)
-        with closing(self._received(watching)) as received:
+        watching = StreamReader(self.url, session, after, patience_s)
+        with closing(self._receive(watching)) as received:
             for data in received:
-                message = watching.take(data)
+                message = watching.read(data)
                 if message is not None:
                     yield message
 
     def _pictures(self, session: str, patience_s: float, wanted: Json) -> Iterator[Picture]:
-        watching = Watching(self.url, session, None, patience_s, wanted)
-        with closing(self._received(watching)) as received:
+        watching = StreamReader(self.url, session, None, patience_s, wanted)
+        with closing(self._receive(watching)) as received:
             for data in received:
-                picture = watching.seen(data)
+                picture = watching.read_picture(data)
                 if picture is not None:
                     yield picture
 
-    def _received(self, watching: Watching) -> Generator[str | bytes, None, None]:
+    def _receive(self, watching: StreamReader) -> Generator[str | bytes, None, None]:
         while True:
             try:
                 with connect(
@@ -162,33 +172,33 @@ class Client:
                     open_timeout=self._timeout_s,
                     max_size=MAX_MESSAGE_BYTES,
                 ) as socket:
-                    watching.opened()
+                    watching.on_connected()
                     if watching.greeting is not None:
                         socket.send(watching.greeting)
                     while True:
                         yield socket.recv()
             except FAILURES as error:
-                delay_s = watching.lost(error)
+                delay_s = watching.retry_delay_s(error)
                 if delay_s is None:
                     return
                 time.sleep(delay_s)
 
     def _follow(self, session: str, after: str | None, patience_s: float) -> Iterator[Message]:
-        following = Following(self.url, session, after, patience_s)
+        following = EventStreamReader(self.url, session, after, patience_s)
         while True:
             ended: Exception = httpx.RemoteProtocolError("the stream ended")
             try:
                 with self._http.stream(**following.request(self._timeout_s)) as response:
                     if not response.is_success:
                         response.read()
-                        raise calling.problem(response)
-                    following.answered(response)
-                    events = Events()
+                        raise read_problem(response)
+                    following.check(response)
+                    events = EventParser()
                     for part in response.iter_bytes():
-                        for message in events.messages(part, following):
+                        for message in events.feed(part, following):
                             yield message
                             if isinstance(message, Gone):
                                 return
             except httpx.TransportError as error:
                 ended = error
-            time.sleep(following.lost(ended) or 0)
+            time.sleep(following.retry_delay_s(ended) or 0)

@@ -17,13 +17,14 @@ from service.contract.stream_requests import Auth, StreamRequest
 
 _ROOTS: Mapping[str, Any] = {"StreamMessage": StreamMessage, "StreamRequest": StreamRequest, "Auth": Auth}
 
-_MODE: Final = "validation"
+_MODE: Final = "validation"  # what may be left out is so in both directions
 
 
 def stream_schema() -> dict[str, Any]:
     """The schema; every message is one of its `$defs`."""
-    inputs = [(name, _MODE, TypeAdapter(kind)) for name, kind in _ROOTS.items()]
-    roots, schema = TypeAdapter.json_schemas(inputs)
+    roots, schema = TypeAdapter.json_schemas(
+        (name, _MODE, TypeAdapter(kind)) for name, kind in _ROOTS.items()
+    )
     definitions = schema["$defs"]
     definitions |= {name: root for (name, _), root in roots.items() if name not in definitions}
     return {

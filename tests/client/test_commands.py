@@ -129,7 +129,6 @@ def test_the_lines_of_a_watcher() -> None:
         "sequence": 1,
         "changes": (),
         "state": state,
-        "events": (found,),
         "event": "e-1",
     }
     assert list(lines(Changed(**told, events=(found,), text=None, reply=found.text))) == [

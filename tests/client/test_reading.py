@@ -1,4 +1,4 @@
-"""Reading the models of the contract: tolerant of what is new, strict about what is missing or of another type."""
+"""Reading the models of the contract: what is new is passed over, what is missing or wrong is named."""
 
 from __future__ import annotations
 

@@ -14,7 +14,8 @@ from pydantic import Field
 from service.actions import Action
 from service.contract.counterfactual import Counterfactual
 from service.contract.encode.counterfactual import beside_json
-from service.contract.requests import MAX_ACTIONS, Sent, Strictly, Tick
+from service.contract.model import Tick
+from service.contract.requests import MAX_ACTIONS, Sent, Strictly
 from service.http.deps import JSON_ONLY, TheSession
 from service.http.errors import documented, invalid
 from service.http.responses import StrictRoute, etag, json_response

@@ -1,4 +1,4 @@
-"""A watcher's place in the stream, and what to do when a connection ends."""
+"""Reads the messages of a stream, and says when to connect again after a connection is lost."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ MAX_MESSAGE_BYTES = 16 * 2**20
 """A whole state of the largest road is below this."""
 
 
-class Watching:
-    """One watcher's place in the stream, kept over lost connections; sends and reads nothing itself."""
+class StreamReader:
+    """One reader's place in a stream, kept over lost connections. It opens no connection itself."""
 
     def __init__(
         self, url: str, session: str, after: str | None, patience_s: float, wanted: Json | None = None
@@ -47,7 +47,7 @@ class Watching:
         query = "" if self.after is None else "?" + urlencode({"after": self.after})
         return f"{base}{PREFIX}/sessions/{quote(self.session, safe='')}/stream{query}"
 
-    def opened(self) -> None:
+    def on_connected(self) -> None:
         """Connected; where nothing was missed no message says so."""
         self._connected, self._lost_since = True, None
 
@@ -56,18 +56,18 @@ class Watching:
         """What is said first on every connection, if anything."""
         return None if self.wanted is None else json.dumps({"type": "subscribe", **self.wanted})
 
-    def seen(self, data: str | bytes) -> Picture | None:
-        """What was received, where pictures are asked for. Raises `Refused` for those that cannot be had."""
+    def read_picture(self, data: str | bytes) -> Picture | None:
+        """The picture that was received. Raises `Refused` for pictures that cannot be had."""
         if isinstance(data, bytes):
             self._delay_s = FIRST_DELAY_S
             return picture(data)
-        self.take(data)
+        self.read(data)
         if self._problem is not None:
             raise self._problem
         return None
 
-    def take(self, data: str | bytes) -> Message | None:
-        """What was received; None for what is not for the reader. Raises `UnexpectedAnswer`."""
+    def read(self, data: str | bytes) -> Message | None:
+        """The message that was received; None for what is not for the caller. Raises `UnexpectedAnswer`."""
         if isinstance(data, bytes):
             return None  # pictures, which nobody asked for here
         try:
@@ -84,7 +84,7 @@ class Watching:
         self.after = values.get("event", self.after)
         return message
 
-    def lost(self, error: Exception) -> float | None:
+    def retry_delay_s(self, error: Exception) -> float | None:
         """After a failure: seconds to wait before the next try, or None when the stream is over.
 
         Raises a `RoadtalkError` where another try is of no use, or patience is at its end.
