@@ -39,7 +39,7 @@ class Correction(Model):
 class Answer(Answered):
     """The answer to a question; the facts it was made from depend on the question."""
 
-    __pydantic_config__ = ConfigDict(extra="allow", use_attribute_docstrings=True)
+    __pydantic_config__ = ConfigDict(extra="allow", use_attribute_docstrings=True, defer_build=True)
 
     question: str
     about: str

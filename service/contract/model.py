@@ -23,7 +23,11 @@ class Model:
     """Base of all: documented by the text below each field, and documented to hold nothing more."""
 
     __slots__ = ()
-    __pydantic_config__: ClassVar[Any] = {"extra": "forbid", "use_attribute_docstrings": True}
+    __pydantic_config__: ClassVar[Any] = {
+        "extra": "forbid",
+        "use_attribute_docstrings": True,
+        "defer_build": True,  # a service that starts documents nothing yet
+    }
 
 
 class Answered(Model):

@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
+from pydantic import BaseModel, ConfigDict
+
 from service.contract.command import ActionJson, Interpreter
-from service.contract.model import Answered, DocumentedAs, Model
+from service.contract.model import DocumentedAs, Model
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,9 +27,11 @@ class ChoiceModel(Model):
     actions: tuple[ActionJson, ...]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ProblemDocument(Answered):
+class ProblemDocument(BaseModel):
     """An error, as in RFC 9457."""
+
+    # No dataclass: every route documents several, and pydantic keeps the schemas of its own models only.
+    model_config = ConfigDict(extra="forbid", use_attribute_docstrings=True, defer_build=True)
 
     type: str
     title: str

@@ -12,6 +12,7 @@ from typing import Any
 
 from fastapi import FastAPI
 
+from service.contract.problem import ProblemDocument
 from service.http import openapi_links as leads
 from service.http import query_params as queries
 from service.http.conditional import etag as preconditions
@@ -32,6 +33,7 @@ def install(app: FastAPI) -> None:
 
     def corrected() -> dict[str, Any]:
         if not made:
+            ProblemDocument.model_rebuild()  # once, rather than for each of the hundreds that are documented
             made.append(_corrected(generate(), languages))
         return made[0]
 
