@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from service.actions import Ask
+from service.actions.table import world_actions
 from service.contract.encode.forecast import what_if_json
 from service.narration.naming import Naming
 from service.narration.question_handler import Json, not_so, plain
 from service.narration.sayings import Sayings
 from service.refusals import refusals
 from service.sessions.facts import Asked
-from service.sessions.scheduler.playback_speed import sets_playback_speed
 from sim.actions import (
     Add,
     Adjust,
@@ -33,8 +33,6 @@ from sim.session.settings import AS_IT_IS
 from sim.state import SimState
 from sim.types import Kind, Outcome
 
-WORLD_ACTIONS = (Add, Remove, SetCount, Scenario, Reset, SetMode, Drive, Set, Adjust, Prefer)
-
 NAMED = 3
 """Things taken away are named up to so many; more are counted."""
 
@@ -51,11 +49,7 @@ class WhatIfs:
         """See `Answerer.answer`. What cannot be done is answered too, and nothing is run for it."""
         ask, timeline = asked.ask, asked.timeline
         change = ask.change or ()
-        actions = [
-            action
-            for action in change
-            if isinstance(action, WORLD_ACTIONS) and not sets_playback_speed(action)
-        ]
+        actions = world_actions(change)
         if not actions:
             return plain(self._sayings, ask, timeline.state, self._say("only_road"))
         try:

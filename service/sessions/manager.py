@@ -18,6 +18,7 @@ from anyio import to_thread
 
 from service import actions as contract
 from service.actions import Action
+from service.actions.table import traits_of
 from service.problems import (
     FieldProblem,
     Invalid,
@@ -37,7 +38,7 @@ from service.sessions.preconditions import NO_PRECONDITIONS, Preconditions
 from service.sessions.scheduler.eviction import Evictor, IdleTimes
 from service.sessions.scheduler.offload import REPLAY_S, STEPS_S, with_time_limit
 from service.sessions.scheduler.playback_speed import NORMAL
-from service.sessions.session import CHANGES_NOTHING, Session, SessionServices
+from service.sessions.session import Session, SessionServices
 from service.sessions.transaction import Transaction, check_step_ticks
 from service.store import BookmarkRecord, EntryRecord, SessionRecord, StoredResponse, StoreError
 from sim.actions import Set
@@ -186,7 +187,7 @@ class SessionManager:
             session.partial_changes = {each["sequence"] for each in way.branch.instead}
             said = [] if speed == NORMAL else [(Set(parameter="playback_speed", value=speed),)]
             entries: list[EntryRecord] = []
-            if all(isinstance(action, CHANGES_NOTHING) for action in actions):
+            if not any(traits_of(action).changes_session for action in actions):
                 transaction = Transaction(
                     session.timeline, session.paused, session.undo_stack, session.playback_speed
                 )

@@ -17,7 +17,8 @@ from typing import Any
 import structlog
 from anyio import to_thread
 
-from service.actions import Action, Advise, Ask, Hide, Show
+from service.actions import Action
+from service.actions.table import traits_of
 from service.contract.encode.state import SessionStatus
 from service.problems import NotSaved, UnknownName, UnknownSession
 from service.resources import DEFAULT_LANGUAGE
@@ -69,9 +70,6 @@ from sim.state import SimState, StepResult
 from sim.types import Mode
 
 _LOG = structlog.get_logger(__name__)
-
-CHANGES_NOTHING = Ask | Advise | Show | Hide
-"""Actions that leave the session as it is, and are not kept when nothing else is said with them."""
 
 THREAD_TICKS = 200
 """Work of more ticks than this is done beside the event loop."""
@@ -307,7 +305,7 @@ class Session:
                 )
                 if dry_run:
                     return await self._make_outcome(utterance, facts, self.sequence, event, transaction)
-                if all(isinstance(action, CHANGES_NOTHING) for action in utterance.actions):
+                if not any(traits_of(action).changes_session for action in utterance.actions):
                     outcome = await self._make_outcome(utterance, facts, self.sequence)
                     self.conversation.record(outcome, passing=True)
                     if views := merge_views(facts):
