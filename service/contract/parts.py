@@ -134,6 +134,7 @@ class Option(Answered):
     cost: float | None
     reason: str
     causes: list[str]
+    text: str = Field(description="What spoke for or against it, in a few words.")
 
 
 class Decision(Answered):

@@ -95,7 +95,7 @@ def summary_json(record: SessionRecord, live: Session | None) -> dict[str, Any]:
 
 def told_decision(words: NarratorProtocol, run: SimState, decision: Decision) -> dict[str, Any]:
     """A decision, the state it was taken in being `run`, with its narration."""
-    return decision_json(decision, words.decision(decision, run))
+    return decision_json(decision, words.decision(decision, run), words.options(decision))
 
 
 def told_runs(words: NarratorProtocol, timeline: Timeline, first: int, stop: int) -> list[dict[str, Any]]:

@@ -31,8 +31,8 @@ from service.llm.claims import Claims
 from service.llm.failures import ModelFailure
 from service.llm.prompts import load_failure_messages, load_prompt
 from service.llm.protocol import Facts, Interpretation
-from service.llm.rate_limit import Bucket
 from service.llm.transport import GuardedTransport
+from service.rate_limit import TokenBucket
 from service.settings import Settings
 
 _LOG = structlog.get_logger(__name__)
@@ -51,7 +51,7 @@ class OpenAIModel:
         self._settings = settings
         self._interpret, self._rephrase = load_prompt("interpret"), load_prompt("rephrase")
         self._told, self._claims = load_failure_messages(), Claims.load()
-        bucket = Bucket(settings.llm_per_minute, clock)
+        bucket = TokenBucket(settings.llm_per_minute, clock)
         self._http = httpx2.AsyncClient(
             transport=GuardedTransport(base_url, settings.llm_api_key, bucket),
             follow_redirects=False,

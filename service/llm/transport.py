@@ -15,7 +15,7 @@ from pydantic import BaseModel, SecretStr, ValidationError
 from pydantic_core import to_json
 
 from service.llm.failures import ModelFailure
-from service.llm.rate_limit import Bucket
+from service.rate_limit import TokenBucket
 
 MAX_ANSWER_BYTES: Final = 262_144
 """The size of a response that is read; what a model may say is a hundredth of it."""
@@ -44,7 +44,7 @@ class GuardedTransport(httpx2.AsyncBaseTransport):
         self,
         base_url: str,
         key: SecretStr | None,
-        bucket: Bucket,
+        bucket: TokenBucket,
         inner: httpx2.AsyncBaseTransport | None = None,
     ) -> None:
         """`inner` does the asking; by default, connections that heed no proxy of the environment."""
@@ -55,8 +55,9 @@ class GuardedTransport(httpx2.AsyncBaseTransport):
 
     async def handle_async_request(self, request: httpx2.Request) -> httpx2.Response:
         """The request's body, posted; the answer's text, in a body of our own."""
-        if not self._bucket.take():
-            raise ModelFailure("too_often", wait=self._bucket.wait_s)
+        wait_s = self._bucket.take()
+        if wait_s:
+            raise ModelFailure("too_often", wait=wait_s)
         sent = httpx2.Request(
             "POST",
             self._url,

@@ -10,12 +10,15 @@ from typing import Any
 from service.narration.answers import Answers
 from service.narration.episode_end import Ends
 from service.narration.naming import Naming
+from service.narration.options import Options
 from service.narration.outlook import outlook
 from service.narration.replies import Replies
 from service.narration.sayings import Sayings
-from service.sessions.facts import AliasChange, Answerable, Fact
+from service.narration.side_by_side import SidesBySide
+from service.sessions.facts import AliasChange, Answerable, Fact, SideBySideTexts
 from sim.decide import sense
 from sim.events import Event, EventType
+from sim.explain.side_by_side import SideBySide
 from sim.forecast import Forecast
 from sim.perceive import sensor_named
 from sim.plan import Decision, Measure, Option
@@ -37,6 +40,8 @@ class Narrator:
         self._replies = Replies(sayings)
         self._answers = Answers(sayings)
         self._ends = Ends(sayings)
+        self._options = Options(sayings)
+        self._sides = SidesBySide(sayings)
         self._first_choice = self._say("first_choice")
         self._told: dict[Hashable, str] = {}
         """Sentences said before, by all they are made of: the same few are said again and again."""
@@ -114,6 +119,14 @@ class Narrator:
             if len(self._told) >= REMEMBERED:
                 self._told.clear()
             self._told[key] = told
+
+    def options(self, decision: Decision) -> list[str]:
+        """A few words for each option of a decision, in their order."""
+        return self._options.texts(decision)
+
+    def side_by_side(self, found: SideBySide) -> SideBySideTexts:
+        """A counterfactual beside the real run: what differs, and how each of the two ends."""
+        return self._sides.texts(found)
 
     def alias_change(self, lesson: AliasChange) -> str:
         """The reply to a phrase that was taught or forgotten."""

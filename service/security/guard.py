@@ -8,7 +8,7 @@ from service.problems import RateLimited
 from service.security.api_key import Key
 from service.security.hosts import Hosts, loopback
 from service.security.quotas import Quotas
-from service.security.rate_limit import Buckets
+from service.security.rate_limit import RateLimiter
 from service.security.ws_tickets import Tickets
 from service.settings import Settings
 
@@ -26,12 +26,12 @@ class Guard:
         per_minute = settings.changes_per_minute
         if per_minute is None and self.key.asked:
             per_minute = STRANGERS_PER_MINUTE
-        self.buckets = Buckets(per_minute)
+        self.rate_limiter = RateLimiter(per_minute)
         self.quotas = Quotas(settings.max_client_sessions, settings.max_client_cells)
 
     def count_change(self, client: str) -> None:
         """One more change of a client. Raises `RateLimited`."""
-        wait = self.buckets.take(client)
+        wait = self.rate_limiter.take(client)
         if wait:
             raise RateLimited(wait)
 

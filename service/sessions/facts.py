@@ -129,3 +129,12 @@ def _changes(fact: Fact) -> tuple[Change, ...]:
             return (Change("tick", fact.before, fact.tick), *fact.changes)
         case Asked() | Advised() | Bookmarked() | Viewed():
             return ()
+
+
+@dataclass(frozen=True, slots=True)
+class SideBySideTexts:
+    """Two runs beside each other in words: what differs, and how each of the two ends."""
+
+    difference: str
+    real_end: str
+    changed_end: str

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Any, Protocol
 
-from service.sessions.facts import AliasChange, Answerable, Fact
+from service.sessions.facts import AliasChange, Answerable, Fact, SideBySideTexts
 from sim.events import Event
+from sim.explain.side_by_side import SideBySide
 from sim.forecast import Forecast
 from sim.plan import Decision
 from sim.state import SimState
@@ -19,6 +20,12 @@ class NarratorProtocol(Protocol):
 
         `forecast`: what it was decided by, where that is known already.
         """
+
+    def options(self, decision: Decision) -> list[str]:
+        """A few words for each option of a decision, in their order."""
+
+    def side_by_side(self, found: SideBySide) -> SideBySideTexts:
+        """A counterfactual beside the real run: what differs, and how each of the two ends."""
 
     def event(self, event: Event, run: SimState) -> str:
         """One line of the log."""

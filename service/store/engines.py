@@ -22,7 +22,6 @@ from sqlalchemy.exc import ArgumentError, DBAPIError
 from sqlalchemy.ext.asyncio import AsyncEngine, create_async_engine
 from sqlalchemy.pool import AsyncAdaptedQueuePool
 
-from service.store import lock_owner as holders
 from service.store import wal
 from service.store.base import StoreError
 
@@ -69,7 +68,10 @@ class Sqlite:
         except (sqlite3.OperationalError, OSError) as error:
             why = str(error)
             if isinstance(error, sqlite3.Error) and error.sqlite_errorcode in _HELD:
-                why = f"it is locked: {await to_thread.run_sync(holders.told, Path(self._path))}."
+                why = (
+                    "it is locked: another program, perhaps another Roadtalk service, has it open. "
+                    "Stop that one, or name another file in ROADTALK_DATABASE."
+                )
             raise StoreError(f"{self.name} cannot be opened: {why}") from error
         except sqlite3.Error as error:
             found = str(error)

@@ -6,6 +6,7 @@ from typing import Any
 
 from service.contract.encode.decision import brief_decision_json
 from service.contract.encode.state import SessionStatus, cause_json, state_json
+from service.sessions.facts import SideBySideTexts
 from service.sessions.messages import motion_json
 from sim.explain.side_by_side import Side, SideBySide
 from sim.state import SimState, StepResult
@@ -13,18 +14,19 @@ from sim.state import SimState, StepResult
 Json = dict[str, Any]
 
 
-def beside_json(status: SessionStatus, found: SideBySide, most: int) -> Json:
+def beside_json(status: SessionStatus, found: SideBySide, most: int, texts: SideBySideTexts) -> Json:
     """Both runs, at most so many ticks of each."""
     return {
         "at_tick": found.tick,
         "instead_of": found.instead_of,
+        "text": texts.difference,
         "said_since": found.said_since,
-        "real": _side_json(status, found.real, most),
-        "changed": _side_json(status, found.changed, most),
+        "real": _side_json(status, found.real, most, texts.real_end),
+        "changed": _side_json(status, found.changed, most, texts.changed_end),
     }
 
 
-def _side_json(status: SessionStatus, side: Side, most: int) -> Json:
+def _side_json(status: SessionStatus, side: Side, most: int, text: str) -> Json:
     story = side.story
     end = {
         "outcome": story.outcome,
@@ -34,6 +36,7 @@ def _side_json(status: SessionStatus, side: Side, most: int) -> Json:
         "by_hand": story.by_hand,
         "cause": cause_json(side.ticks[-1][1].state.world) if side.ticks else None,
         "digest": story.digest,
+        "text": text,
     }
     ticks = [_tick_json(status, before, tick) for before, tick in side.ticks[:most]]
     return {"state": state_json(status, side.start), "ticks": ticks, "end": end}

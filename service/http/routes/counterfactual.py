@@ -17,7 +17,7 @@ from service.contract.counterfactual import Counterfactual
 from service.contract.encode.counterfactual import beside_json
 from service.contract.requests import MAX_ACTIONS, Sent, Strictly, Tick
 from service.http.content_type import JSON_ONLY
-from service.http.deps import TheSession
+from service.http.deps import Here, TheSession
 from service.http.errors import documented
 from service.http.responses import etag, json_response
 from service.http.route import api_router
@@ -95,7 +95,7 @@ class Otherwise(Sent):
     ),
 )
 async def run_counterfactual(
-    body: Annotated[Otherwise, Body(openapi_examples=_EXAMPLES)], session: TheSession
+    body: Annotated[Otherwise, Body(openapi_examples=_EXAMPLES)], session: TheSession, here: Here
 ) -> Response:
     """Both runs from that tick on: where they begin, tick by tick what moved, and how each ends.
 
@@ -115,7 +115,7 @@ async def run_counterfactual(
             compared = compare_move(timeline, tick, Move(body.move))
         else:
             compared = compare_change(timeline, tick, actions)
-        return beside_json(status, compared, body.ticks)
+        return beside_json(status, compared, body.ticks, here.narrator.side_by_side(compared))
 
     try:
         value = await run_in_thread(uses_external_planner(timeline), QUESTION_S, compare)

@@ -13,6 +13,7 @@ from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import Response
 
+from service.http.page_texts import StaticTexts, page_languages
 from service.http.static import StaticFile, StaticPage
 from service.resources import web_folder
 
@@ -25,6 +26,8 @@ def install(app: FastAPI) -> None:
     mimetypes.add_type("text/javascript", ".js")
     web = web_folder()
     add_file(app, "/", StaticPage(web / "index.html"))
+    for code in page_languages():
+        add_file(app, f"/texts/{code}.json", StaticTexts(code))
     for path in sorted(web.iterdir()):
         if not path.resolve().is_relative_to(web.resolve()):
             continue  # a link that leads out
