@@ -107,7 +107,12 @@ class ActionTraits:
 
 
 def _world(
-    model: ModelUse, *, tried: bool = False, amendable: bool = False, additive: bool = False
+    model: ModelUse,
+    *,
+    tried: bool = False,
+    amendable: bool = False,
+    additive: bool = False,
+    what_if: WhatIf = WhatIf.IMAGINED,
 ) -> ActionTraits:
     """An action that changes the world, which is always a step of undo."""
     return ActionTraits(
@@ -117,6 +122,7 @@ def _world(
         tried=tried,
         amendable=amendable,
         additive=additive,
+        what_if=what_if,
     )
 
 
@@ -231,6 +237,10 @@ def sets_playback_speed(action: Action) -> bool:
     return isinstance(action, Set | Adjust) and action.parameter == PLAYBACK_SPEED
 
 
-def world_actions(actions: tuple[Action, ...]) -> list[WorldAction]:
-    """Those of some actions that change the world."""
-    return [cast(WorldAction, action) for action in actions if is_world_action(action)]
+def imagined_actions(actions: tuple[Action, ...]) -> list[WorldAction]:
+    """Those of some actions that make a difference in an imagined run."""
+    return [
+        cast(WorldAction, action)
+        for action in actions
+        if is_world_action(action) and traits_of(action).what_if is WhatIf.IMAGINED
+    ]

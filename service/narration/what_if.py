@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from service.actions import Ask
-from service.actions.table import world_actions
+from service.actions.table import imagined_actions
 from service.contract.encode.forecast import what_if_json
 from service.narration.naming import Naming
 from service.narration.question_handler import Json, not_so, plain
@@ -16,7 +16,6 @@ from sim.actions import (
     Drive,
     Prefer,
     Remove,
-    Reset,
     Scenario,
     Set,
     SetCount,
@@ -49,7 +48,7 @@ class WhatIfs:
         """See `Answerer.answer`. What cannot be done is answered too, and nothing is run for it."""
         ask, timeline = asked.ask, asked.timeline
         change = ask.change or ()
-        actions = world_actions(change)
+        actions = imagined_actions(change)
         if not actions:
             return plain(self._sayings, ask, timeline.state, self._say("only_road"))
         try:
@@ -217,8 +216,6 @@ class Conditions:
                 return self._say("exactly", count=count, things=self._sayings.things(kind, count))
             case Scenario():
                 return self._road(applied.state)
-            case Reset():
-                return self._say("reset")
             case SetMode(mode=mode):
                 return self._say("mode", mode)
             case Drive(move=move):
@@ -227,6 +224,8 @@ class Conditions:
                 return self._sayings.say("whatif", "prefer", wish)
             case Set(parameter=parameter) | Adjust(parameter=parameter):
                 return self._setting(parameter, applied.state)
+            case _:  # actions without parameters
+                return self._say(action.do)
 
     def _removed(self, applied: Applied, action: Remove, before: SimState) -> str:
         things = applied.removed
