@@ -10,7 +10,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from contextlib import asynccontextmanager
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -30,13 +30,11 @@ from service.sessions.facts import Fact, merge_views, parts_with_events, questio
 from service.sessions.fork import ForkPoint, is_partly_of_world
 from service.sessions.log import EventLog, LogEvent
 from service.sessions.messages import changed_message, tick_message
-from service.sessions.narrator_protocol import NarratorProtocol
 from service.sessions.outcome import is_slow_to_answer, make_entry, make_outcome
 from service.sessions.persistence.log_position import LogPosition
 from service.sessions.preconditions import NO_PRECONDITIONS, Preconditions
 from service.sessions.reachability import ReachabilityMonitor
 from service.sessions.scheduler.background_task import BackgroundTask
-from service.sessions.scheduler.clock import Clock
 from service.sessions.scheduler.external_planner import ExternalPlanner
 from service.sessions.scheduler.offload import (
     QUESTION_S,
@@ -53,13 +51,13 @@ from service.sessions.scheduler.playback_speed import (
     ticks_of_turn,
 )
 from service.sessions.scheduler.tick_batch import TickBatch
+from service.sessions.services import SessionServices
 from service.sessions.state_cache import StateCache
 from service.sessions.subscribers import Subscribers
 from service.sessions.transaction import Transaction, check_step_ticks
 from service.sessions.undo_stack import UndoStack
 from service.sessions.utterance import Outcome, ReachabilityNotice, Utterance
-from service.settings import Settings
-from service.store import SessionRecord, Store, StoreError
+from service.store import SessionRecord, StoreError
 from sim.actions import SetMode
 from sim.events import Event
 from sim.explain.summary import long_to_tell
@@ -76,16 +74,6 @@ THREAD_TICKS = 200
 
 MAX_STREAMED_TICKS = 8
 """Steps of up to so many ticks are shown to watchers tick by tick."""
-
-
-@dataclass(frozen=True, slots=True)
-class SessionServices:
-    """What a session needs around it."""
-
-    store: Store
-    clock: Clock
-    narrator: NarratorProtocol
-    settings: Settings
 
 
 class Session:
@@ -252,9 +240,10 @@ class Session:
 
     def is_possible(self, actions: tuple[Action, ...]) -> bool:
         """Whether these would be done, and change something; long work is taken to be possible."""
-        return is_possible(self._begin_transaction(), self.sequence, actions)
+        return is_possible(self.begin_transaction(), self.sequence, actions)
 
-    def _begin_transaction(self, language: str = DEFAULT_LANGUAGE) -> Transaction:
+    def begin_transaction(self, language: str = DEFAULT_LANGUAGE) -> Transaction:
+        """A copy to try actions on; `language`: the one in which they are refused."""
         return Transaction(self.timeline, self.paused, self.undo_stack, self.playback_speed, language)
 
     @asynccontextmanager
@@ -296,7 +285,7 @@ class Session:
                 utterance = utterance(self.timeline)
             self._changing = True
             try:
-                transaction = self._begin_transaction(utterance.language)
+                transaction = self.begin_transaction(utterance.language)
                 with timed("apply"):
                     facts = await self._perform(transaction, utterance)
                 seen = await self.reachability.after_change(transaction.timeline.state, facts)
