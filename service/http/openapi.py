@@ -77,7 +77,7 @@ def _document_route(route: APIRoute, method: str, operation: dict[str, Any]) -> 
     idempotency.document(method, policy is not None and policy.idempotency_key, operation, _add_problems)
     tagged = policy is not None and policy.entity_tag
     etag.document(method, route.path_format, tagged, operation, _add_problems)
-    access_control.document(method, guarded, operation, _add_problems)
+    access_control.document(method, policy is not None, operation, _add_problems)
 
 
 def _name_languages(document: dict[str, Any], languages: Sequence[str]) -> None:
