@@ -20,7 +20,8 @@ from service.http.deps import Here, TheSession
 from service.http.errors import documented
 from service.http.realtime.hello import hello
 from service.http.realtime.open_streams import OpenStreams
-from service.http.route import api_router, policy
+from service.http.route import api_router
+from service.http.route_policy import policy
 from service.problems import Invalid, NotRestorable, UnknownSession
 from service.sessions.messages import state_message
 from service.sessions.session import Session

@@ -15,7 +15,8 @@ from service.http.content_type import JSON_ONLY
 from service.http.deps import Context, Here
 from service.http.errors import documented
 from service.http.responses import json_response
-from service.http.route import api_router, policy
+from service.http.route import api_router
+from service.http.route_policy import policy
 from service.http.validation import invalid
 from service.interpreter.interpreter import Source
 from service.problems import (

@@ -15,7 +15,8 @@ from service.http.deps import Here, TheSession
 from service.http.errors import documented
 from service.http.outcome_json import result_json
 from service.http.responses import etag, json_response
-from service.http.route import api_router, policy
+from service.http.route import api_router
+from service.http.route_policy import policy
 from service.problems import (
     Ambiguous,
     DoesNotFit,

@@ -17,7 +17,8 @@ from service.http.content_type import JSON_ONLY
 from service.http.deps import Context, Here
 from service.http.errors import documented
 from service.http.responses import etag, json_response
-from service.http.route import api_router, policy
+from service.http.route import api_router
+from service.http.route_policy import policy
 from service.http.routes.links import Named, open_link
 from service.http.session_json import links_json, session_json
 from service.http.validation import invalid

@@ -15,7 +15,8 @@ from service.http.deps import Here
 from service.http.errors import documented
 from service.http.outcome_json import corrections_json
 from service.http.responses import json_response
-from service.http.route import api_router, policy
+from service.http.route import api_router
+from service.http.route_policy import policy
 from service.problems import Ambiguous, Invalid, Malformed, NotJson, NotUnderstood, TooLarge
 
 router = api_router("talking")

@@ -13,7 +13,8 @@ from service.http.deps import TheSession
 from service.http.errors import documented
 from service.http.pagination import MAX_INTEGER
 from service.http.responses import etag, json_response
-from service.http.route import api_router, policy
+from service.http.route import api_router
+from service.http.route_policy import policy
 from service.http.ticks import check_tick
 from service.problems import Invalid, NotRestorable, UnknownSession
 

@@ -11,7 +11,8 @@ from service.http.content_type import JSON_ONLY
 from service.http.deps import Here
 from service.http.errors import documented
 from service.http.responses import json_response
-from service.http.route import api_router, policy
+from service.http.route import api_router
+from service.http.route_policy import policy
 from service.problems import Invalid, Malformed, NotJson, TooLarge
 from service.security.ws_tickets import GOOD_FOR_S
 

@@ -47,7 +47,7 @@ def all_of(session: Session) -> dict[str, Any]:
         ],
         "jumps": [(one.state, other.state, [*one.entries], [*other.entries]) for one, other in jumps],
         "standing": session.standing,
-        "state": session.state(),
+        "state": orjson.loads(session.state_body()),
         "talk": session.conversation.values(),
         "first line": session.log.first_kept,
     }
