@@ -15,7 +15,7 @@ from fastapi.routing import APIRoute
 
 from service.http import access_control, openapi_links
 from service.http.conditional import etag, idempotency
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.route import ApiRoute, GuardedRoute
 from service.problems import KINDS, MEDIA_TYPE
 
@@ -91,7 +91,7 @@ def _name_languages(document: dict[str, Any], languages: Sequence[str]) -> None:
 def _add_problems(operation: dict[str, Any], *slugs: str) -> None:
     """Adds problems that a call can answer beside its own."""
     kinds = {kind.slug: kind for kind in KINDS}
-    for status, new in documented(*(kinds[slug] for slug in slugs)).items():
+    for status, new in problem_responses(*(kinds[slug] for slug in slugs)).items():
         new["content"][MEDIA_TYPE]["schema"] = _PROBLEM
         del new["model"]
         entry = operation["responses"].setdefault(str(status), new)

@@ -13,7 +13,7 @@ from service.contract.encode.advice import advice_json
 from service.http import examples
 from service.http.content_type import JSON_ONLY
 from service.http.deps import Context, Here
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.responses import json_response
 from service.http.route import api_router
 from service.http.route_policy import policy
@@ -45,7 +45,9 @@ _FIGURES = ("hazard", "distance_m", "speed_kmh")
     response_model=schemas_advice.Advice,
     summary="Ask what to do about a hazard",
     dependencies=[JSON_ONLY],
-    responses=documented(Malformed, Ambiguous, TooLarge, NotJson, Invalid, NotUnderstood, NotAQuestion),
+    responses=problem_responses(
+        Malformed, Ambiguous, TooLarge, NotJson, Invalid, NotUnderstood, NotAQuestion
+    ),
 )
 @policy(idempotency_key=False)
 async def ask_advice(

@@ -17,7 +17,7 @@ from service.contract.encode.counterfactual import beside_json
 from service.contract.requests import MAX_ACTIONS, Sent, Strictly, Tick
 from service.http.content_type import JSON_ONLY
 from service.http.deps import TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.responses import etag, json_response
 from service.http.route import api_router
 from service.http.validation import invalid
@@ -96,7 +96,7 @@ class Otherwise(Sent):
     response_model=Counterfactual,
     summary="Watch what would have been",
     dependencies=[JSON_ONLY],
-    responses=documented(
+    responses=problem_responses(
         Malformed, UnknownSession, TooLarge, NotJson, Invalid, DoesNotFit, NotAvailable, NotRestorable
     ),
 )

@@ -10,7 +10,7 @@ from pydantic import Field
 from service.contract.parts import Answered, CellPair, Decision
 from service.contract.requests import Tick
 from service.http.deps import Here, TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.pagination import MAX_INTEGER
 from service.http.responses import json_response
 from service.http.route import api_router
@@ -51,7 +51,7 @@ class Expected(Answered):
     "/sessions/{session_id}/forecast",
     response_model=Expected,
     summary="What is about to happen",
-    responses=documented(UnknownSession, Invalid, NotRestorable),
+    responses=problem_responses(UnknownSession, Invalid, NotRestorable),
 )
 async def read_forecast(
     session: TheSession,

@@ -13,7 +13,7 @@ from service.contract.encode.state import Standing, state_json
 from service.contract.parts import Answered, Decision, State
 from service.contract.requests import Tick
 from service.http.deps import Here, TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.pagination import MAX_INTEGER
 from service.http.responses import json_response
 from service.http.route import api_router
@@ -48,7 +48,7 @@ class Moments(Answered):
     "/sessions/{session_id}/moments",
     response_model=Moments,
     summary="Several ticks in full",
-    responses=documented(UnknownSession, Invalid, NotRestorable),
+    responses=problem_responses(UnknownSession, Invalid, NotRestorable),
 )
 async def list_moments(
     session: TheSession,

@@ -12,7 +12,7 @@ from service.contract import requests as bodies
 from service.http import examples
 from service.http.content_type import JSON_ONLY
 from service.http.deps import Here
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.outcome_json import corrections_json
 from service.http.responses import json_response
 from service.http.route import api_router
@@ -27,7 +27,7 @@ router = api_router("talking")
     response_model=schemas.Parsed,
     summary="Understand a sentence",
     dependencies=[JSON_ONLY],
-    responses=documented(Malformed, Ambiguous, TooLarge, NotJson, Invalid, NotUnderstood),
+    responses=problem_responses(Malformed, Ambiguous, TooLarge, NotJson, Invalid, NotUnderstood),
 )
 @policy(idempotency_key=False)
 async def parse_text(

@@ -12,7 +12,7 @@ from pydantic import Field
 from service.contract.parts import Answered
 from service.contract.requests import Tick
 from service.http.deps import TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.pagination import MAX_INTEGER
 from service.http.responses import json_response
 from service.http.route import api_router
@@ -52,7 +52,7 @@ class Judged(Answered):
     "/sessions/{session_id}/regret",
     response_model=Judged,
     summary="What decisions cost against the best",
-    responses=documented(UnknownSession, Invalid, NotRestorable),
+    responses=problem_responses(UnknownSession, Invalid, NotRestorable),
 )
 async def read_regret(
     session: TheSession,

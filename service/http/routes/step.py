@@ -15,7 +15,7 @@ from service.http import examples
 from service.http.conditional.etag import TheConditions, respond_once
 from service.http.content_type import JSON_ONLY
 from service.http.deps import Here, TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.responses import etag, json_response
 from service.http.route import api_router
 from service.http.route_policy import policy
@@ -31,7 +31,9 @@ router = api_router("talking")
     response_model=schemas.StepResult,
     summary="Run some ticks",
     dependencies=[JSON_ONLY],
-    responses=documented(Malformed, UnknownSession, TooLarge, NotJson, Invalid, NotRestorable, NotSaved),
+    responses=problem_responses(
+        Malformed, UnknownSession, TooLarge, NotJson, Invalid, NotRestorable, NotSaved
+    ),
 )
 @policy(direct=True, timed=True)
 async def step_session(

@@ -15,7 +15,7 @@ from pydantic import Field
 from service.contract.parts import Answered, CellPair
 from service.contract.requests import Tick
 from service.http.deps import TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.pagination import MAX_INTEGER
 from service.http.responses import json_response
 from service.http.route import api_router
@@ -72,7 +72,7 @@ class TimelinePage(Answered):
     "/sessions/{session_id}/timeline",
     response_model=TimelinePage,
     summary="A stretch of the run at a glance",
-    responses=documented(UnknownSession, Invalid, NotRestorable),
+    responses=problem_responses(UnknownSession, Invalid, NotRestorable),
 )
 async def read_timeline(
     session: TheSession,

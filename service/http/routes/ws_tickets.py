@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from service.http.content_type import JSON_ONLY
 from service.http.deps import Here
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.responses import json_response
 from service.http.route import api_router
 from service.http.route_policy import policy
@@ -37,7 +37,7 @@ class Ticket(BaseModel):
     response_model=Ticket,
     summary="Get a ticket for a socket",
     dependencies=[JSON_ONLY],
-    responses=documented(Malformed, TooLarge, NotJson, Invalid),
+    responses=problem_responses(Malformed, TooLarge, NotJson, Invalid),
 )
 @policy(idempotency_key=False)
 async def create_ticket(
