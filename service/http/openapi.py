@@ -17,6 +17,7 @@ from service.http import access_control, openapi_links
 from service.http.conditional import etag, idempotency
 from service.http.errors import problem_responses
 from service.http.route import ApiRoute, GuardedRoute
+from service.http.route_policy import policy_of
 from service.problems import KINDS, MEDIA_TYPE
 
 _PROBLEM = {"$ref": "#/components/schemas/ProblemDocument"}
@@ -58,7 +59,9 @@ def _operations(
     document: dict[str, Any], routes: Sequence[APIRoute]
 ) -> Iterator[tuple[APIRoute, str, dict[str, Any]]]:
     """Each documented operation with its route."""
-    by_call = {(route.path_format, method.lower()): route for route in routes for method in route.methods}
+    by_call = {
+        (route.path_format, method.lower()): route for route in routes for method in route.methods or ()
+    }
     for path, item in document["paths"].items():
         for method, operation in item.items():
             yield by_call[path, method], method, operation
@@ -66,12 +69,12 @@ def _operations(
 
 def _document_route(route: APIRoute, method: str, operation: dict[str, Any]) -> None:
     """Adds what holds for every call alike."""
-    is_api, guarded = isinstance(route, ApiRoute), isinstance(route, GuardedRoute)
-    if is_api:
+    guarded = isinstance(route, GuardedRoute)
+    policy = policy_of(route.endpoint)
+    if isinstance(route, ApiRoute):
         _add_problems(operation, "invalid")  # parameters in the URL
-    idempotency.document(method, guarded and route.policy.idempotency_key, operation, _add_problems)
-    tagged = guarded and route.policy.entity_tag
-    etag.document(method, route.path_format, tagged, operation, _add_problems)
+    idempotency.document(method, policy.idempotency_key, operation, _add_problems)
+    etag.document(method, route.path_format, policy.entity_tag, operation, _add_problems)
     access_control.document(method, guarded, operation, _add_problems)
 
 

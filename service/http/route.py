@@ -54,7 +54,7 @@ class GuardedRoute(APIRoute):
             except ClientDisconnect:
                 return
             receive = receive_again(body, receive)
-        timed = self.policy.timed and scope["method"] in self.methods
+        timed = self.policy.timed and scope["method"] in (self.methods or ())
         with context.metrics.command("rest") if timed else nullcontext():
             await super().handle(scope, receive, send)
 

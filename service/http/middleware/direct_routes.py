@@ -47,7 +47,7 @@ class DirectRoutes:
             (method, route.path.removeprefix(f"{_TEMPLATE}/")): DirectCall(route)
             for route in routes
             if isinstance(route, ApiRoute) and route.policy.direct
-            for method in route.methods
+            for method in route.methods or ()
         }
 
     def __call__(self, scope: Scope, receive: Receive, send: Send) -> Awaitable[None]:
