@@ -19,7 +19,7 @@ from service.grammar.engine import Language
 from service.grammar.parse_types import Understood
 from service.grammar.references import heard
 from service.grammar.topic import ALONE, Topic
-from service.grammar.work_budget import Work
+from service.grammar.work_budget import WorkBudget
 
 MOST = 8
 TRIED = 40
@@ -45,7 +45,7 @@ class _Node:
     """the whole sentences that end here or below, the plainest first"""
 
 
-def _slotted(word: str) -> str:
+def _slot_kind(word: str) -> str:
     """A word with its number open; one stays one, for what follows it is singular."""
     return word if word == "1" else _NUMBER.sub(_ANY, word)
 
@@ -67,14 +67,14 @@ class Completer:
         *,
         extra: Sequence[str] = (),
         possible: Callable[[tuple[Action, ...]], bool] = lambda _: True,
-        work: Work | None = None,
+        work: WorkBudget | None = None,
     ) -> list[str]:
         """Up to eight whole sentences that begin with `prefix`, the plainest and most different first.
 
         `extra` are sentences of this moment (taught phrases, ids); `possible` says whether actions
         would work now. `work` is what all of it may cost: what was found by then is answered.
         """
-        work = work or Work(MOST_COMPLETING)
+        work = work or WorkBudget(MOST_COMPLETING)
         parse = partial(self._language.parse, work=work)
         head, tail = self._last_request(prefix, topic, work)
         found: list[str] = []
@@ -93,10 +93,10 @@ class Completer:
         node = self._root
         node.sentences.append(sentence)
         for word in _WORD.findall(sentence.lower()):
-            node = node.next.setdefault(_slotted(word), _Node())
+            node = node.next.setdefault(_slot_kind(word), _Node())
             node.sentences.append(sentence)
 
-    def _last_request(self, prefix: str, topic: Topic, work: Work) -> tuple[str, str]:
+    def _last_request(self, prefix: str, topic: Topic, work: WorkBudget) -> tuple[str, str]:
         """What stands before the last request of a compound, and that request's beginning."""
         for match in islice(reversed(list(_GAP.finditer(prefix))), GAPS):
             head = prefix[: match.end()]
@@ -119,7 +119,7 @@ class Completer:
     def _from_tree(self, prefix: str) -> Iterator[str]:
         """Sentences of the tree, the one typed so far kept as it was typed; different next words first."""
         spans = [match.span() for match in _WORD.finditer(prefix)]
-        words = [_slotted(prefix[start:end].lower()) for start, end in spans]
+        words = [_slot_kind(prefix[start:end].lower()) for start, end in spans]
         open_word = words.pop() if words and not prefix[-1:].isspace() else ""
         start = spans[-1][0] if open_word else len(prefix)
         for node, depth in self._walks(words):

@@ -44,7 +44,7 @@ class Unclear:
     lane: bool = False
 
 
-def heard(parse: Callable[[str, Topic], Parse], text: str, topic: Topic) -> Parse:
+def parse_in_topic(parse: Callable[[str, Topic], Parse], text: str, topic: Topic) -> Parse:
     """What a text means; a taught phrase counts only where the language has no meaning of its own for it.
 
     So "carry on" stays what it is when "carry" was taught.

@@ -16,7 +16,7 @@ from service import actions as contract
 from service.actions import Action, Advise, Ask, Forget, Hide, Pause, Redo, Resume, Show, Step, Teach, Undo
 from service.grammar.parse_types import Ambiguous as AmbiguousParse
 from service.grammar.parse_types import Correction, Parse, Refused, Understood
-from service.grammar.references import heard
+from service.grammar.references import parse_in_topic
 from service.grammar.sentences import Unsayable
 from service.grammar.topic import ALONE, Topic
 from service.interpreter.aliases import Phrasebook
@@ -117,8 +117,8 @@ class Listener:
     async def _read(self, text: str, session: Session | None, code: str) -> Parse:
         parse, topic = self.languages[code].parse, self.topic(session, code)
         if len(text) <= MOST_AT_ONCE:
-            return heard(parse, text, topic)
-        return await to_thread.run_sync(heard, parse, text, topic)
+            return parse_in_topic(parse, text, topic)
+        return await to_thread.run_sync(parse_in_topic, parse, text, topic)
 
     async def hear(
         self, text: str, session: Session | None = None, code: str = DEFAULT_LANGUAGE, field: str = "text"
