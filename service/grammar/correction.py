@@ -1,8 +1,8 @@
 """Corrections of an earlier utterance: "no, three" after "add five potholes" was done.
 
-A correction never changes what was done. Where the corrected request is known, two sentences are offered: undo
-and do it anew, or do it as well. Otherwise the refusal says to undo first. Corrections within one utterance
-are in `repairs`.
+A correction never changes what was done. Where the corrected request is known, two sentences are offered:
+undo and do it anew, or do it as well. Otherwise the refusal says to undo first. Corrections within one
+utterance are in `repairs`.
 """
 
 from __future__ import annotations

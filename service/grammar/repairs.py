@@ -95,7 +95,7 @@ class Repair:
         return [] if self._value != PERHAPS or self._alike(read) is not False else None
 
     def _without(self, read: Read) -> list[Choice]:
-        """The reading without what is not wanted: "use Dijkstra instead of A*", "instead of A* use Dijkstra"."""
+        """The reading without what is not wanted: "use Dijkstra instead of A*", in either order."""
         before = self._written(0, self._end)
         last = self._lattice.size
         ends = range(last, self._again, -1) if self._tail == last else (self._tail,)

@@ -2,8 +2,8 @@
 
 A correction replaces such a span: in "two cars, no, three" both are a number. A span can be read in very many
 ways (every sense of every word), so the ways are never listed. Two spans are compared by walking both at
-once, from all places that one can be at to all places that the other can be at after the same pieces. The cost
-grows with the number of edges, not with the number of readings.
+once, from all places that one can be at to all places that the other can be at after the same pieces. The
+cost grows with the number of edges, not with the number of readings.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """The work budget of one utterance, counted in steps of the engine and not in time.
 
-A sentence costs the same number of steps on every machine, so the machine does not decide what is understood. A
-sentence that exceeds the budget is refused as too involved; no labelled sentence comes near it
+A sentence costs the same number of steps on every machine, so the machine does not decide what is understood.
+A sentence that exceeds the budget is refused as too involved; no labelled sentence comes near it
 (`tests/grammar/test_work_budget.py`). Each stage counts the rounds of its innermost loop as steps.
 """
 
