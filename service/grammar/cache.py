@@ -3,8 +3,8 @@
 Parsing is a pure function of the text and of the attributes of the topic that it reads. The cache records
 those attributes and their values, and answers only while all of them are equal. So "add a pothole" is
 answered although other things were added meanwhile, and "remove it" only while "it" is the same. The same
-sentence is parsed while it is typed, when it is sent, and many times by scripts. Refusals are not cached: nobody repeats
-them, and rubbish must not fill the cache.
+sentence is parsed while it is typed, when it is sent, and many times by scripts.
+Refusals are not cached: nobody repeats them, and rubbish must not fill the cache.
 """
 
 from __future__ import annotations

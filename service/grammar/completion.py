@@ -1,9 +1,8 @@
-"""Help while typing: how a sentence that has been begun could go on.
+"""Completes a sentence while it is typed.
 
-Every completion is a whole sentence the grammar understands. They are found in a tree of sentences that
-the language itself makes (`sentences.yaml`, and the sayings of its frames), in which any number stands
-for any other: so a prefix is completed within its frame, and never guessed at. A first verb may be any
-that means the same.
+Every completion is a whole sentence that the grammar understands. Completions come from a prefix tree of the
+sentences that the language generates (`sentences.yaml`, and the sayings of its frames). Any number in it
+stands for any other number, and a first verb for every verb that means the same.
 """
 
 from __future__ import annotations
