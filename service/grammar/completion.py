@@ -16,7 +16,7 @@ from itertools import chain, islice
 from service.actions import Action
 from service.grammar.engine import Language
 from service.grammar.parse_types import Understood
-from service.grammar.references import heard
+from service.grammar.references import parse_in_topic
 from service.grammar.topic import ALONE, Topic
 from service.grammar.work_budget import WorkBudget
 
@@ -81,7 +81,7 @@ class Completer:
             whole = head + candidate
             if whole in found:
                 continue
-            parsed = heard(parse, whole, topic)
+            parsed = parse_in_topic(parse, whole, topic)
             if isinstance(parsed, Understood) and not parsed.corrections and possible(parsed.actions):
                 found.append(whole)
             if len(found) == MOST or work.left < 0:

@@ -1,8 +1,8 @@
 """Resolves references to what was said before: "it", "those", "again", "the other lane".
 
-A reference gets the edges of its referent, so frames treat "it" like "pothole-3". Nothing is guessed where there
-are several candidates: they are returned, and asked about. "That pothole" is the nearest pothole where none
-was spoken of; its frame says so.
+A reference gets the edges of its referent, so frames treat "it" like "pothole-3". Nothing is guessed where
+there are several candidates: they are returned, and asked about. "That pothole" is the nearest pothole where
+none was spoken of; its frame says so.
 """
 
 from __future__ import annotations
