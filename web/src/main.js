@@ -20,9 +20,11 @@ import { keepAddress } from "./timeline/momentAddress.js";
 import { TimelineLoader } from "./timeline/timelineLoader.js";
 import { TimeTravel } from "./timeline/timeTravel.js";
 import { byId } from "./ui/dom.js";
+import { fillTexts } from "./ui/shell.js";
 
 /** @typedef {import("./core/page.js").Page} Page */
 
+fillTexts(document);
 const store = createStore(reduce, INITIAL);
 const connector = new Connector(store, (data) => page.picture?.(data));
 new TimelineLoader(store, { storage: browserStorage() });

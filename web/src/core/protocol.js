@@ -101,16 +101,16 @@ export function decode(text) {
   try {
     message = JSON.parse(text);
   } catch {
-    throw new ProtocolError("the service sent something that is not JSON");
+    throw new ProtocolError("not JSON");
   }
   if (typeof message !== "object" || message === null || typeof message.type !== "string") {
-    throw new ProtocolError("the service sent a message without a type");
+    throw new ProtocolError("no type");
   }
   const needed = Object.hasOwn(NEEDED, message.type) ? NEEDED[message.type] : null;
   if (needed === null) return { type: "unknown" };
   const lacking = needed.filter((key) => !(key in message));
   if (lacking.length > 0) {
-    throw new ProtocolError(`the service sent "${message.type}" without ${lacking.join(", ")}`);
+    throw new ProtocolError(`${message.type}: no ${lacking.join(", ")}`);
   }
   return message;
 }

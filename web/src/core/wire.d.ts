@@ -208,6 +208,8 @@ export interface Counterfactual {
   at_tick: number;
   /** The move that was made, where another is asked about. */
   instead_of: Move | null;
+  /** What differs, in a sentence or two. */
+  text: string;
   /** Actions said after that tick, left out of both. */
   said_since: number;
   real: Side;
@@ -265,6 +267,8 @@ export interface End {
   by_hand: boolean;
   cause: CrashCause | null;
   digest: string;
+  /** The end in a few words. */
+  text: string;
 }
 
 /** The outcome of a choice with every quantity at its median or mean. */
@@ -565,6 +569,8 @@ export interface Option {
   cost: number | null;
   reason: string;
   causes: string[];
+  /** What spoke for or against it, in a few words. */
+  text: string;
 }
 
 /** What is otherwise, and from when: a move or actions, one of the two. */

@@ -80,6 +80,6 @@ export function createPanels(page) {
     createReader(),
     createRoads(),
     createPalette(/** @type {HTMLDialogElement} */ (byId("palette")), page),
-    createHelp(byId("help"), page),
+    createHelp(byId("help"), /** @type {HTMLDialogElement} */ (byId("help-dialog")), page),
   ];
 }

@@ -1,6 +1,7 @@
 // @ts-check
 /** New roads to choose from the palette, one of each family. */
 
+import { t } from "../core/texts.js";
 import { LAYOUTS, layoutName } from "../core/words.js";
 
 /** @import { Scenario } from "../core/wire.js" */
@@ -11,8 +12,8 @@ export function createRoads() {
   return {
     acts: LAYOUTS.map((layout) => ({
       name: `road-${layout}`,
-      group: "New road",
-      now: ({ past, world }) => (world === null || past ? null : { label: `New road: ${layoutName(layout)}`, turns: [[{ do: "scenario", layout: /** @type {Scenario["layout"]} */ (layout) }]] }),
+      group: t("groups.new_road"),
+      now: ({ past, world }) => (world === null || past ? null : { label: t("talk.new_road", { name: layoutName(layout) }), turns: [[{ do: "scenario", layout: /** @type {Scenario["layout"]} */ (layout) }]] }),
     })),
   };
 }
