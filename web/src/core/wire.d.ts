@@ -558,7 +558,7 @@ export interface NewSession {
   link?: string | null;
 }
 
-/** Nothing to be said. */
+/** An empty object. */
 export type NoFields = { [key: string]: unknown };
 
 /** One move as the planner saw it. */
