@@ -7,7 +7,6 @@ import re
 from playwright.sync_api import Locator, expect
 
 from tests.browser.conftest import Visit
-from tests.browser.held import Held
 from tests.browser.visitor import Visitor
 
 SCRIPTED_SPEECH = """
