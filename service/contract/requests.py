@@ -1,20 +1,22 @@
 """What callers send. Unknown keys and values of another type are refused.
 
-The language contract's actions are `service.actions`; what is answered is in `schemas`.
+The language contract's actions are `service.actions`; what is answered is in `answers`.
 """
 
 from __future__ import annotations
 
+import warnings
 from typing import Annotated, Any, Literal, TypeVar
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
+from pydantic.warnings import UnsupportedFieldAttributeWarning
 
 from service.actions import Action, load
+from service.contract.model import Tick
 from service.contract.text import Letters, Name, check_letters
 from service.http.config_schema import CONFIG_SCHEMA
 from sim.actions import PlaceableKind, Weather
 
-Tick = Annotated[int, Field(ge=0, le=2**53 - 1, description="Ticks since the session began.")]
 ConfigParts = Annotated[dict[str, Any], WithJsonSchema(CONFIG_SCHEMA)]
 
 
@@ -32,6 +34,11 @@ Strictly = Annotated[Value, BeforeValidator(_strictly)]
 
 MAX_ACTIONS = 100
 """Actions that may be sent at once."""
+
+
+# FastAPI gives the field of a body an alias that pydantic has no use for, and silences the warning when it
+# builds the field. A field whose schema is built later warns all the same.
+warnings.filterwarnings("ignore", "The 'alias' attribute", UnsupportedFieldAttributeWarning)
 
 
 class Sent(BaseModel):

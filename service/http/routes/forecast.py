@@ -5,10 +5,8 @@ from __future__ import annotations
 from typing import Annotated
 
 from fastapi import Query, Response
-from pydantic import Field
 
-from service.contract.parts import Answered, CellPair, Decision
-from service.contract.requests import Tick
+from service.contract.forecast import Expected
 from service.http.deps import Here, TheSession
 from service.http.errors import documented
 from service.http.pagination import MAX_INTEGER
@@ -17,7 +15,7 @@ from service.http.route import api_router
 from service.http.session_json import told_decision
 from service.http.ticks import check_tick
 from service.problems import Invalid, NotRestorable, UnknownSession
-from service.sessions.scheduler.offload import QUESTION_S, asks_others, off_loop
+from service.sessions.scheduler.offload import QUESTION_S, run_in_thread, uses_external_planner
 from sim.decide import sense
 from sim.forecast import predict
 from sim.session.timeline import Timeline
@@ -27,24 +25,6 @@ router = api_router("watching")
 
 MOST_AHEAD = 16
 """Ticks that are forecast at most."""
-
-
-class ExpectedTick(Answered):
-    """Where movers are expected to be at a tick to come."""
-
-    tick: Tick
-    movers: dict[str, CellPair] = Field(description="Their cells, by id.")
-
-
-class Expected(Answered):
-    """What is expected at a tick: what the vehicle is about to do, and where the movers will be."""
-
-    tick: Tick
-    decision: Decision | None = Field(description="The decision taken at it; null where a result stands.")
-    exact: bool = Field(
-        description="Whether it is sure: false beyond the first tick where others react to the vehicle."
-    )
-    ahead: list[ExpectedTick]
 
 
 @router.get(
@@ -68,7 +48,7 @@ async def read_forecast(
     way = session.timeline.copy()
     if tick is not None:
         check_tick(tick, way.tick)
-    run, step = await off_loop(asks_others(way), QUESTION_S, lambda: _take_step(way, tick))
+    run, step = await run_in_thread(uses_external_planner(way), QUESTION_S, lambda: _take_step(way, tick))
     decision = None if step is None else step.decision
     expected = predict(sense(run)[0] if step is None else step.percept, ticks)
     if decision is not None:
@@ -81,7 +61,7 @@ async def read_forecast(
         }
         for each in range(ticks)
     ]
-    value = None if decision is None else told_decision(here.words, run, decision)
+    value = None if decision is None else told_decision(here.narrator, run, decision)
     exact = ticks == 1 or not run.config.reacting
     return json_response({"tick": now, "decision": value, "exact": exact, "ahead": ahead})
 
