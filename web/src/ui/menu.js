@@ -28,9 +28,12 @@ const NARROW_PX = 480;
 export function createMenu(host, label, items) {
   const id = `${host.id}-list`;
   let open = false;
+  /** What stands in it; kept when it closes, since the focus goes back from there. @type {(Item | null)[]} */
+  let entered = [];
 
   function show() {
-    render(template({ id, label, open, items: open ? items() : [], pressed, toggles, toggled, opens }), host);
+    if (open) entered = items();
+    render(template({ id, label, open, items: entered, pressed, toggles, toggled, opens }), host);
   }
   show();
   const list = find(host, ".menu-list");
