@@ -55,17 +55,17 @@ from service.http.routes import (
     ws_tickets,
 )
 from service.http.routes import language as language_route
-from service.interpreter.aliases import Phrasebook
-from service.interpreter.interpreter import Listener
+from service.interpreter.aliases import Aliases
+from service.interpreter.interpreter import Interpreter
 from service.interpreter.languages import Language, Languages
-from service.llm import LanguageModel, configured
+from service.llm import LanguageModel, create_model
 from service.narration import Narrator
 from service.resources import DEFAULT_LANGUAGE
 from service.security.guard import Guard
 from service.sessions.manager import SessionManager
-from service.sessions.narrator_protocol import Words
+from service.sessions.narrator_protocol import NarratorProtocol
 from service.sessions.scheduler.clock import Clock, WheelClock
-from service.sessions.session import Surroundings
+from service.sessions.session import SessionServices
 from service.settings import Settings
 from service.shutdown import STOP_S, within
 from service.store import Store, open_store
@@ -123,7 +123,7 @@ def create_app(
     *,
     store: Store | None = None,
     language: Language | None = None,
-    words: Words | None = None,
+    narrator: NarratorProtocol | None = None,
     clock: Clock | None = None,
     model: LanguageModel | None = None,
 ) -> FastAPI:
@@ -136,15 +136,15 @@ def create_app(
     measured = Metrics()
     store = time_store(store or open_store(settings.database), measured.store)
     clock = clock or WheelClock(late=measured.lateness.observe)
-    words = words or Narrator.load()
-    model = model or configured(settings)
-    manager = SessionManager(Surroundings(store, clock, words, settings))
+    narrator = narrator or Narrator.load()
+    model = model or create_model(settings)
+    manager = SessionManager(SessionServices(store, clock, narrator, settings))
     languages = Languages.load() if language is None else Languages({DEFAULT_LANGUAGE: language})
-    phrasebook = Phrasebook(store, languages)
-    listener = Listener(
+    aliases = Aliases(store, languages)
+    interpreter = Interpreter(
         languages,
-        phrasebook,
-        words,
+        aliases,
+        narrator,
         most_chars=settings.max_text_chars,
         model=model,
         confirm=settings.llm_confirm,
@@ -152,7 +152,7 @@ def create_app(
     )
     measured.read_from(manager)
     guard, answers = Guard(settings), KeptAnswers(store)
-    context = Context(settings, store, clock, listener, words, manager, guard, measured, answers)
+    context = Context(settings, store, clock, interpreter, narrator, manager, guard, measured, answers)
 
     async def close(sleeper: asyncio.Task[None]) -> None:
         await asyncio.wait([sleeper])
@@ -165,10 +165,10 @@ def create_app(
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
         await store.open()
         await manager.open()
-        await phrasebook.open()
+        await aliases.open()
         await context.answers.open()
         clock.start()
-        sleeper = asyncio.create_task(manager.sleeper().run())
+        sleeper = asyncio.create_task(manager.evictor().run())
         try:
             with without_waiting():
                 yield

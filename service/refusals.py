@@ -60,7 +60,7 @@ class Refusals:
         """What a session cannot do, as a sentence."""
         return self._say("session", code, facts)
 
-    def pace(self, code: str, facts: Mapping[str, object]) -> str:
+    def playback_speed(self, code: str, facts: Mapping[str, object]) -> str:
         """Why the clock cannot be set so, as a sentence."""
         return self._say("pace", code, facts)
 

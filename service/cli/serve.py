@@ -149,7 +149,7 @@ async def _serve(config: uvicorn.Config, store: Store, listener: socket.socket, 
     app = cast(FastAPI, config.app)
     await asyncio.create_task(warmed(app))
     manager = app.state.context.manager
-    sweep = garbage.begin(lambda: manager.live, lambda: manager.watchers)
+    sweep = garbage.begin(lambda: manager.live_count, lambda: manager.subscriber_count)
     sweeping = asyncio.create_task(sweep.run())
     # Before the server starts, so that a database that cannot be opened is one clear line.
     await store.open()
@@ -184,7 +184,7 @@ class _Server(uvicorn.Server):
         if self.started:
             self._on_ready()
             sys.stdout.flush()
-            languages = self.config.app.state.context.listener.languages  # type: ignore[union-attr]
+            languages = self.config.app.state.context.interpreter.languages  # type: ignore[union-attr]
             self._warming = asyncio.create_task(warm_up(languages))
 
     def cancel_warm_up(self) -> None:

@@ -78,7 +78,7 @@ class Documents:
     typos: Mapping[str, Any]
     sentences: Mapping[str, Any]
     frames: Mapping[str, Any]
-    """`sets`, `agree` and `frames` of all files together"""
+    """`sets`, `agree`, and the `frames` of all intents together"""
 
 
 def read_language(folder: Path) -> LanguageData:
@@ -107,12 +107,9 @@ def _documents(folder: Path) -> Documents:
     words = read_yaml(folder / "words.yaml")
     if missing := MESSAGES - words["messages"].keys():
         raise KeyError(f"words.yaml has no message {', '.join(sorted(missing))}")
-    frames: dict[str, Any] = {"sets": {}, "agree": {}, "frames": {}}
-    for path in data_files(folder / "frames"):
-        data = read_yaml(path)
-        frames["sets"].update(data.get("sets", {}))
-        frames["agree"].update(data.get("agree", {}))
-        for name, content in data.get("frames", {}).items():
+    frames: dict[str, Any] = {**read_yaml(folder / "sets.yaml"), "frames": {}}
+    for path in data_files(folder / "intents"):
+        for name, content in read_yaml(path)["frames"].items():
             if name in frames["frames"]:
                 raise FrameError(f"frame {name} is there twice")
             frames["frames"][name] = content
@@ -128,6 +125,8 @@ def _documents(folder: Path) -> Documents:
 
 def _lexicon(folder: Path) -> Lexicon:
     lexicon = Lexicon(read_macros(read_yaml(folder / "macros.yaml")))
+    for path in data_files(folder / "intents"):  # first: what a word means to one intent is tried first
+        lexicon.add_section(read_yaml(path).get("phrases", {}))
     for path in data_files(folder / "lexicon"):
         lexicon.add_section(read_yaml(path))
     if "planner" in lexicon.concepts:  # one that the language has no words for goes by its name

@@ -66,6 +66,9 @@ class Lexicon:
         self.concepts: dict[str, set[str]] = {}
         """Concept → its forms."""
         self.collisions: list[str] = []
+        """Phrases with two values of one concept."""
+        self.repeats: list[str] = []
+        """Written phrases that say only what is said already."""
         self.begins: dict[str, set[str]] = {}
         """Concept → the first words of its phrases."""
         self.typical: dict[tuple[str, str], Words] = {}
@@ -76,29 +79,42 @@ class Lexicon:
         for key, content in data.items():
             concept, _, form = key.partition("/")
             self.concepts.setdefault(concept, set()).add(form)
-            if isinstance(content, str):
-                self._add_phrases(content, Sense(concept, None, form))
-            elif isinstance(content, list):
+            if isinstance(content, dict):
+                for value, phrases in content.items():
+                    self._add_phrases(phrases, Sense(concept, value, form))
+            elif isinstance(content, list) and content and isinstance(content[0], dict):
                 for entry in content:
                     self._add_phrases(entry["say"], Sense(concept, entry["is"], form))
             else:
-                for value, phrases in content.items():
-                    self._add_phrases(str(phrases), Sense(concept, value, form))
+                self._add_phrases(content, Sense(concept, None, form))
 
-    def _add_phrases(self, pattern: str, sense: Sense) -> None:
-        for words in expand(pattern, self._macros):
+    def _add_phrases(self, phrases: str | Sequence[str], sense: Sense) -> None:
+        """Add phrases: a list of them, or one string with commas between them."""
+        for pattern in (phrases,) if isinstance(phrases, str) else phrases:
+            self._add_pattern(str(pattern), sense)
+
+    def _add_pattern(self, pattern: str, sense: Sense) -> None:
+        phrases = expand(pattern, self._macros)
+        added = 0
+        for words in phrases:
             self.begins.setdefault(sense.concept, set()).add(words[0])
-            if GAP in words:
-                cut = words.index(GAP)
-                for half, halfsense in ((words[:cut], sense), (words[cut + 1 :], Sense(SECOND))):
-                    node = self._node(half)
-                    if node.split is None:
-                        node.split = {}
-                    senses = node.split.setdefault(words, [])
-                    if halfsense not in senses:
-                        senses.append(halfsense)
-            else:
-                self._add(words, sense)
+            added += self._add_split(words, sense) if GAP in words else self._add(words, sense)
+        if phrases and not added:
+            self.repeats.append(f"{pattern!r} is already among the phrases of {sense.concept}")
+
+    def _add_split(self, words: Words, sense: Sense) -> bool:
+        """Add a phrase of two halves; whether it is new."""
+        cut = words.index(GAP)
+        added = False
+        for half, half_sense in ((words[:cut], sense), (words[cut + 1 :], Sense(SECOND))):
+            node = self._node(half)
+            if node.split is None:
+                node.split = {}
+            senses = node.split.setdefault(words, [])
+            if half_sense not in senses:
+                senses.append(half_sense)
+                added = True
+        return added
 
     def _node(self, words: Words) -> Node:
         node = self.root
@@ -137,7 +153,8 @@ class Lexicon:
 
         unique(self.root)
 
-    def _add(self, words: Words, sense: Sense) -> None:
+    def _add(self, words: Words, sense: Sense) -> bool:
+        """Add a phrase; whether it is new."""
         node = self._node(words)
         if not sense.form:
             best = sense.concept, repr(sense.value)
@@ -151,8 +168,10 @@ class Lexicon:
                     self.collisions.append(
                         f"{' '.join(words)!r} is both {other.value!r} and {sense.value!r} of {sense.concept}"
                     )
-                return
+                    return True
+                return False
         node.senses.append(sense)
+        return True
 
     def knows(self, word: str) -> bool:
         """Whether any phrase contains the word."""

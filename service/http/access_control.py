@@ -12,7 +12,7 @@ from starlette.types import Scope
 
 from service.http.headers import first_header
 from service.http.middleware.cross_site import READING
-from service.problems import CrossSite, KeyNeeded
+from service.problems import CrossSite, Unauthorized
 from service.security.cross_site import is_cross_site, same_site
 from service.security.guard import Guard, client_of
 
@@ -20,12 +20,12 @@ _GETTING = frozenset(("GET", "HEAD"))
 
 
 def check_access(scope: Scope, guard: Guard) -> None:
-    """Raises `CrossSite`, `KeyNeeded` or `TooManyChanges`; counts a change."""
+    """Raises `CrossSite`, `Unauthorized` or `RateLimited`; counts a change."""
     method = scope["method"]
     if method in _GETTING:
         _check_cross_site_get(scope)
     if not guard.key.admits(first_header(scope, b"authorization")):
-        raise KeyNeeded
+        raise Unauthorized
     if method not in READING:
         guard.count_change(client_of(scope))
 

@@ -10,11 +10,11 @@ from starlette.requests import ClientDisconnect
 from starlette.types import Message, Receive, Scope
 
 from service.http.headers import first_header
-from service.problems import TooLarge
+from service.problems import ContentTooLarge
 
 
 async def read_body(scope: Scope, receive: Receive, limit: int) -> bytes:
-    """The whole body. Raises `TooLarge` (more than `limit` bytes) or `ClientDisconnect` (incomplete)."""
+    """The whole body. Raises `ContentTooLarge` (over `limit` bytes) or `ClientDisconnect` (incomplete)."""
     length = first_header(scope, b"content-length") or ""
     if length.isdecimal() and int(length) > limit:
         raise _too_large(limit)
@@ -43,5 +43,5 @@ def receive_again(body: bytes, receive: Receive) -> Receive:
     return replay
 
 
-def _too_large(limit: int) -> TooLarge:
-    return TooLarge(f"At most {limit} bytes are read here.", headers={"Connection": "close"})
+def _too_large(limit: int) -> ContentTooLarge:
+    return ContentTooLarge(f"At most {limit} bytes are read here.", headers={"Connection": "close"})

@@ -14,10 +14,10 @@ from service.http.conditional.answers import KeptAnswers
 from service.http.metrics import Metrics
 from service.http.realtime.frame_stream import Reels
 from service.http.realtime.open_streams import OpenStreams
-from service.interpreter.interpreter import Listener
+from service.interpreter.interpreter import Interpreter
 from service.security.guard import Guard
 from service.sessions.manager import SessionManager
-from service.sessions.narrator_protocol import Words
+from service.sessions.narrator_protocol import NarratorProtocol
 from service.sessions.scheduler.clock import Clock
 from service.sessions.session import Session
 from service.settings import Settings
@@ -31,8 +31,8 @@ class Context:
     settings: Settings
     store: Store
     clock: Clock
-    listener: Listener
-    words: Words
+    interpreter: Interpreter
+    narrator: NarratorProtocol
     manager: SessionManager
     guard: Guard
     metrics: Metrics

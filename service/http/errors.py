@@ -20,13 +20,13 @@ from service.http.responses import ProblemResponse
 from service.http.validation import request_problem
 from service.problems import (
     MEDIA_TYPE,
+    ContentTooLarge,
     Internal,
     Malformed,
+    MethodNotAllowed,
     NotFound,
     NotSaved,
     ProblemError,
-    TooLarge,
-    WrongMethod,
 )
 from service.store import StoreError
 
@@ -76,9 +76,9 @@ def _framework_problem(request: Request, error: HTTPException) -> ProblemError:
         case 405:
             offered = _methods_at(request)
             detail = f"{where} is not offered; here one can {' or '.join(offered)}."
-            return WrongMethod(detail, headers={"Allow": _allow(offered)})
+            return MethodNotAllowed(detail, headers={"Allow": _allow(offered)})
         case 413:
-            return TooLarge("The body is larger than is read here.", headers={"Connection": "close"})
+            return ContentTooLarge("The body is larger than is read here.", headers={"Connection": "close"})
         case 400:
             return Malformed("The body cannot be read.")
         case _:

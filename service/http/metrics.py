@@ -17,7 +17,7 @@ from prometheus_client.core import CounterMetricFamily, Metric
 from service.problems import KINDS
 from service.server_timing import PARTS, Part, told_to
 from service.sessions.manager import SessionManager
-from service.sessions.persistence.snapshot_scheduler import FATES
+from service.sessions.persistence.snapshot_scheduler import SNAPSHOT_RESULTS
 from service.store import Store
 
 LATENESS_S = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.25, 0.5, 1.0)
@@ -101,10 +101,10 @@ class Metrics:
 
     def read_from(self, manager: SessionManager) -> None:
         """Sets where the gauges and the counts of snapshots are read."""
-        self._sessions.set_function(lambda: manager.live)
-        self._sleeping.set_function(lambda: manager.sleeping)
-        self._watchers.set_function(lambda: manager.watchers)
-        self._snapshots = lambda: {fate: manager.keeper.fates[fate] for fate in FATES}
+        self._sessions.set_function(lambda: manager.live_count)
+        self._sleeping.set_function(lambda: manager.evicted_count)
+        self._watchers.set_function(lambda: manager.subscriber_count)
+        self._snapshots = lambda: {fate: manager.snapshots.counts[fate] for fate in SNAPSHOT_RESULTS}
 
     def command(self, channel: Channel) -> CommandTimer:
         """Times a command that came by a channel, and its parts."""

@@ -26,7 +26,7 @@ _FRAMEWORK_ERRORS = ("HTTPValidationError", "ValidationError")
 def install(app: FastAPI) -> None:
     """Serves the corrected document; it is made once."""
     generate: Callable[[], dict[str, Any]] = app.openapi
-    languages: Sequence[str] = app.state.context.listener.languages.codes
+    languages: Sequence[str] = app.state.context.interpreter.languages.codes
     made: list[dict[str, Any]] = []
 
     def openapi() -> dict[str, Any]:

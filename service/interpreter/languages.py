@@ -13,7 +13,7 @@ from service.interpreter.guide import Guide
 from service.problems import FieldProblem, Invalid
 from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE, prompts_folder
-from service.sessions.availability import refusal
+from service.sessions.availability import refusal_of
 
 
 class Language(Protocol):
@@ -50,7 +50,9 @@ class Languages:
     def load(cls) -> Languages:
         """All there are. Raises `LanguageDataError`, naming every defect, when one is unfit."""
         codes = sorted(path.name for path in (prompts_folder() / "language").iterdir() if path.is_dir())
-        loaded = {code: Grammar.load(code, offered=lambda action: refusal(action) is None) for code in codes}
+        loaded = {
+            code: Grammar.load(code, offered=lambda action: refusal_of(action) is None) for code in codes
+        }
         for code in codes:
             refusals(code)  # read at the start as well
         return cls(loaded)

@@ -21,7 +21,7 @@ class FakeModel:
     async def interpret(self, text: str) -> Interpretation:
         """What was written down for the sentence."""
         self.asked.append(text)
-        nothing = Interpretation(told="The language model found nothing to do in this.")
+        nothing = Interpretation(explanation="The language model found nothing to do in this.")
         return self.interpretations.get(text, nothing)
 
     async def rephrase(self, text: str, facts: Facts) -> str:  # noqa: ARG002 -- the interface has it

@@ -31,12 +31,12 @@ class Prompt:
 
 
 @dataclass(frozen=True, slots=True)
-class Told:
+class FailureMessages:
     """What a person is told, reason by reason."""
 
     sentences: dict[Reason, str]
 
-    def of(self, failure: ModelFailure) -> str:
+    def message_for(self, failure: ModelFailure) -> str:
         """The sentence for a failure."""
         return self.sentences[failure.reason].format(**failure.parts)
 
@@ -58,14 +58,14 @@ def load_prompt(name: str, folder: Path | None = None) -> Prompt:
     return Prompt(name, version, body.strip().replace(SCHEMA_MARK, schema()), again.strip())
 
 
-def load_told(folder: Path | None = None) -> Told:
+def load_failure_messages(folder: Path | None = None) -> FailureMessages:
     """A sentence for every reason. Raises `PromptError`."""
     path = (folder or llm_folder()) / "told.yaml"
     sentences = _values(_text(path), path)
     wrong = set(sentences) ^ set(get_args(Reason))
     if wrong or not all(isinstance(sentence, str) for sentence in sentences.values()):
         raise PromptError(f"{path} must have a sentence for each reason: {', '.join(sorted(wrong))}")
-    return Told(sentences)
+    return FailureMessages(sentences)
 
 
 def load_claims(folder: Path | None = None) -> dict[str, Any]:

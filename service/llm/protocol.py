@@ -22,7 +22,7 @@ class Interpretation:
     """What a model made of a sentence: actions, or one sentence on why there are none."""
 
     actions: tuple[Action, ...] = ()
-    told: str = ""
+    explanation: str = ""
 
 
 class LanguageModel(Protocol):

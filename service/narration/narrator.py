@@ -15,7 +15,7 @@ from service.narration.outlook import outlook
 from service.narration.replies import Replies
 from service.narration.sayings import Sayings
 from service.narration.side_by_side import SidesBySide
-from service.sessions.facts import Answerable, Fact, Lesson, SideBySideTexts
+from service.sessions.facts import AliasChange, Answerable, Fact, SideBySideTexts
 from sim.decide import sense
 from sim.events import Event, EventType
 from sim.explain.side_by_side import SideBySide
@@ -128,7 +128,7 @@ class Narrator:
         """A counterfactual beside the real run: what differs, and how each of the two ends."""
         return self._sides.texts(found)
 
-    def lesson(self, lesson: Lesson) -> str:
+    def alias_change(self, lesson: AliasChange) -> str:
         """The reply to a phrase that was taught or forgotten."""
         return self._replies.lesson(lesson)
 
@@ -168,11 +168,11 @@ class Narrator:
         """A planner as people know it."""
         return self._sayings.planner(name)
 
-    def silent(self, planner: str, fault: str) -> str:
+    def planner_timeout(self, planner: str, fault: str) -> str:
         """What is said when a planner did not answer in time and a person is to drive."""
         return self._sayings.say("log", "events", "planner_silent", planner=planner, fault=fault)
 
-    def done(self, facts: tuple[Fact, ...]) -> str:
+    def reply(self, facts: tuple[Fact, ...]) -> str:
         """The reply: what was done, in a sentence for each fact."""
         return self._replies.done(facts)
 

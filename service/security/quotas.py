@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from service.problems import OverQuota
+from service.problems import QuotaExceeded
 
 
 class Reservation:
@@ -35,7 +35,7 @@ class Quotas:
 
     @contextmanager
     def reserve(self, owner: str) -> Iterator[Reservation]:
-        """Counts a session while it is made, and from then on if it was. Raises `OverQuota`."""
+        """Counts a session while it is made, and from then on if it was. Raises `QuotaExceeded`."""
         reservation = Reservation()
         if self._max_sessions is None and self._max_cells is None:
             yield reservation
@@ -67,12 +67,12 @@ class Quotas:
         cells = self._cells.get(owner, {})
         sessions = len(cells) + self._making.get(owner, 0)
         if self._max_sessions is not None and sessions >= self._max_sessions:
-            raise OverQuota(
+            raise QuotaExceeded(
                 f"You have {sessions} sessions, and {self._max_sessions} is the most for one "
                 "client here. Delete one and try again."
             )
         if self._max_cells is not None and sum(cells.values()) >= self._max_cells:
-            raise OverQuota(
+            raise QuotaExceeded(
                 f"Your roads have {sum(cells.values())} cells together, and {self._max_cells} is the most "
                 "for one client here. Delete a session and try again."
             )

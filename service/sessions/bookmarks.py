@@ -16,15 +16,15 @@ from service.store import EntryRecord, Store, StoreError
 from sim.session.edits import Change
 from sim.session.timeline import Timeline
 
-MOST_NAMES = 100
+MAX_BOOKMARKS = 100
 """Names that a session may hold: each keeps a whole timeline, though states are shared."""
 
-MOST_TOLD = 3
+MAX_SUGGESTIONS = 3
 """How many names are told to whoever asks for one that is not there."""
 
 
 @dataclass(frozen=True, slots=True)
-class Moment:
+class Bookmark:
     """A named moment: how many changes had been accepted, and the timeline as it was."""
 
     name: str
@@ -38,7 +38,7 @@ class Moment:
 
 
 @dataclass(frozen=True, slots=True)
-class Kept:
+class Bookmarked:
     """The present was given a name; `again` if the name was another moment's before."""
 
     name: str
@@ -47,7 +47,7 @@ class Kept:
 
 
 @dataclass(frozen=True, slots=True)
-class Went:
+class Jumped:
     """The session went to another tick, by going back or (with a `name`) to a named moment."""
 
     before: int
@@ -56,7 +56,7 @@ class Went:
     name: str | None = None
 
 
-def with_names(entries: Sequence[EntryRecord], saved: Iterable[Moment]) -> Sequence[EntryRecord]:
+def attach_names(entries: Sequence[EntryRecord], saved: Iterable[Bookmark]) -> Sequence[EntryRecord]:
     """Entries that were replayed, each with the names it gave."""
     names: dict[int, dict[str, int]] = {}
     for moment in saved:
@@ -66,12 +66,12 @@ def with_names(entries: Sequence[EntryRecord], saved: Iterable[Moment]) -> Seque
     return [replace(entry, names=names.get(entry.sequence, {})) for entry in entries]
 
 
-async def told_where(store: Store, problem: UnknownName, actions: Sequence[Action]) -> UnknownName:
+async def add_other_session(store: Store, problem: UnknownName, actions: Sequence[Action]) -> UnknownName:
     """The problem, telling also of another session in which there is such a moment."""
     (error,) = problem.errors
     action = actions[int(error.field.split(".")[1])]
     try:
-        found = await store.moments(1, name=action.name) if isinstance(action, Load) else ()
+        found = await store.bookmarks(1, name=action.name) if isinstance(action, Load) else ()
     except StoreError:
         return problem
     if not found:
@@ -81,11 +81,11 @@ async def told_where(store: Store, problem: UnknownName, actions: Sequence[Actio
     return UnknownName(sentence, errors=[FieldProblem(error.field, sentence)], **problem.more)
 
 
-def unknown(name: str, names: Iterable[str], where: str) -> UnknownName:
+def unknown_bookmark(name: str, names: Iterable[str], where: str) -> UnknownName:
     """The problem of a name that nothing was saved under, with the nearest there are."""
     from rapidfuzz import process  # at the first name that is not there
 
-    near = [found for found, _, _ in process.extract(name, list(names), limit=MOST_TOLD)]
+    near = [found for found, _, _ in process.extract(name, list(names), limit=MAX_SUGGESTIONS)]
     told = f" There is: {', '.join(near)}." if near else " Nothing has been saved here yet."
     sentence = f"Nothing was saved as {name!r}.{told}"
     return UnknownName(sentence, errors=[FieldProblem(where, sentence)], suggestions=near)

@@ -10,9 +10,9 @@ import orjson
 
 from service.contract.encode.decision import brief_decision_json
 from service.contract.encode.json import encoded
-from service.contract.encode.state import Json, Standing, metrics_json, state_json
+from service.contract.encode.state import Json, SessionStatus, metrics_json, state_json
 from service.sessions.log import LogEvent
-from service.sessions.subscribers import Missed
+from service.sessions.subscribers import MissedTicks
 from sim.plan import Decision
 from sim.session.edits import Change
 from sim.state import SimState
@@ -48,7 +48,7 @@ def hello_message(
 
 def tick_message(
     sequence: int,
-    standing: Callable[[], Standing],
+    status: Callable[[], SessionStatus],
     before: SimState,
     after: SimState,
     decision: Decision | None,
@@ -58,7 +58,7 @@ def tick_message(
     """One tick: what moved, or the whole state, `standing` included, where a new road began."""
     world = after.world
     if world.episode != before.world.episode:
-        seen: Json = {"state": state_json(standing(), after)}
+        seen: Json = {"state": state_json(status(), after)}
     else:
         seen = motion_json(before.world, world)
     return encoded(
@@ -79,7 +79,7 @@ def tick_message(
 
 
 def changed_message(
-    standing: Standing,
+    status: SessionStatus,
     run: SimState,
     text: str | None,
     reply: str,
@@ -91,19 +91,19 @@ def changed_message(
     # The type stands first: readers of events take its name from there.
     told: Json = {
         "type": "changed",
-        "sequence": standing.sequence,
+        "sequence": status.sequence,
         "text": text,
         "reply": reply,
         "changes": changes,
         "events": lines,
-        "state": state_json(standing, run),
+        "state": state_json(status, run),
     }
     if views:
         told["views"] = views
     return encoded(told)
 
 
-def state_message(state: bytes, missed: Missed | None) -> bytes:
+def state_message(state: bytes, missed: MissedTicks | None) -> bytes:
     """The whole state, as JSON text, for a reader that missed some ticks."""
     ticks = None if missed is None else [missed.first_tick, missed.last_tick]
     return encoded({"type": "state", "missed": ticks, "state": orjson.Fragment(state)})

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Protocol
 
-from service.sessions.facts import Answerable, Fact, Lesson, SideBySideTexts
+from service.sessions.facts import AliasChange, Answerable, Fact, SideBySideTexts
 from sim.events import Event
 from sim.explain.side_by_side import SideBySide
 from sim.forecast import Forecast
@@ -12,7 +12,7 @@ from sim.plan import Decision
 from sim.state import SimState
 
 
-class Words(Protocol):
+class NarratorProtocol(Protocol):
     """Facts → words; nothing is said that is not in the facts."""
 
     def decision(self, decision: Decision, run: SimState, forecast: Forecast | None = None) -> str:
@@ -33,13 +33,13 @@ class Words(Protocol):
     def planner(self, name: str) -> str:
         """A planner as people know it."""
 
-    def silent(self, planner: str, fault: str) -> str:
+    def planner_timeout(self, planner: str, fault: str) -> str:
         """What is said when a planner did not answer in time and a person is to drive."""
 
-    def done(self, facts: tuple[Fact, ...]) -> str:
+    def reply(self, facts: tuple[Fact, ...]) -> str:
         """The reply: what was done, in a sentence or two."""
 
-    def lesson(self, lesson: Lesson) -> str:
+    def alias_change(self, lesson: AliasChange) -> str:
         """The reply to a phrase that was taught or forgotten."""
 
     def answer(self, asked: Answerable) -> dict[str, Any]:

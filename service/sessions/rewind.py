@@ -15,32 +15,32 @@ from service.problems import FieldProblem, Invalid
 from service.sessions.utterance import Utterance
 from sim.session.timeline import Timeline
 
-MOST_TICKS = 10_000
+MAX_TICKS = 10_000
 """How far one action goes back; a longer way is several of them."""
 
 
 @dataclass(frozen=True, slots=True)
-class Jump:
+class TimeJump:
     """The two sides of a step that moved time."""
 
     before: Timeline = field(compare=False)
     after: Timeline = field(compare=False)
 
     @property
-    def reversed(self) -> Jump:
+    def inverse(self) -> TimeJump:
         """The same jump the other way."""
-        return Jump(self.after, self.before)
+        return TimeJump(self.after, self.before)
 
-    def left_before(self, timeline: Timeline) -> Jump:
+    def with_before(self, timeline: Timeline) -> TimeJump:
         """The jump, when it is made anew from where its near side has come to."""
         return replace(self, before=timeline.copy())
 
-    def left_after(self, timeline: Timeline) -> Jump:
+    def with_after(self, timeline: Timeline) -> TimeJump:
         """The jump, when it is taken back from where its far side has come to."""
         return replace(self, after=timeline.copy())
 
 
-def go_back(timeline: Timeline, ticks: int, where: str) -> None:
+def rewind_timeline(timeline: Timeline, ticks: int, where: str) -> None:
     """Make an earlier tick the present. Raises `Invalid`, naming `where`, if there are not so many."""
     if ticks > timeline.tick:
         sentence = f"It is tick {timeline.tick}: that is as far as one can go back, and not {ticks}."
@@ -48,7 +48,7 @@ def go_back(timeline: Timeline, ticks: int, where: str) -> None:
     timeline.rewind(timeline.tick - ticks)
 
 
-def to_tick(tick: int) -> Callable[[Timeline], Utterance]:
+def rewind_to(tick: int) -> Callable[[Timeline], Utterance]:
     """What goes back to a tick, once it is known where the session stands. It raises `Invalid`."""
 
     def utterance(timeline: Timeline) -> Utterance:
@@ -57,8 +57,8 @@ def to_tick(tick: int) -> Callable[[Timeline], Utterance]:
             now = timeline.tick
             message = f"{'has not come yet' if ticks else 'is where it stands'}: it is tick {now}"
             raise Invalid(f"tick: {message}.", errors=[FieldProblem("tick", message)])
-        whole, rest = divmod(ticks, MOST_TICKS)
-        ways = [MOST_TICKS] * whole + ([rest] if rest else [])
+        whole, rest = divmod(ticks, MAX_TICKS)
+        ways = [MAX_TICKS] * whole + ([rest] if rest else [])
         return Utterance(actions=tuple(Rewind(ticks=each) for each in ways))
 
     return utterance

@@ -7,7 +7,7 @@ and dashboards ask again and again, mostly before anything has moved (`python -m
 from __future__ import annotations
 
 from service.contract.encode.json import encoded
-from service.contract.encode.state import Standing, state_json
+from service.contract.encode.state import SessionStatus, state_json
 from sim.state import SimState
 
 
@@ -15,10 +15,10 @@ class StateCache:
     """The bytes of the latest state that was asked for."""
 
     def __init__(self) -> None:
-        self._key: tuple[SimState, Standing] | None = None
+        self._key: tuple[SimState, SessionStatus] | None = None
         self._body = b""
 
-    def encode(self, run: SimState, standing: Standing) -> bytes:
+    def encode(self, run: SimState, standing: SessionStatus) -> bytes:
         """A state as JSON text; made anew if it is another than the last time."""
         key = self._key
         if key is None or key[0] is not run or key[1] != standing:

@@ -26,7 +26,7 @@ class Utterance:
 
 
 @dataclass(frozen=True, slots=True)
-class Notice:
+class ReachabilityNotice:
     """Something found out about the road that an utterance led to, in words."""
 
     event: Event
@@ -47,7 +47,7 @@ class Outcome:
     """the state in which it was said"""
     done: str = ""
     """the reply without the notice: what a replay says again"""
-    notice: Notice | None = None
+    notice: ReachabilityNotice | None = None
 
     @property
     def ticks(self) -> list[StepResult]:

@@ -8,14 +8,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from service.store.base import (
+    BookmarkRecord,
     Branch,
     EntryRecord,
-    KeptAnswer,
-    MomentRecord,
     PhraseRecord,
     SessionRecord,
     SnapshotRecord,
     Store,
+    StoredResponse,
     StoreError,
 )
 from service.store.memory import MemoryStore
@@ -24,17 +24,17 @@ if TYPE_CHECKING:
     from service.store.sql import SqlStore
 
 __all__ = [
+    "BookmarkRecord",
     "Branch",
     "EntryRecord",
-    "KeptAnswer",
     "MemoryStore",
-    "MomentRecord",
     "PhraseRecord",
     "SessionRecord",
     "SnapshotRecord",
     "SqlStore",
     "Store",
     "StoreError",
+    "StoredResponse",
     "open_store",
 ]
 

@@ -10,7 +10,7 @@ from typing import Final
 import pygame
 
 from service.refusals import refusals
-from service.sessions.scheduler.playback_speed import said
+from service.sessions.scheduler.playback_speed import format_speed
 from service.window import theme as look
 from service.window.animation import Showing
 from service.window.canvas import Canvas
@@ -283,7 +283,7 @@ class Window:
             case "road":
                 planner = self.game.loaded.words.planner(run.config.planner)
                 driver = "by hand" if run.mode is Mode.MANUAL else planner
-                standing = "paused" if session.paused else said(session.pace)
+                standing = "paused" if session.paused else format_speed(session.playback_speed)
                 return f"{standing}  ·  {driver}  ·  seed {run.config.seed}"
             case "plan":
                 return f"tick {self._showing.planned[0].world.tick}"
@@ -328,7 +328,7 @@ class Window:
                 log = self.game.session.log
                 lines = log.latest(LOG_LINES)
                 self._controls.log_back = back = min(self._controls.log_back, max(0, len(lines) - 1))
-                return (log.last, back), lambda: draw_log(lines, size, back)
+                return (log.last_number, back), lambda: draw_log(lines, size, back)
 
     def _narration(self) -> str | None:
         assert self.game is not None

@@ -46,7 +46,7 @@ def test_a_language_is_the_same_from_its_compiled_form(german: Path, monkeypatch
 def test_a_changed_file_is_read_again(german: Path) -> None:
     load_language(german)
     moves = german / "lexicon" / "verbs.yaml"
-    moves.write_text(moves.read_text("utf-8").replace("v.add: >-\n", "v.add: >-\n  schnurpse,\n", 1), "utf-8")
+    moves.write_text(moves.read_text("utf-8").replace("v.add:\n", "v.add:\n  - schnurpse\n", 1), "utf-8")
     assert "schnurpse" in moves.read_text("utf-8")
     parsed = Language(load_language(german)).parse("schnurpse drei Schlaglöcher")
     assert isinstance(parsed, Understood)
@@ -55,7 +55,7 @@ def test_a_changed_file_is_read_again(german: Path) -> None:
 
 def test_unfit_files_are_refused_also_where_fit_ones_are_kept(german: Path) -> None:
     load_language(german)
-    (german / "frames" / "odd.yaml").write_text('frames: {odd: {needs: "v.nothing", do: []}}', "utf-8")
+    (german / "intents" / "odd.yaml").write_text('frames: {odd: {needs: "v.nothing", do: []}}', "utf-8")
     for _ in range(2):
         with pytest.raises(LanguageDataError, match="odd"):
             load_language(german)

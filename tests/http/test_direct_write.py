@@ -15,7 +15,7 @@ from websockets.server import ServerProtocol
 from service.app import create_app
 from service.http.protocol.direct_write import DirectWriteProtocol, encode_frame
 from service.http.realtime.direct_write import direct_write_of
-from service.sessions.subscribers import SLOT_MESSAGES, Missed, Watcher, Watchers
+from service.sessions.subscribers import QUEUE_SIZE, MissedTicks, Subscriber, Subscribers
 from service.settings import Settings
 from service.store import MemoryStore
 from tests.support.fakes import FewSentences, HandClock
@@ -36,11 +36,11 @@ def test_a_server_of_another_kind_offers_nothing() -> None:
 class Reader:
     """One who notes all that it is given, straight or in turn."""
 
-    def __init__(self, watchers: Watchers) -> None:
+    def __init__(self, subscribers: Subscribers) -> None:
         self.takes = True
         self.straight: list[bytes] = []
-        self.all: list[bytes | Missed] = []
-        self.watcher: Watcher = watchers.join((), self.take)
+        self.all: list[bytes | MissedTicks] = []
+        self.watcher: Subscriber = subscribers.subscribe((), self.take)
 
     def take(self, text: bytes) -> bool:
         if self.takes:
@@ -53,54 +53,54 @@ class Reader:
             heard = await self.watcher.next()
             if isinstance(heard, list):
                 self.all += [notice.data for notice in heard]
-            elif isinstance(heard, Missed):
+            elif isinstance(heard, MissedTicks):
                 self.all.append(heard)
             else:
                 return
 
 
-def publish(watchers: Watchers, *ticks: int) -> list[bytes]:
+def publish(subscribers: Subscribers, *ticks: int) -> list[bytes]:
     told = [b"%d" % tick for tick in ticks]
     for tick, text in zip(ticks, told, strict=True):
-        watchers.publish(tick, lambda text=text: text)
+        subscribers.publish(tick, lambda text=text: text)
     return told
 
 
 async def test_only_who_waits_is_written_to_and_nothing_is_overtaken() -> None:
-    watchers = Watchers()
-    reader = Reader(watchers)
-    first = publish(watchers, 1, 2)  # it has not begun to wait yet
+    subscribers = Subscribers()
+    reader = Reader(subscribers)
+    first = publish(subscribers, 1, 2)  # it has not begun to wait yet
     reading = asyncio.create_task(reader.read())
     await asyncio.sleep(0)
     assert reader.straight == []
     assert reader.all == first
-    second = publish(watchers, 3, 4)
+    second = publish(subscribers, 3, 4)
     assert reader.straight == second
     reader.takes = False
-    third = publish(watchers, 5)
+    third = publish(subscribers, 5)
     reader.takes = True
-    third += publish(watchers, 6)  # the one before has not been passed on yet
+    third += publish(subscribers, 6)  # the one before has not been passed on yet
     assert reader.straight == second
     await asyncio.sleep(0)
     await asyncio.sleep(0)
-    fourth = publish(watchers, 7)
+    fourth = publish(subscribers, 7)
     assert reader.straight == second + fourth
     assert reader.all == first + second + third + fourth
-    watchers.end()
+    subscribers.close()
     await asyncio.wait_for(reading, 60)
 
 
 async def test_who_refuses_all_is_told_what_it_missed() -> None:
-    watchers = Watchers()
-    reader = Reader(watchers)
+    subscribers = Subscribers()
+    reader = Reader(subscribers)
     reader.takes = False
     reading = asyncio.create_task(reader.read())
     await asyncio.sleep(0)
-    publish(watchers, *range(1, SLOT_MESSAGES + 2))
+    publish(subscribers, *range(1, QUEUE_SIZE + 2))
     await asyncio.sleep(0)
     await asyncio.sleep(0)
-    assert reader.all == [Missed(1, SLOT_MESSAGES + 1)]
-    watchers.end()
+    assert reader.all == [MissedTicks(1, QUEUE_SIZE + 1)]
+    subscribers.close()
     await asyncio.wait_for(reading, 60)
 
 
@@ -115,16 +115,16 @@ async def test_a_real_socket_is_written_to_straight_and_in_order() -> None:
         session = await app.state.context.manager.get(path.rpartition("/")[2])
         async with connect(f"{service.ws}{path}/stream", compression=None) as stream:
             hello = json.loads(await stream.recv())
-            (watcher,) = session.watchers._watchers
+            (subscriber,) = session.subscribers._subscribers
             straight: list[int] = []
-            offered = watcher._straight
+            offered = subscriber._straight
 
             def noting(text: bytes) -> bool:
                 taken: bool = offered(text)
                 straight.append(json.loads(text)["tick"])
                 return taken
 
-            watcher._straight = noting
+            subscriber._straight = noting
             heard = [hello]
             for _ in range(5):
                 clock.tick()

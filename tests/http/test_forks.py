@@ -46,7 +46,7 @@ def test_a_fork_is_its_parent_up_to_the_tick(
             again = await other.get(session.id)
             assert (again.run, again.sequence) == (session.run, session.sequence)
             assert again.timeline.entries == session.timeline.entries
-            assert again.history.done == session.history.done
+            assert again.undo_stack.done == session.undo_stack.done
 
     asyncio.run(fork())
 
@@ -77,7 +77,7 @@ async def test_a_fork_that_cannot_be_changed_so_is_not_made() -> None:
         await service.manager.fork(parent, 2, bad)
     with pytest.raises(Invalid, match=r"^at_tick: has not come yet: it is tick 3\.$"):
         await service.manager.fork(parent, 4)
-    assert (service.manager.live, len(await service.store.newest(10))) == (1, 1)
+    assert (service.manager.live_count, len(await service.store.newest(10))) == (1, 1)
 
 
 async def test_a_question_to_a_fork_is_no_change_of_it() -> None:
@@ -109,7 +109,7 @@ async def test_a_fork_that_is_not_stored_is_not_made() -> None:
     store.full = True
     with pytest.raises(NotSaved):
         await service.manager.fork(parent, None)
-    assert service.manager.live == 1
+    assert service.manager.live_count == 1
 
 
 async def test_a_fork_plays_as_its_parent_does() -> None:
@@ -117,7 +117,7 @@ async def test_a_fork_plays_as_its_parent_does() -> None:
     parent = await service.session()
     await do(parent, {"do": "set", "parameter": "playback_speed", "value": 4})
     child = await service.manager.fork(parent, None)
-    assert (child.paused, child.pace) == (False, 4)
+    assert (child.paused, child.playback_speed) == (False, 4)
     assert not (await service.manager.fork(parent, None, paused=False)).paused
     assert (await service.manager.fork(parent, None, contract.load([{"do": "pause"}]))).paused
     await do(parent, {"do": "pause"})

@@ -14,7 +14,7 @@ from contextlib import asynccontextmanager
 
 import structlog
 
-from service.store import KeptAnswer, Store, StoreError
+from service.store import Store, StoredResponse, StoreError
 
 _LOG = structlog.get_logger(__name__)
 
@@ -46,7 +46,7 @@ class KeptAnswers:
     async def open(self) -> None:
         """Starts the clock at the wall clock; kept answers are as old as when the service stopped."""
         self._began = self._wall() - self._steady()
-        await self._store.date_answers(self.now)
+        await self._store.shift_responses(self.now)
         await self._forget()
 
     @asynccontextmanager
@@ -64,23 +64,23 @@ class KeptAnswers:
             else:
                 self._turns[key] = (lock, waiting - 1)
 
-    async def find(self, key: str) -> KeptAnswer | None:
+    async def find(self, key: str) -> StoredResponse | None:
         """The answer that was given under a key within the last day."""
         if self.now - self._forgot_at > FORGET_EVERY_S:
             await self._forget()
-        found = await self._store.kept(key)
+        found = await self._store.get_response(key)
         if found is not None and found.at < self.now - KEPT_S:
             await self._forget()
             return None
         return found
 
-    async def keep(self, answer: KeptAnswer) -> None:
+    async def keep(self, answer: StoredResponse) -> None:
         """Keeps the answer to a request that left nothing in any session, or that is stored already."""
         try:
-            await self._store.keep(answer)
+            await self._store.save_response(answer)
         except StoreError as error:
             _LOG.error("an answer was not kept", error=str(error))
 
     async def _forget(self) -> None:
         self._forgot_at = self.now
-        await self._store.forget_answers(self.now - KEPT_S)
+        await self._store.delete_responses(self.now - KEPT_S)

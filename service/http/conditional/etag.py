@@ -21,9 +21,9 @@ from fastapi import Depends, Request, Response
 
 from service.http.conditional.idempotency import keyed_request
 from service.problems import FieldProblem, Invalid
-from service.sessions.preconditions import Terms
+from service.sessions.preconditions import Preconditions
 from service.sessions.utterance import Outcome
-from service.store import KeptAnswer
+from service.store import StoredResponse
 
 _TAG = re.compile(r'(W/)?"([\x21\x23-\x7e]*)"')
 _BLANK = " \t"
@@ -33,7 +33,7 @@ _SCHEMA_PATTERN = r'^[ \t]*(\*|(W/)?"[!#-~]*"([ \t]*,[ \t]*(W/)?"[!#-~]*")*)[ \t
 """`If-Match` as a pattern that every reader of JSON schema knows."""
 _SEQUENCE = re.compile(r"([0-9]{1,15})(-[0-9a-f]+)?")
 
-Conditions = Callable[[Callable[[Outcome], Response]], Terms]
+Conditions = Callable[[Callable[[Outcome], Response]], Preconditions]
 """Given how an outcome is answered, the preconditions under which a request changes a session."""
 
 
@@ -53,7 +53,7 @@ def if_match(request: Request) -> frozenset[int] | None:
 
 def check_if_match(request: Request, sequence: int) -> None:
     """Raises `Stale` if the session is not at a version that `If-Match` allows."""
-    Terms(if_match(request)).check(sequence)
+    Preconditions(if_match(request)).check(sequence)
 
 
 def _list_header(request: Request, header: str) -> str | None:
@@ -107,7 +107,7 @@ def respond_once(respond: Callable[[Subject], Response]) -> Callable[[Subject], 
 
 def answer_to_keep(
     request: Request, respond: Callable[[Subject], Response]
-) -> Callable[[Subject], KeptAnswer] | None:
+) -> Callable[[Subject], StoredResponse] | None:
     """What has to be stored with what a request does, if it came under an idempotency key."""
     keyed = keyed_request(request)
     return None if keyed is None else lambda subject: keyed.keep(respond(subject))
@@ -116,7 +116,7 @@ def answer_to_keep(
 async def conditions_of(request: Request) -> Conditions:
     """The conditions of a request. Raises `Invalid`."""
     sequences = if_match(request)
-    return lambda respond: Terms(sequences, answer_to_keep(request, respond))
+    return lambda respond: Preconditions(sequences, answer_to_keep(request, respond))
 
 
 TheConditions = Annotated[Conditions, Depends(conditions_of)]

@@ -40,7 +40,9 @@ def _precondition(request: Request) -> etag.Check:
         context = context_of(request)
         language = getattr(given.get("body"), "language", None)
         if language is not None:
-            context.listener.languages[language]  # an unknown language is a fault of the form: 422 before 412
+            context.interpreter.languages[
+                language
+            ]  # an unknown language is a fault of the form: 422 before 412
         session = await context.manager.get(request.path_params["session_id"])
         etag.check_if_match(request, session.sequence)
 

@@ -15,8 +15,8 @@ from typing import Any
 from fastapi import Request, Response
 
 from service.http.conditional.answers import KeptAnswers
-from service.problems import FieldProblem, Invalid, KeyReused
-from service.store import KeptAnswer
+from service.problems import FieldProblem, IdempotencyKeyReused, Invalid
+from service.store import StoredResponse
 
 HEADER = "Idempotency-Key"
 REPLAYED = "Idempotency-Replayed"
@@ -39,11 +39,11 @@ class KeyedRequest:
         self._answers = answers
         self.stored = False
 
-    def keep(self, response: Response) -> KeptAnswer:
+    def keep(self, response: Response) -> StoredResponse:
         """What has to be stored so that this response can be given again."""
         self.stored = True
         headers = {name: value for name, value in response.headers.items() if name not in _NOT_KEPT}
-        return KeptAnswer(
+        return StoredResponse(
             key=self._key,
             request=self._request,
             at=self._answers.now,
@@ -60,7 +60,7 @@ def keyed_request(request: Request) -> KeyedRequest | None:
 
 
 async def handle_once(request: Request, answers: KeptAnswers, handler: Handler) -> Response:
-    """Answers a request, or repeats the answer under its key. Raises `KeyReused` or `Invalid`."""
+    """Answers a request, or repeats the answer under its key. Raises `IdempotencyKeyReused` or `Invalid`."""
     key = request.headers.get(HEADER)
     if key is None or request.method not in _KEYED_METHODS:
         return await handler(request)
@@ -72,7 +72,7 @@ async def handle_once(request: Request, answers: KeptAnswers, handler: Handler) 
         found = await answers.find(key)
         if found is not None:
             if found.request != digest:
-                raise KeyReused
+                raise IdempotencyKeyReused
             return Response(found.body, found.status, {**found.headers, REPLAYED: "true"})
         keyed = request.scope[_SCOPE_KEY] = KeyedRequest(key, digest, answers)
         response = await handler(request)

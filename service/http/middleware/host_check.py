@@ -12,7 +12,7 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 
 from service.http.headers import first_header
 from service.http.responses import send_problem
-from service.problems import ForeignHost
+from service.problems import MisdirectedRequest
 from service.security.hosts import Hosts
 
 
@@ -28,5 +28,5 @@ class HostCheck:
         if scope["type"] in ("http", "websocket") and not self._hosts.answers_to(
             first_header(scope, b"host"), scope
         ):
-            return send_problem(ForeignHost(), scope, receive, send)
+            return send_problem(MisdirectedRequest(), scope, receive, send)
         return self._app(scope, receive, send)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from service.sessions.subscribers import Watcher
+from service.sessions.subscribers import Subscriber
 
 
 class OpenStreams:
@@ -10,20 +10,20 @@ class OpenStreams:
 
     def __init__(self) -> None:
         self.stopping = False
-        self._watchers: set[Watcher] = set()
+        self._watchers: set[Subscriber] = set()
 
-    def add(self, watcher: Watcher) -> None:
+    def add(self, subscriber: Subscriber) -> None:
         """Adds a reader; while the service stops, its stream ends at once."""
-        self._watchers.add(watcher)
+        self._watchers.add(subscriber)
         if self.stopping:
-            watcher.end()
+            subscriber.close()
 
-    def remove(self, watcher: Watcher) -> None:
+    def remove(self, subscriber: Subscriber) -> None:
         """Removes a reader that has gone."""
-        self._watchers.discard(watcher)
+        self._watchers.discard(subscriber)
 
     def stop(self) -> None:
         """Ends all streams: a server that stops waits for the responses under way."""
         self.stopping = True
-        for watcher in self._watchers:
-            watcher.end()
+        for subscriber in self._watchers:
+            subscriber.close()

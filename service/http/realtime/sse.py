@@ -24,7 +24,7 @@ from service.http.route import api_router, policy
 from service.problems import Invalid, NotRestorable, UnknownSession
 from service.sessions.messages import state_message
 from service.sessions.session import Session
-from service.sessions.subscribers import Gone, Missed, Watcher, stamped
+from service.sessions.subscribers import MissedTicks, SessionDeleted, Subscriber, add_event_id
 
 HEARTBEAT_S = 15
 """After so much silence a comment is sent, so that a client that has gone is noticed."""
@@ -71,41 +71,43 @@ async def stream_events(
 
     async def body() -> AsyncIterator[bytes]:
         # Joins when the body is first read: a response that is never read leaves no reader behind.
-        missed = session.watchers.missed(last_event_id or after or "")
-        watcher = session.watchers.join(missed or ())
-        first = _event(hello(here, session), session.watchers.event) if missed is None else b""
-        streams.add(watcher)
+        missed = session.subscribers.messages_since(last_event_id or after or "")
+        subscriber = session.subscribers.subscribe(missed or ())
+        first = _event(hello(here, session), session.subscribers.last_event_id) if missed is None else b""
+        streams.add(subscriber)
         try:
             yield b"retry: %d\n\n" % RETRY_MS + first
-            async for part in _read_events(session, watcher, streams):
+            async for part in _read_events(session, subscriber, streams):
                 yield part
         finally:
-            streams.remove(watcher)
-            session.watchers.leave(watcher)
+            streams.remove(subscriber)
+            session.subscribers.unsubscribe(subscriber)
 
     headers = {"Cache-Control": "no-store", "X-Accel-Buffering": "no"}
     return StreamingResponse(body(), media_type=MEDIA_TYPE, headers=headers)
 
 
-async def _read_events(session: Session, watcher: Watcher, streams: OpenStreams) -> AsyncIterator[bytes]:
+async def _read_events(
+    session: Session, subscriber: Subscriber, streams: OpenStreams
+) -> AsyncIterator[bytes]:
     """What is published, at the pace of the client."""
     while True:
         try:
-            heard = await asyncio.wait_for(watcher.next(), HEARTBEAT_S)
+            heard = await asyncio.wait_for(subscriber.next(), HEARTBEAT_S)
         except TimeoutError:
             yield b": still here\n\n"
             continue
         match heard:
-            case Gone():
+            case SessionDeleted():
                 last = {"type": "stopping", "code": 1012} if streams.stopping else {"type": "gone"}
                 yield _event(encoded(last), None)
                 return
-            case Missed():
-                event = session.watchers.event
-                yield _event(stamped(state_message(session.state_body(), heard), event), event)
+            case MissedTicks():
+                event = session.subscribers.last_event_id
+                yield _event(add_event_id(state_message(session.state_body(), heard), event), event)
             case notices:
                 # In one piece: fewer turns of the loop for a reader that keeps up.
-                events = session.watchers.event_of
+                events = session.subscribers.event_id
                 yield b"".join(_event(notice.data, events(notice.number)) for notice in notices)
 
 

@@ -44,7 +44,7 @@ from service.resources import DEFAULT_LANGUAGE
 from service.security.guard import client_of
 from service.sessions.messages import state_message
 from service.sessions.session import Session
-from service.sessions.subscribers import Gone, Missed, Watcher, stamped
+from service.sessions.subscribers import MissedTicks, SessionDeleted, Subscriber, add_event_id
 from service.sessions.utterance import Utterance
 
 _LOG = structlog.get_logger(__name__)
@@ -119,18 +119,18 @@ async def stream(socket: WebSocket, session_id: str) -> None:
             await _send(socket, _error(problem))
             await socket.close(_CODES.get(problem.status, 1013))
         return
-    missed = session.watchers.missed(socket.query_params.get("after", ""))
-    watcher = session.watchers.join(missed or (), direct_write_of(socket.scope))
+    missed = session.subscribers.messages_since(socket.query_params.get("after", ""))
+    subscriber = session.subscribers.subscribe(missed or (), direct_write_of(socket.scope))
     first = hello(context, session) if missed is None else None
     # Two tasks: a reader that answers, and a writer that sends what was not written directly.
-    writer = asyncio.create_task(_write(socket, session, watcher, first))
+    writer = asyncio.create_task(_write(socket, session, subscriber, first))
     screen = _Screen(socket, context, session)
     try:
         await _read(socket, context, session, screen)
     except WebSocketDisconnect:
         pass  # it went before it could be answered; what it asked for is done
     finally:
-        session.watchers.leave(watcher)
+        session.subscribers.unsubscribe(subscriber)
         screen.dark()
         writer.cancel()
         await asyncio.wait([writer])
@@ -162,21 +162,21 @@ class _Screen:
             )
 
 
-async def _write(socket: WebSocket, session: Session, watcher: Watcher, first: bytes | None) -> None:
+async def _write(socket: WebSocket, session: Session, subscriber: Subscriber, first: bytes | None) -> None:
     """Pass on what is published, at the pace of whoever reads."""
     try:
         if first is not None:
             await _send(socket, first)
         while True:
-            heard = await watcher.next()
+            heard = await subscriber.next()
             match heard:
-                case Gone():
+                case SessionDeleted():
                     await _send(socket, encoded({"type": "gone"}))
                     await socket.close(1000)
                     return
-                case Missed():
+                case MissedTicks():
                     state = state_message(session.state_body(), heard)
-                    await _send(socket, stamped(state, session.watchers.event))
+                    await _send(socket, add_event_id(state, session.subscribers.last_event_id))
                 case notices:
                     for notice in notices:
                         await _send(socket, notice.data)
@@ -250,11 +250,11 @@ async def _run(context: Context, session: Session, message: Command | Actions) -
     heard, code = None, DEFAULT_LANGUAGE
     if isinstance(message, Command):
         code = message.language
-        heard = await context.listener.hear(message.text, session, code)
+        heard = await context.interpreter.interpret(message.text, session, code)
         utterance = heard.utterance
     else:
         utterance = Utterance(actions=tuple(message.actions))
-    outcome = await context.listener.do(session, utterance, dry_run=message.dry_run, code=code)
+    outcome = await context.interpreter.execute(session, utterance, dry_run=message.dry_run, code=code)
     return result_json(outcome, heard, message.dry_run)
 
 

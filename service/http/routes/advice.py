@@ -20,13 +20,13 @@ from service.http.validation import invalid
 from service.interpreter.interpreter import Source
 from service.problems import (
     Ambiguous,
+    ContentTooLarge,
     FieldProblem,
     Invalid,
     Malformed,
     NotAQuestion,
-    NotJson,
     NotUnderstood,
-    TooLarge,
+    UnsupportedMediaType,
 )
 from service.refusals import refusals
 from service.sessions.facts import Advised
@@ -44,7 +44,9 @@ _FIGURES = ("hazard", "distance_m", "speed_kmh")
     response_model=schemas_advice.Advice,
     summary="Ask what to do about a hazard",
     dependencies=[JSON_ONLY],
-    responses=documented(Malformed, Ambiguous, TooLarge, NotJson, Invalid, NotUnderstood, NotAQuestion),
+    responses=documented(
+        Malformed, Ambiguous, ContentTooLarge, UnsupportedMediaType, Invalid, NotUnderstood, NotAQuestion
+    ),
 )
 @policy(idempotency_key=False)
 async def ask_advice(
@@ -61,7 +63,7 @@ async def ask_advice(
         field = error.field if body.text is None else "text"
         sentence = refusals(body.language).advice(error)
         raise Invalid(sentence, errors=[FieldProblem(field, sentence)]) from error
-    answer = here.words.answer(Advised(found))
+    answer = here.narrator.answer(Advised(found))
     text = {"question": answer["question"], "text": answer["text"], "source": source}
     return json_response(text | advice_json(found))
 
@@ -74,7 +76,7 @@ async def _read_question(
         twice = [name for name in _FIGURES if getattr(body, name) is not None]
         if twice:
             raise invalid(FieldProblem(name, "is said in the text already") for name in twice)
-        heard = await here.listener.hear(body.text, code=body.language)
+        heard = await here.interpreter.interpret(body.text, code=body.language)
         match heard.actions:
             case (Advise() as asked,):
                 return asked.hazard, asked.distance_m, asked.speed_kmh, heard.source

@@ -24,7 +24,7 @@ router = api_router("time")
 )
 async def list_all_bookmarks(here: Here, after: After = None, limit: Limit = 50) -> Response:
     """Those named last first, in pages. A name belongs to its session: `load` finds it there only."""
-    found = await here.manager.moments(limit + 1, cursor(after))
+    found = await here.manager.bookmarks(limit + 1, cursor(after))
     return json_response(
         page_json(
             found,
@@ -50,6 +50,6 @@ async def list_all_bookmarks(here: Here, after: After = None, limit: Limit = 50)
 )
 async def list_bookmarks(session: TheSession) -> Response:
     """What `{"do": "save", "name": ...}` has kept, by name; `{"do": "load", "name": ...}` goes there."""
-    moments = sorted(session.history.saved.values(), key=lambda moment: moment.name)
+    moments = sorted(session.undo_stack.bookmarks.values(), key=lambda moment: moment.name)
     items = [{"name": each.name, "sequence": each.sequence, "tick": each.tick} for each in moments]
     return json_response({"items": items}, headers=etag(session.sequence))

@@ -60,7 +60,7 @@ async def list_changes(
         sequence, text = group[0].sequence, said.get(group[0].sequence)
         if text is None:
             dumped = contract.dump(tuple(entry.action for entry in group))
-            told = here.listener.phrasebook.told(contract.load(dumped), DEFAULT_LANGUAGE)
+            told = here.interpreter.aliases.describe(contract.load(dumped), DEFAULT_LANGUAGE)
         else:
             told = text
         items.append({"tick": group[0].tick, "sequence": sequence, "text": told, "said": text is not None})

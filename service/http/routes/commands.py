@@ -18,18 +18,18 @@ from service.http.responses import etag, json_response
 from service.http.route import api_router, policy
 from service.problems import (
     Ambiguous,
+    ContentTooLarge,
     DoesNotFit,
     Invalid,
     Malformed,
     NotAvailable,
     NothingToUndo,
-    NotJson,
     NotRestorable,
     NotSaved,
     NotTeachable,
     NotUnderstood,
-    TooLarge,
     UnknownSession,
+    UnsupportedMediaType,
 )
 from service.sessions.utterance import Outcome, Utterance
 
@@ -38,8 +38,8 @@ router = api_router("talking", dependencies=[JSON_ONLY])
 _PROBLEMS = (
     Malformed,
     UnknownSession,
-    TooLarge,
-    NotJson,
+    ContentTooLarge,
+    UnsupportedMediaType,
     Invalid,
     NotRestorable,
     DoesNotFit,
@@ -67,19 +67,19 @@ async def run_command(
 
     A word that is not understood refuses it all, and says which.
     """
-    heard = await here.listener.hear(body.text, session, body.language)
+    heard = await here.interpreter.interpret(body.text, session, body.language)
 
     @respond_once
     def respond(outcome: Outcome) -> Response:
         return json_response(result_json(outcome, heard, body.dry_run), headers=etag(outcome.sequence))
 
     return respond(
-        await here.listener.do(
+        await here.interpreter.execute(
             session,
             heard.utterance,
             dry_run=body.dry_run,
             code=body.language,
-            terms=conditions(respond),
+            preconditions=conditions(respond),
         )
     )
 
@@ -104,5 +104,7 @@ async def run_actions(
         return json_response(result_json(outcome, None, body.dry_run), headers=etag(outcome.sequence))
 
     utterance = Utterance(actions=tuple(body.actions))
-    terms = conditions(respond)
-    return respond(await here.listener.do(session, utterance, dry_run=body.dry_run, terms=terms))
+    preconditions = conditions(respond)
+    return respond(
+        await here.interpreter.execute(session, utterance, dry_run=body.dry_run, preconditions=preconditions)
+    )

@@ -27,17 +27,17 @@ from service.http.route import api_router
 from service.http.suggestions import suggest
 from service.http.validation import invalid
 from service.problems import (
+    ContentTooLarge,
     DoesNotFit,
     FieldProblem,
     Invalid,
     Malformed,
     NotAvailable,
-    NotJson,
     NotRestorable,
     NotSaved,
     ProblemError,
-    TooLarge,
     UnknownSession,
+    UnsupportedMediaType,
 )
 from service.refusals import refusals
 from service.sessions.utterance import Outcome, Utterance
@@ -81,8 +81,8 @@ async def _require_patch(connection: HTTPConnection) -> None:
     responses=documented(
         Malformed,
         UnknownSession,
-        TooLarge,
-        NotJson,
+        ContentTooLarge,
+        UnsupportedMediaType,
         Invalid,
         DoesNotFit,
         NotAvailable,
@@ -107,14 +107,16 @@ async def patch_config(
         return _changes_response(outcome.changes, outcome.reply, outcome.sequence)
 
     if not actions:
-        terms = conditions(respond)
-        if terms.sequences is not None:
-            terms.check(session.sequence)
+        preconditions = conditions(respond)
+        if preconditions.sequences is not None:
+            preconditions.check(session.sequence)
         return _changes_response((), refusals().session("as_it_is"), session.sequence)
     try:
         done = tuple(action for _, action in actions)
-        terms = conditions(respond)
-        return respond(await here.listener.do(session, Utterance(actions=done), terms=terms))
+        preconditions = conditions(respond)
+        return respond(
+            await here.interpreter.execute(session, Utterance(actions=done), preconditions=preconditions)
+        )
     except Invalid as problem:
         raise _of_fields(problem, [name for name, _ in actions]) from problem
 

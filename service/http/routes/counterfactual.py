@@ -22,20 +22,20 @@ from service.http.responses import etag, json_response
 from service.http.route import api_router
 from service.http.validation import invalid
 from service.problems import (
+    ContentTooLarge,
     DoesNotFit,
     FieldProblem,
     Invalid,
     Malformed,
     NotAvailable,
-    NotJson,
     NotRestorable,
-    TooLarge,
     UnknownSession,
+    UnsupportedMediaType,
 )
 from service.refusals import refusals
-from service.sessions.availability import refusal
-from service.sessions.scheduler.offload import QUESTION_S, asks_others, off_loop
-from service.sessions.scheduler.playback_speed import sets_pace
+from service.sessions.availability import refusal_of
+from service.sessions.scheduler.offload import QUESTION_S, run_in_thread, uses_external_planner
+from service.sessions.scheduler.playback_speed import sets_playback_speed
 from sim.actions import (
     Add,
     Adjust,
@@ -97,7 +97,14 @@ class Otherwise(Sent):
     summary="Watch what would have been",
     dependencies=[JSON_ONLY],
     responses=documented(
-        Malformed, UnknownSession, TooLarge, NotJson, Invalid, DoesNotFit, NotAvailable, NotRestorable
+        Malformed,
+        UnknownSession,
+        ContentTooLarge,
+        UnsupportedMediaType,
+        Invalid,
+        DoesNotFit,
+        NotAvailable,
+        NotRestorable,
     ),
 )
 async def run_counterfactual(
@@ -109,7 +116,7 @@ async def run_counterfactual(
     """
     if (body.move is None) == (body.actions is None):
         raise invalid([FieldProblem("move", "say either a move or actions")])
-    timeline, standing = session.timeline.copy(), session.standing
+    timeline, status = session.timeline.copy(), session.status
     if body.at_tick is not None:
         tick = body.at_tick
     else:
@@ -121,10 +128,10 @@ async def run_counterfactual(
             compared = compare_move(timeline, tick, Move(body.move))
         else:
             compared = compare_change(timeline, tick, actions)
-        return beside_json(standing, compared, body.ticks, here.words.side_by_side(compared))
+        return beside_json(status, compared, body.ticks, here.narrator.side_by_side(compared))
 
     try:
-        value = await off_loop(asks_others(timeline), QUESTION_S, compare)
+        value = await run_in_thread(uses_external_planner(timeline), QUESTION_S, compare)
     except QuestionError as error:
         field = "move" if error.code in ("off_road", "same_move") else "at_tick"
         raise invalid([FieldProblem(field, _WORDS[error.code].format(**error.facts))]) from error
@@ -132,17 +139,17 @@ async def run_counterfactual(
         kind = NotAvailable if error.category == "not-available" else DoesNotFit
         sentence = refusals().edit(error)
         raise kind(sentence, errors=[FieldProblem(f"actions.{error.field}", sentence)]) from error
-    return json_response(value, headers=etag(standing.sequence))
+    return json_response(value, headers=etag(status.sequence))
 
 
 def _world_actions(actions: list[Action]) -> list[WorldAction]:
     """The actions, if all of them change the road. Raises `NotAvailable` or `Invalid`."""
     changing: list[WorldAction] = []
     for position, action in enumerate(actions):
-        sentence = refusal(action)
+        sentence = refusal_of(action)
         if sentence is not None:
             raise NotAvailable(sentence, errors=[FieldProblem(f"actions.{position}", sentence)])
-        if not isinstance(action, _WORLD_ACTIONS) or sets_pace(action):
+        if not isinstance(action, _WORLD_ACTIONS) or sets_playback_speed(action):
             raise invalid([FieldProblem(f"actions.{position}", "changes nothing on the road")])
         changing.append(action)
     return changing

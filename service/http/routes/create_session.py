@@ -23,27 +23,27 @@ from service.http.session_json import links_json, session_json
 from service.http.validation import invalid
 from service.problems import (
     Ambiguous,
+    ContentTooLarge,
     DoesNotFit,
     FieldProblem,
     Invalid,
     Malformed,
     NotAvailable,
-    NotJson,
     NotRestorable,
     NotSaved,
     NotUnderstood,
-    OverQuota,
+    QuotaExceeded,
     RecordingMismatch,
-    TooLarge,
     TooManySessions,
     UnknownSession,
+    UnsupportedMediaType,
 )
 from service.refusals import refusals
 from service.security.guard import client_of
-from service.sessions.manager import Recorded
+from service.sessions.manager import Recording
 from service.sessions.session import Session
 from service.settings import Settings
-from service.store import EntryRecord, KeptAnswer
+from service.store import EntryRecord, StoredResponse
 from sim.actions import Scenario
 from sim.config import Config, ConfigError, Problem
 from sim.generation import GenerationError
@@ -63,8 +63,8 @@ router = api_router("sessions")
     responses=documented(
         Malformed,
         Ambiguous,
-        TooLarge,
-        NotJson,
+        ContentTooLarge,
+        UnsupportedMediaType,
         Invalid,
         DoesNotFit,
         NotAvailable,
@@ -72,7 +72,7 @@ router = api_router("sessions")
         RecordingMismatch,
         UnknownSession,
         TooManySessions,
-        OverQuota,
+        QuotaExceeded,
         NotSaved,
         NotRestorable,
     ),
@@ -92,7 +92,9 @@ async def create_session(
     @respond_once
     def respond(session: Session) -> Response:
         headers = {"Location": links_json(session.id)["self"], **etag(session.sequence)}
-        return json_response(session_json(session, here.listener.sentence(session.run.config)), 201, headers)
+        return json_response(
+            session_json(session, here.interpreter.sentence_for(session.run.config)), 201, headers
+        )
 
     answer = answer_to_keep(request, respond)
     with here.guard.quotas.reserve(client_of(request.scope)) as reservation:
@@ -103,7 +105,7 @@ async def create_session(
 
 
 async def _create(
-    here: Context, body: bodies.NewSession, answer: Callable[[Session], KeptAnswer] | None
+    here: Context, body: bodies.NewSession, answer: Callable[[Session], StoredResponse] | None
 ) -> Session:
     """Makes the session; `answer` gives what is stored with it."""
     recording, named = _linked(here.settings, body)
@@ -164,7 +166,7 @@ async def _config(here: Context, body: bodies.NewSession) -> Config:
 
 async def _scenario(here: Context, text: str) -> Scenario:
     """The one scenario a sentence describes; a planner named beside it stands unless it names one."""
-    parse = await here.listener.hear(text, field="scenario")
+    parse = await here.interpreter.interpret(text, field="scenario")
     if len(parse.actions) != 1 or not isinstance(parse.actions[0], Scenario):
         sentence = "does not describe a road; say for instance: a highway with 10 potholes"
         raise NotUnderstood(
@@ -211,7 +213,7 @@ def _of_rules(recording: bodies.Recording) -> dict[str, Any]:
 
 def _recorded(
     settings: Settings, body: bodies.NewSession, recording: bodies.Recording
-) -> tuple[Config, Recorded]:
+) -> tuple[Config, Recording]:
     """What a recording says, checked as far as can be before it is replayed."""
     beside = [name for name in ("scenario", "config", "seed", "planner") if getattr(body, name) is not None]
     if beside:
@@ -243,4 +245,4 @@ def _recorded(
         )
         for entry in recording.entries
     ]
-    return config, Recorded(entries=entries, tick=recording.tick, digest=recording.digest)
+    return config, Recording(entries=entries, tick=recording.tick, digest=recording.digest)

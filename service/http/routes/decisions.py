@@ -37,7 +37,7 @@ async def list_decisions(
     timeline = session.timeline.copy()
     first = max(0, timeline.tick - limit) if after is None else min(after + 1, timeline.tick)
     stop = min(timeline.tick, first + limit)
-    items = await to_thread.run_sync(told_runs, here.words, timeline, first, stop)
+    items = await to_thread.run_sync(told_runs, here.narrator, timeline, first, stop)
     return json_response({"items": items, "after": stop - 1, "more": stop < timeline.tick})
 
 
@@ -54,7 +54,7 @@ async def read_decision(
     timeline = session.timeline.copy()
     if tick >= timeline.tick:
         raise UnknownDecision(f"Tick {tick} has not been decided yet: it is tick {timeline.tick}.")
-    items = await to_thread.run_sync(told_runs, here.words, timeline, tick, tick + 1)
+    items = await to_thread.run_sync(told_runs, here.narrator, timeline, tick, tick + 1)
     if not items:
         raise UnknownDecision(f"At tick {tick} the result of an episode stood; nothing was decided.")
     return json_response(items[0])

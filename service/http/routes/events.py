@@ -33,7 +33,7 @@ async def list_events(
     """What happened, in numbered lines; the latest few hundred are kept."""
     log = session.log
     items = log.latest(limit) if after is None else log.after(after, limit)
-    last = items[-1].number if items else min(after or 0, log.last)
+    last = items[-1].number if items else min(after or 0, log.last_number)
     return json_response(
-        {"items": items, "after": last, "more": last < log.last, "first_kept": log.first_kept}
+        {"items": items, "after": last, "more": last < log.last_number, "first_kept": log.first_number}
     )

@@ -17,7 +17,7 @@ from service.http.route import api_router
 from service.http.session_json import told_decision
 from service.http.ticks import check_tick
 from service.problems import Invalid, NotRestorable, UnknownSession
-from service.sessions.scheduler.offload import QUESTION_S, asks_others, off_loop
+from service.sessions.scheduler.offload import QUESTION_S, run_in_thread, uses_external_planner
 from sim.decide import sense
 from sim.forecast import predict
 from sim.session.timeline import Timeline
@@ -68,7 +68,7 @@ async def read_forecast(
     way = session.timeline.copy()
     if tick is not None:
         check_tick(tick, way.tick)
-    run, step = await off_loop(asks_others(way), QUESTION_S, lambda: _take_step(way, tick))
+    run, step = await run_in_thread(uses_external_planner(way), QUESTION_S, lambda: _take_step(way, tick))
     decision = None if step is None else step.decision
     expected = predict(sense(run)[0] if step is None else step.percept, ticks)
     if decision is not None:
@@ -81,7 +81,7 @@ async def read_forecast(
         }
         for each in range(ticks)
     ]
-    value = None if decision is None else told_decision(here.words, run, decision)
+    value = None if decision is None else told_decision(here.narrator, run, decision)
     exact = ticks == 1 or not run.config.reacting
     return json_response({"tick": now, "decision": value, "exact": exact, "ahead": ahead})
 

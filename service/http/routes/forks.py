@@ -17,19 +17,19 @@ from service.http.responses import etag, json_response
 from service.http.route import api_router
 from service.http.session_json import links_json, session_json
 from service.problems import (
+    ContentTooLarge,
     DoesNotFit,
     Invalid,
     Malformed,
     NotAvailable,
     NothingToUndo,
-    NotJson,
     NotRestorable,
     NotSaved,
-    OverQuota,
-    TooLarge,
+    QuotaExceeded,
     TooManySessions,
     UnknownName,
     UnknownSession,
+    UnsupportedMediaType,
 )
 from service.security.guard import client_of
 from service.sessions.session import Session
@@ -46,8 +46,8 @@ router = api_router("time")
     responses=documented(
         Malformed,
         UnknownSession,
-        TooLarge,
-        NotJson,
+        ContentTooLarge,
+        UnsupportedMediaType,
         Invalid,
         NotRestorable,
         NotSaved,
@@ -56,7 +56,7 @@ router = api_router("time")
         NothingToUndo,
         UnknownName,
         TooManySessions,
-        OverQuota,
+        QuotaExceeded,
     ),
 )
 async def fork_session(
@@ -73,7 +73,7 @@ async def fork_session(
     @respond_once
     def respond(made: Session) -> Response:
         headers = {"Location": links_json(made.id)["self"], **etag(made.sequence)}
-        return json_response(session_json(made, here.listener.sentence(made.run.config)), 201, headers)
+        return json_response(session_json(made, here.interpreter.sentence_for(made.run.config)), 201, headers)
 
     with here.guard.quotas.reserve(client_of(request.scope)) as reservation:
         made = await here.manager.fork(

@@ -22,8 +22,8 @@ async def read_health(here: Here) -> Response:
         {
             "status": "ok",
             "version": VERSION,
-            "sessions": here.manager.live,
-            "watchers": here.manager.watchers,
+            "sessions": here.manager.live_count,
+            "watchers": here.manager.subscriber_count,
             "tick_lateness": here.clock.lateness(),
         }
     )

@@ -42,11 +42,11 @@ async def read_language(
 
     With a `session` as well: what the prefix would do there if it were sent as it stands.
     """
-    listener = here.listener
-    guide = listener.languages.guide(language)
+    interpreter = here.interpreter
+    guide = interpreter.languages.guide(language)
     live = None if session is None else await here.manager.get(session)
-    taught = listener.phrasebook.listed(language)
-    told: dict[str, Any] = {"language": language, "languages": listener.languages.codes, "prefix": prefix}
+    taught = interpreter.aliases.list(language)
+    told: dict[str, Any] = {"language": language, "languages": interpreter.languages.codes, "prefix": prefix}
     if prefix is None:
         intents = () if guide is None else await to_thread.run_sync(lambda: guide.intents)
         told["intents"] = [_intent_json(intent) for intent in intents]
@@ -54,17 +54,17 @@ async def read_language(
             {
                 "phrase": each.phrase,
                 "meaning": each.meaning,
-                "sentence": listener.phrasebook.told(contract.load(each.meaning), language),
+                "sentence": interpreter.aliases.describe(contract.load(each.meaning), language),
             }
             for each in taught
         ]
         told["completions"], told["preview"] = [], None
     else:
-        topic = listener.topic(live, language)
+        topic = interpreter.topic(live, language)
         told["intents"], told["taught"] = [], []
         phrases = [each.phrase for each in taught]
-        told["completions"] = [] if guide is None else await guide.completed(prefix, live, topic, phrases)
-        found = None if live is None else await listener.foresee(prefix, live, language)
+        told["completions"] = [] if guide is None else await guide.completions(prefix, live, topic, phrases)
+        found = None if live is None else await interpreter.preview(prefix, live, language)
         told["preview"] = _preview_json(found)
     return json_response(told)
 

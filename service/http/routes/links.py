@@ -27,7 +27,7 @@ from service.http.route import api_router
 from service.http.ticks import check_tick
 from service.http.validation import invalid
 from service.problems import FieldProblem, Invalid, NotRestorable, UnknownSession
-from service.sessions.fork import way_to, written_out
+from service.sessions.fork import flatten_log, timeline_until
 from service.sessions.persistence.recording import FORMAT, VERSION
 from sim.session.timeline import Timeline
 
@@ -86,10 +86,10 @@ def open_link(said: str, most_bytes: int) -> bodies.Recording | Named:
 
 
 def _carry(timeline: Timeline, tick: int) -> str:
-    way = way_to(timeline, tick)
+    way = timeline_until(timeline, tick)
     entries = [
         {"sequence": each.sequence, "tick": each.tick, "text": None, "actions": each.actions}
-        for each in written_out(way)
+        for each in flatten_log(way)
     ]
     recording = {
         "format": FORMAT,

@@ -9,7 +9,7 @@ from anyio import to_thread
 from fastapi import Query, Response
 from pydantic import Field
 
-from service.contract.encode.state import Standing, state_json
+from service.contract.encode.state import SessionStatus, state_json
 from service.contract.parts import Answered, Decision, State
 from service.contract.requests import Tick
 from service.http.deps import Here, TheSession
@@ -20,7 +20,7 @@ from service.http.route import api_router
 from service.http.session_json import told_decision
 from service.http.ticks import check_tick
 from service.problems import Invalid, NotRestorable, UnknownSession
-from service.sessions.narrator_protocol import Words
+from service.sessions.narrator_protocol import NarratorProtocol
 from sim.session.timeline import Timeline
 from sim.state import SimState
 
@@ -57,15 +57,15 @@ async def list_moments(
     limit: Annotated[int, Query(ge=1, le=MOST_MOMENTS)] = 16,
 ) -> Response:
     """Worlds in a row, each with the decision that led to it, as a reader of the stream had them."""
-    way, standing = session.timeline.copy(), session.standing
+    way, status = session.timeline.copy(), session.status
     check_tick(first, way.tick, "from")
     stop = min(way.tick + 1, first + limit)
-    items = await to_thread.run_sync(lambda: list(_moments(here.words, standing, way, first, stop)))
+    items = await to_thread.run_sync(lambda: list(_moments(here.narrator, status, way, first, stop)))
     return json_response({"items": items, "now": way.tick})
 
 
 def _moments(
-    words: Words, standing: Standing, way: Timeline, first: int, stop: int
+    narrator: NarratorProtocol, status: SessionStatus, way: Timeline, first: int, stop: int
 ) -> Iterator[dict[str, Any]]:
     before: SimState | None = None
     for run in way.between(max(0, first - 1), stop):
@@ -73,6 +73,6 @@ def _moments(
             decision = None if before is None else way.decided(before)
             value = None
             if before is not None and decision is not None:
-                value = told_decision(words, before, decision)
-            yield {"state": state_json(standing, run), "decision": value}
+                value = told_decision(narrator, before, decision)
+            yield {"state": state_json(status, run), "decision": value}
         before = run

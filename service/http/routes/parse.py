@@ -16,7 +16,14 @@ from service.http.errors import documented
 from service.http.outcome_json import corrections_json
 from service.http.responses import json_response
 from service.http.route import api_router, policy
-from service.problems import Ambiguous, Invalid, Malformed, NotJson, NotUnderstood, TooLarge
+from service.problems import (
+    Ambiguous,
+    ContentTooLarge,
+    Invalid,
+    Malformed,
+    NotUnderstood,
+    UnsupportedMediaType,
+)
 
 router = api_router("talking")
 
@@ -26,14 +33,14 @@ router = api_router("talking")
     response_model=schemas.Parsed,
     summary="Understand a sentence",
     dependencies=[JSON_ONLY],
-    responses=documented(Malformed, Ambiguous, TooLarge, NotJson, Invalid, NotUnderstood),
+    responses=documented(Malformed, Ambiguous, ContentTooLarge, UnsupportedMediaType, Invalid, NotUnderstood),
 )
 @policy(idempotency_key=False)
 async def parse_text(
     body: Annotated[bodies.Text, Body(openapi_examples=examples.TEXT)], here: Here
 ) -> Response:
     """The actions a sentence means, whether or not this version does them."""
-    heard = await here.listener.hear(body.text, code=body.language)
+    heard = await here.interpreter.interpret(body.text, code=body.language)
     return json_response(
         {
             "text": heard.text,

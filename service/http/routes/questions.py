@@ -16,15 +16,15 @@ from service.http.responses import etag, json_response
 from service.http.route import api_router, policy
 from service.problems import (
     Ambiguous,
+    ContentTooLarge,
     Invalid,
     Malformed,
     NotAQuestion,
     NotAvailable,
-    NotJson,
     NotRestorable,
     NotUnderstood,
-    TooLarge,
     UnknownSession,
+    UnsupportedMediaType,
 )
 
 router = api_router("talking")
@@ -38,8 +38,8 @@ router = api_router("talking")
     responses=documented(
         Malformed,
         UnknownSession,
-        TooLarge,
-        NotJson,
+        ContentTooLarge,
+        UnsupportedMediaType,
         Invalid,
         NotRestorable,
         NotUnderstood,
@@ -55,6 +55,6 @@ async def ask_question(
     here: Here,
 ) -> Response:
     """Answers, and changes nothing."""
-    heard = await here.listener.hear_question(body.question, session, body.language)
-    outcome = await here.listener.do(session, heard.utterance, code=body.language)
+    heard = await here.interpreter.interpret_question(body.question, session, body.language)
+    outcome = await here.interpreter.execute(session, heard.utterance, code=body.language)
     return json_response(outcome.answer, headers=etag(outcome.sequence))

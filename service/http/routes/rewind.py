@@ -16,8 +16,16 @@ from service.http.errors import documented
 from service.http.outcome_json import result_json
 from service.http.responses import etag, json_response
 from service.http.route import api_router
-from service.problems import Invalid, Malformed, NotJson, NotRestorable, NotSaved, TooLarge, UnknownSession
-from service.sessions.rewind import to_tick
+from service.problems import (
+    ContentTooLarge,
+    Invalid,
+    Malformed,
+    NotRestorable,
+    NotSaved,
+    UnknownSession,
+    UnsupportedMediaType,
+)
+from service.sessions.rewind import rewind_to
 from service.sessions.utterance import Outcome
 
 router = api_router("time")
@@ -28,7 +36,9 @@ router = api_router("time")
     response_model=schemas.CommandResult,
     summary="Go back to a tick",
     dependencies=[JSON_ONLY],
-    responses=documented(Malformed, UnknownSession, TooLarge, NotJson, Invalid, NotRestorable, NotSaved),
+    responses=documented(
+        Malformed, UnknownSession, ContentTooLarge, UnsupportedMediaType, Invalid, NotRestorable, NotSaved
+    ),
 )
 async def rewind_session(
     body: Annotated[bodies.RewindTo, Body(openapi_examples=examples.REWIND)],
@@ -41,4 +51,4 @@ async def rewind_session(
     def respond(outcome: Outcome) -> Response:
         return json_response(result_json(outcome, None, False), headers=etag(outcome.sequence))
 
-    return respond(await session.change(to_tick(body.tick), terms=conditions(respond)))
+    return respond(await session.change(rewind_to(body.tick), preconditions=conditions(respond)))

@@ -13,7 +13,7 @@ from service.http.responses import etag, json_response
 from service.http.route import api_router
 from service.http.session_json import session_json, summary_json
 from service.problems import Invalid, NotRestorable, NotSaved, UnknownSession
-from service.sessions.preconditions import Terms
+from service.sessions.preconditions import Preconditions
 
 router = api_router("sessions")
 
@@ -40,7 +40,7 @@ async def list_sessions(here: Here, after: After = None, limit: Limit = 50) -> R
 )
 async def read_session(session: TheSession, here: Here) -> Response:
     """A session as it stands. One that is kept but not live is brought back, paused."""
-    value = session_json(session, here.listener.sentence(session.run.config))
+    value = session_json(session, here.interpreter.sentence_for(session.run.config))
     return json_response(value, headers=etag(session.sequence))
 
 
@@ -53,6 +53,6 @@ async def read_session(session: TheSession, here: Here) -> Response:
 )
 async def delete_session(session_id: str, here: Here, request: Request) -> Response:
     """End it and forget it; whoever watches is told."""
-    await here.manager.delete(session_id, Terms(if_match(request)))
+    await here.manager.delete(session_id, Preconditions(if_match(request)))
     here.guard.quotas.release(session_id)
     return Response(status_code=204)

@@ -35,6 +35,6 @@ async def read_state(
     if tick is None or tick == session.timeline.tick:
         return Response(session.state_body(), headers=etag(session.sequence), media_type="application/json")
     check_tick(tick, session.timeline.tick)
-    standing = session.standing
+    status = session.status
     run = await to_thread.run_sync(session.timeline.copy().at, tick)
-    return json_response(state_json(standing, run), headers=etag(standing.sequence))
+    return json_response(state_json(status, run), headers=etag(status.sequence))

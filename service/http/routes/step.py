@@ -19,7 +19,15 @@ from service.http.errors import documented
 from service.http.responses import etag, json_response
 from service.http.route import api_router, policy
 from service.http.session_json import told_decision
-from service.problems import Invalid, Malformed, NotJson, NotRestorable, NotSaved, TooLarge, UnknownSession
+from service.problems import (
+    ContentTooLarge,
+    Invalid,
+    Malformed,
+    NotRestorable,
+    NotSaved,
+    UnknownSession,
+    UnsupportedMediaType,
+)
 from service.sessions.utterance import Outcome, Utterance
 
 router = api_router("talking")
@@ -30,7 +38,9 @@ router = api_router("talking")
     response_model=schemas.StepResult,
     summary="Run some ticks",
     dependencies=[JSON_ONLY],
-    responses=documented(Malformed, UnknownSession, TooLarge, NotJson, Invalid, NotRestorable, NotSaved),
+    responses=documented(
+        Malformed, UnknownSession, ContentTooLarge, UnsupportedMediaType, Invalid, NotRestorable, NotSaved
+    ),
 )
 @policy(direct=True, timed=True)
 async def step_session(
@@ -45,10 +55,10 @@ async def step_session(
     def respond(outcome: Outcome) -> Response:
         assert outcome.before is not None
         runs = [outcome.before, *(tick.state for tick in outcome.ticks)]
-        standing = replace(session.standing, paused=True, sequence=outcome.sequence)
-        state = state_json(standing, runs[-1])
+        status = replace(session.status, paused=True, sequence=outcome.sequence)
+        state = state_json(status, runs[-1])
         decisions = [
-            told_decision(here.words, run, tick.decision)
+            told_decision(here.narrator, run, tick.decision)
             for run, tick in zip(runs, outcome.ticks, strict=False)
             if tick.decision is not None
         ]
@@ -58,4 +68,4 @@ async def step_session(
         )
 
     utterance = Utterance(actions=(actions.Step(ticks=body.ticks),))
-    return respond(await session.change(utterance, terms=conditions(respond)))
+    return respond(await session.change(utterance, preconditions=conditions(respond)))

@@ -12,7 +12,7 @@ from service.http.deps import Here
 from service.http.errors import documented
 from service.http.responses import json_response
 from service.http.route import api_router, policy
-from service.problems import Invalid, Malformed, NotJson, TooLarge
+from service.problems import ContentTooLarge, Invalid, Malformed, UnsupportedMediaType
 from service.security.ws_tickets import GOOD_FOR_S
 
 router = api_router("operating")
@@ -36,7 +36,7 @@ class Ticket(BaseModel):
     response_model=Ticket,
     summary="Get a ticket for a socket",
     dependencies=[JSON_ONLY],
-    responses=documented(Malformed, TooLarge, NotJson, Invalid),
+    responses=documented(Malformed, ContentTooLarge, UnsupportedMediaType, Invalid),
 )
 @policy(idempotency_key=False)
 async def create_ticket(

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
-from service.sessions.fork import numbered
+from service.sessions.fork import renumber
 from service.sessions.session import Session
 from service.store import EntryRecord
 
@@ -23,7 +23,7 @@ def recording_json(session: Session, entries: Sequence[EntryRecord]) -> dict[str
     """The recording of a session up to its present tick."""
     kept = [entry for entry in entries if entry.sequence <= session.sequence]
     if session.record.branch is not None:
-        kept = numbered(kept)
+        kept = renumber(kept)
     return {
         "format": FORMAT,
         "version": VERSION,
