@@ -20,6 +20,7 @@ import { keepAddress } from "./timeline/momentAddress.js";
 import { TimelineLoader } from "./timeline/timelineLoader.js";
 import { TimeTravel } from "./timeline/timeTravel.js";
 import { byId } from "./ui/dom.js";
+import { RegretLoader } from "./why/regretLoader.js";
 import { fillTexts } from "./ui/shell.js";
 
 /** @typedef {import("./core/page.js").Page} Page */
@@ -27,6 +28,7 @@ import { fillTexts } from "./ui/shell.js";
 fillTexts(document);
 const store = createStore(reduce, INITIAL);
 const connector = new Connector(store, (data) => page.picture?.(data));
+new RegretLoader(store);
 new TimelineLoader(store, { storage: browserStorage() });
 const looking = new TimeTravel(store);
 keepAddress(store, looking);
