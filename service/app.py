@@ -64,8 +64,9 @@ from service.resources import DEFAULT_LANGUAGE
 from service.security.guard import Guard
 from service.sessions.manager import SessionManager
 from service.sessions.narrator_protocol import NarratorProtocol
-from service.sessions.scheduler.clock import Clock, WheelClock
-from service.sessions.session import SessionServices
+from service.sessions.scheduler.clock import Clock
+from service.sessions.scheduler.wheel_clock import WheelClock
+from service.sessions.services import SessionServices
 from service.settings import Settings
 from service.shutdown import STOP_S, within
 from service.store import Store, open_store

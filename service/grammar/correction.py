@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from typing import Any, Protocol
 
 from service.actions import Action, Undo
+from service.actions.table import traits_of
 from service.grammar.data import LanguageData
 from service.grammar.makes import REPAIR
 from service.grammar.parse_types import Ambiguous, Choice, Parse, Refused, Understood
@@ -19,12 +20,6 @@ from service.grammar.repairs import DROPPED
 from service.grammar.sentences import Unsayable
 from service.grammar.topic import ALONE, Topic
 from service.grammar.work_budget import Work
-
-_CHANGES = frozenset(("add", "remove", "set_count", "set", "adjust", "prefer"))
-"""Actions that can be taken back one by one."""
-
-_ON_TOP = frozenset(("add", "remove", "adjust"))
-"""Those that come on top of what was done before; the others stand in its place anyway."""
 
 
 class Tongue(Protocol):
@@ -71,7 +66,7 @@ def _as_it_should_have_been(
 ) -> tuple[Action, ...] | None:
     """What was done last, as it would be with the correction in it; None where that cannot be told."""
     done = topic.actions
-    if not done or topic.undone or any(action.do not in _CHANGES for action in done):
+    if not done or topic.undone or not all(traits_of(action).amendable for action in done):
         return None
     try:
         said = tongue.sentence(done)
@@ -102,7 +97,7 @@ def _refusal(tongue: Tongue, text: str, parsed: Refused) -> Refused:
 
 def _on_top(done: Sequence[Action], new: Sequence[Action]) -> bool:
     """Whether the same is done once more, to the same kind of thing or to the same setting."""
-    return any(a.do in _ON_TOP and a.do == b.do and _about(a) == _about(b) for a in done for b in new)
+    return any(traits_of(a).additive and a.do == b.do and _about(a) == _about(b) for a in done for b in new)
 
 
 def _about(action: Any) -> object:

@@ -12,6 +12,7 @@ from typing import Any, Protocol
 from pydantic import ValidationError
 
 from service.actions import Action, load
+from service.actions.table import verbs_where
 from service.grammar.clauses import Clause, Divided, Divider
 from service.grammar.contradictions import Contradiction, contradiction
 from service.grammar.data import LanguageData
@@ -76,7 +77,7 @@ def _once(clauses: Sequence[Clause]) -> list[dict[str, Any]]:
     return values
 
 
-_STEADY = ("pause", "resume")
+_STEADY = verbs_where(lambda traits: traits.idempotent)
 """Actions that make no difference the second time."""
 
 _EMPHASIS = ("pause", "stop", "and")

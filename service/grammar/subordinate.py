@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Any
 
+from service.actions.table import WhatIf, verbs_where
 from service.grammar.clauses import Clause, Divided
 from service.grammar.fragments import STOP, Fragment
 from service.grammar.frames import Filled, Frame
@@ -20,8 +21,8 @@ MEANS = "means"
 _OPENING = frozenset((WHAT_IF, IF, THEN_WHAT, TEACH))
 """Where none of these is said, nothing is wrapped."""
 
-TEACHING = frozenset({"teach", "forget"})
-NO_CHANGE = TEACHING | {"ask"}
+TEACHING = verbs_where(lambda traits: traits.changes_aliases)
+NO_CHANGE = verbs_where(lambda traits: traits.what_if is WhatIf.INVALID)
 """Actions that cannot stand in a condition."""
 
 CONDITIONAL = frozenset({"cond", "past"})

@@ -13,7 +13,7 @@ from service.llm import LanguageModel, create_model
 from service.llm.failures import PromptError
 from service.llm.fake import FakeModel
 from service.llm.openai import OpenAIModel
-from service.llm.prompts import load_claims, load_prompt, load_failure_messages
+from service.llm.prompts import load_claims, load_failure_messages, load_prompt
 from service.llm.protocol import Interpretation
 from service.settings import Settings
 from sim.actions import Add

@@ -6,7 +6,7 @@
  * frame.
  */
 
-import { ACTS } from "./core/commands.js";
+import { COMMANDS } from "./core/commands.js";
 import { Connector } from "./core/connector.js";
 import { watchKeys } from "./core/keyboard.js";
 import { createPage } from "./core/page.js";
@@ -23,23 +23,21 @@ import { byId } from "./ui/dom.js";
 import { RegretLoader } from "./why/regretLoader.js";
 import { fillTexts } from "./ui/shell.js";
 
-/** @typedef {import("./core/page.js").Page} Page */
-
 fillTexts(document);
 const store = createStore(reduce, INITIAL);
 const connector = new Connector(store, (data) => page.picture?.(data));
 new RegretLoader(store);
 new TimelineLoader(store, { storage: browserStorage() });
-const looking = new TimeTravel(store);
-keepAddress(store, looking);
+const timeTravel = new TimeTravel(store);
+keepAddress(store, timeTravel);
 const page = createPage(store, connector, {
-  looking,
-  acts: () => acts,
+  timeTravel,
+  commands: () => commands,
   wake: () => loop.wake(),
 });
 
 const panels = createPanels(page);
-const acts = [...ACTS, ...panels.flatMap((panel) => panel.acts ?? [])];
+const commands = [...COMMANDS, ...panels.flatMap((panel) => panel.commands ?? [])];
 let shown = INITIAL;
 const loop = createLoop({
   update() {

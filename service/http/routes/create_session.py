@@ -40,7 +40,7 @@ from service.problems import (
 )
 from service.refusals import refusals
 from service.security.guard import client_of
-from service.sessions.manager import Recording
+from service.sessions.persistence.recording import Recording
 from service.sessions.session import Session
 from service.settings import Settings
 from service.store import EntryRecord, StoredResponse

@@ -4,7 +4,7 @@
 import { errorText } from "./http.js";
 import { t } from "./texts.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "./page.js" */
 
 /**
  * What makes a part once and hands it to whoever wants it; that it could not be fetched is told, and tried again.

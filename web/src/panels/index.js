@@ -33,8 +33,8 @@ import { createTimeline } from "../timeline/timeline.js";
 import { createVerdict } from "./verdict.js";
 import { createViews } from "./views.js";
 
-/** @import { Act } from "../core/commands.js" */
-/** @import { Page } from "../main.js" */
+/** @import { Command } from "../core/commands.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { State } from "../core/state.js" */
 
 /**
@@ -42,7 +42,7 @@ import { createViews } from "./views.js";
  * @property {(state: State, before: State) => void} [update]  the state has changed
  * @property {(now: number) => boolean} [draw]  draw what moves; whether there is more to come
  * @property {() => void} [repaint]  size or colours have changed
- * @property {Act[]} [acts]  what can be done with it by a key or from the palette
+ * @property {Command[]} [commands]  what can be done with it by a key or from the palette
  */
 
 /** @param {Page} page @returns {Panel[]} */

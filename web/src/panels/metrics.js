@@ -9,7 +9,7 @@ import { drawChart } from "../timeline/paint/chart.js";
 import { find, fitCanvas } from "../ui/slot.js";
 import { sumOf, WINDOW } from "../why/regret.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { Metrics } from "../core/protocol.js" */
 /** @import { State } from "../core/state.js" */
 /** @import { Regret } from "../why/regret.js" */
@@ -54,7 +54,7 @@ export function createMetrics(host, page) {
   /** @param {MouseEvent} event */
   function look(event) {
     const tick = tickAt(event);
-    if (newest?.regret.items.get(tick)) void page.looking.at(tick);
+    if (newest?.regret.items.get(tick)) void page.timeTravel.at(tick);
   }
 
   return {

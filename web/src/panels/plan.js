@@ -17,7 +17,7 @@ import { find, fitCanvas } from "../ui/slot.js";
 import { foreseen, underWay } from "../why/forecast.js";
 import { moveOptions } from "../why/moveOptions.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { Cell, Decision } from "../core/protocol.js" */
 /** @import { State } from "../core/state.js" */
 /** @import { MoveOption } from "../why/moveOptions.js" */

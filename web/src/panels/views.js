@@ -8,8 +8,8 @@ import { createMenu } from "../ui/menu.js";
 import { find } from "../ui/slot.js";
 import { keepViews, LAYERS, PARTS, viewsLeft } from "../ui/views.js";
 
-/** @import { Act } from "../core/commands.js" */
-/** @import { Page } from "../main.js" */
+/** @import { Command } from "../core/commands.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { State } from "../core/state.js" */
 /** @import { Panel } from "./index.js" */
 
@@ -45,7 +45,7 @@ export function createViews(host, page) {
   let begun = false;
 
   return {
-    acts: viewActs(toggle, enlarge),
+    commands: viewCommands(toggle, enlarge),
 
     update({ views, large }, before) {
       if (begun && views === before.views && large === before.large) return;
@@ -105,11 +105,11 @@ function menuItems(page, toggle) {
 /**
  * @param {(name: string) => void} toggle
  * @param {(name: string) => void} enlarge
- * @returns {Act[]}
+ * @returns {Command[]}
  */
-function viewActs(toggle, enlarge) {
+function viewCommands(toggle, enlarge) {
   const group = t("groups.views");
-  /** @type {(name: string, key?: string) => Act} */
+  /** @type {(name: string, key?: string) => Command} */
   const toggling = (name, key) => ({
     name: `view-${name}`,
     group,

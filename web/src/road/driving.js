@@ -4,7 +4,7 @@
 import { onDemand, styled } from "../core/lazy.js";
 import { t } from "../core/texts.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { Panel } from "../panels/index.js" */
 
 /** @param {HTMLElement} host  the road @param {Page} page @returns {Panel} */
@@ -16,7 +16,7 @@ export function createDriving(host, page) {
   });
 
   return {
-    acts: [
+    commands: [
       {
         name: "manual",
         group: t("groups.drive"),

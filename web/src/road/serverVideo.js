@@ -10,7 +10,7 @@ import { html } from "../../vendor/lit-html.js";
 import { t } from "../core/texts.js";
 import { createSlot, find } from "../ui/slot.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { Panel } from "../panels/index.js" */
 
 const HEADER_BYTES = 16;

@@ -7,7 +7,7 @@ import { MOVES, moveName, plain, reasonWords } from "../core/words.js";
 import { iconOf } from "../ui/icons.js";
 import { labelOf } from "../why/alternatives.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { Action, Answer, Option } from "../core/protocol.js" */
 
 /** @param {Answer} answer @param {string} reply @param {Page} page */

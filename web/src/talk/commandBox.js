@@ -10,7 +10,7 @@ import { History } from "./history.js";
 import { createMicrophone } from "./speech.js";
 import { Suggestions } from "./suggestions.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { Panel } from "../panels/index.js" */
 
 /** Well beyond what the service takes, so that it is the one to say that a text is too long. */

@@ -10,7 +10,7 @@ import { plain } from "../core/words.js";
 import { guide } from "./language.js";
 import { canSpeak, speak, speaks } from "./speech.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { LanguageGuide, TaughtPhrase } from "../core/wire.js" */
 /** @import { Panel } from "../panels/index.js" */
 
@@ -30,7 +30,7 @@ const HEADINGS = /** @type {[string, string[]][]} */ ([
   ["advice", ["advise", "ask maintenance"]],
   ["teach", ["teach", "forget"]],
 ]);
-/** Keys that are not acts of their own. */
+/** Keys that are not commands of their own. */
 const MORE_KEYS = [
   ["/", "help.key_box"],
   ["↑ ↓", "help.key_said"],
@@ -73,7 +73,7 @@ export function createHelp(button, dialog, page) {
   });
   button.addEventListener("click", () => void open());
   return {
-    acts: [
+    commands: [
       { name: "box", group: t("groups.talk"), keyName: "/", now: () => ({ label: t("talk.to_box"), run: () => document.getElementById("words")?.focus() }) },
       { name: "help", group: t("groups.help"), key: "?", keyName: "?", now: () => ({ label: t("help.title"), run: () => void open() }) },
     ],
@@ -136,14 +136,14 @@ function phrases(taught) {
 
 /** @param {Page} page */
 function keys(page) {
-  const acts = page.acts().flatMap((act) => {
+  const commands = page.commands().flatMap((act) => {
     const doing = act.keyName ? act.now(page.state()) : null;
     return doing && act.keyName ? [[act.keyName, doing.label]] : [];
   });
   /** @type {Map<string, string[]>} what can be done → the keys that do it */
   const rows = new Map();
   const taken = new Set();
-  for (const [key, what] of [...MORE_KEYS.map(([key, text]) => [key, t(text)]), ...acts]) {
+  for (const [key, what] of [...MORE_KEYS.map(([key, text]) => [key, t(text)]), ...commands]) {
     if (taken.has(key)) continue;
     taken.add(key);
     rows.set(what, [...(rows.get(what) ?? []), key]);

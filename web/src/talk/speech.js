@@ -10,7 +10,7 @@ import { prefer, preference } from "../core/preferences.js";
 import { LANGUAGE, t } from "../core/texts.js";
 import { iconOf } from "../ui/icons.js";
 
-/** @import { Act } from "../core/commands.js" */
+/** @import { Command } from "../core/commands.js" */
 /** @import { Panel } from "../panels/index.js" */
 
 /** Decisions of this weight and more are told aloud. */
@@ -66,14 +66,14 @@ export function speak(on) {
 
 /** Reads aloud what matters: replies, ends, and decisions of weight. @returns {Panel} */
 export function createReader() {
-  /** @type {Act} */
+  /** @type {Command} */
   const toggle = {
     name: "aloud",
     group: t("groups.talk"),
     now: () => ({ label: t(speaks() ? "talk.aloud_stop" : "talk.aloud"), run: () => speak(!speaks()) }),
   };
   return {
-    acts: canSpeak() ? [toggle] : [],
+    commands: canSpeak() ? [toggle] : [],
     update(state, before) {
       if (!speaks()) return;
       if (state.announcement !== before.announcement) say(state.announcement);

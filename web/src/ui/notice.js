@@ -5,7 +5,7 @@ import { html, nothing, render } from "../../vendor/lit-html.js";
 import { t } from "../core/texts.js";
 import { iconOf } from "./icons.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { Notice } from "../core/state.js" */
 /** @import { Panel } from "../panels/index.js" */
 

@@ -19,7 +19,7 @@ import { optionText } from "./moveOptions.js";
 import { tellOf, thingOf } from "./why.js";
 
 /** @import { Place, Places } from "../road/hitTest.js" */
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { Decision, Option } from "../core/protocol.js" */
 /** @import { State } from "../core/state.js" */
 /** @import { Offer, Told } from "./why.js" */

@@ -6,7 +6,7 @@
  */
 
 import { html, nothing, render } from "../../vendor/lit-html.js";
-import { words } from "../core/http.js";
+import { errorText } from "../core/http.js";
 import { turns } from "../core/latest.js";
 import { createLoop } from "../core/renderLoop.js";
 import { INITIAL } from "../core/state.js";
@@ -19,7 +19,7 @@ import { find } from "../ui/slot.js";
 import { fetchBeside, nameOfOther, partOf, titleOf } from "./counterfactual.js";
 
 /** @import { Beside, Frame } from "./counterfactual.js" */
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { Otherwise } from "./alternatives.js" */
 /** @import { State } from "../core/state.js" */
 /** @import { Panel } from "../panels/index.js" */
@@ -88,7 +88,7 @@ class CounterfactualView {
       if (newest() && !this.host.hidden) this.#begin(found);
     } catch (error) {
       if (!newest()) return;
-      this.trouble = words(error);
+      this.trouble = errorText(error);
       this.show();
     }
   }
