@@ -100,7 +100,7 @@ class Interpreter:
             return None
 
     async def preview(self, text: str, session: Session, code: str = DEFAULT_LANGUAGE) -> Preview | None:
-        """What a sentence would do now; None for one that is empty, or too long to be parse_in_topic."""
+        """What a sentence would do now; None for one that is empty, or too long to be read."""
         if not text.strip() or len(text) > self._most_chars:
             return None
         return preview(await self._read(text, session, code), session, code)

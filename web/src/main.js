@@ -19,7 +19,7 @@ import { createPanels } from "./panels/index.js";
 import { keepAddress } from "./timeline/momentAddress.js";
 import { TimelineLoader } from "./timeline/timelineLoader.js";
 import { TimeTravel } from "./timeline/timeTravel.js";
-import { byId } from "./ui/dom.js";
+import { byId } from "./ui/slot.js";
 import { RegretLoader } from "./why/regretLoader.js";
 import { fillTexts } from "./ui/shell.js";
 
