@@ -84,7 +84,7 @@ class Inside:
         for session in list(self._manager.live_sessions.values()):
             await until(lambda session=session: not session.busy)  # type: ignore[misc]
             await session.reachability.wait_until_idle()
-            session._narration.finish()
+            session.feed.wait_for_narration()
 
     async def tick(self) -> None:
         """One turn of the clock."""
