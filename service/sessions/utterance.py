@@ -1,4 +1,4 @@
-"""What is said to a session at once, and what came of it."""
+"""Utterances and their outcomes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from sim.state import SimState, StepResult
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Utterance:
-    """Actions to be done together, and what they were said as (None for typed actions)."""
+    """Actions to be done together, and the text they were said as (None for typed actions)."""
 
     actions: tuple[Action, ...]
     text: str | None = None
@@ -27,7 +27,7 @@ class Utterance:
 
 @dataclass(frozen=True, slots=True)
 class ReachabilityNotice:
-    """Something found out about the road that an utterance led to, in words."""
+    """Whether the vehicle can still arrive on the road that an utterance led to, in words."""
 
     event: Event
     text: str
@@ -35,7 +35,7 @@ class ReachabilityNotice:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Outcome:
-    """What an utterance did, or with `dry_run` would do."""
+    """What an utterance did, or would do (dry run)."""
 
     utterance: Utterance
     facts: tuple[Fact, ...]
@@ -56,5 +56,5 @@ class Outcome:
 
     @property
     def only_steps(self) -> bool:
-        """Whether nothing but time has passed."""
+        """Whether the utterance did nothing but run ticks."""
         return all(isinstance(fact, Stepped) for fact in self.facts)
