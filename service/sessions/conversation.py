@@ -161,7 +161,7 @@ def _moves_things(fact: Applied) -> bool:
 
 
 def _fixed_place(where: Where | None, fact: Applied) -> Where | None:
-    """The place of an action as lane, row or cell, which stays when the vehicle moves; None if it has none."""
+    """The place of an action as lane, row or cell, which stays when the vehicle moves; None without."""
     if where is None or (where.distance_m, where.cells, where.nearest, where.id) == (None,) * 4:
         return where
     cells = {thing.cell for thing in (*fact.added, *fact.removed)}

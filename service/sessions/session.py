@@ -1,8 +1,8 @@
-"""A live session: a timeline, its pause, its log and its watchers, changed one utterance at a time.
+"""A live session: a timeline, its clock, its log and its subscribers, changed by one utterance at a time.
 
-The order of a change: try all actions on a copy → store → publish → acknowledge. While the store
-is waited for the clock does not tick this session; a tick that came due meanwhile is taken after.
-A change that was begun is finished even when whoever asked for it has gone.
+The order of a change: perform all actions on a copy, store, publish, acknowledge. While the store is waited
+for, the clock does not tick this session; a tick that becomes due meanwhile is run afterwards. A change that
+began is finished even if the client disconnects.
 """
 
 from __future__ import annotations
@@ -110,12 +110,12 @@ class Session:
 
     @property
     def run(self) -> SimState:
-        """The present state."""
+        """The present state of the simulation."""
         return self.timeline.state
 
     @property
     def status(self) -> SessionStatus:
-        """What of the session is not in its run."""
+        """What the state message says beside the simulation: id, pause, sequence, speed, undo and redo."""
         steps, undone = self.undo_stack.steps, len(self.undo_stack.undone)
         return SessionStatus(self.id, self.paused, self.sequence, self.playback_speed, steps, undone)
 
@@ -133,7 +133,7 @@ class Session:
         return self.decision_at(self.timeline.tick - 1) if self.timeline.tick else None
 
     def decision_at(self, tick: int) -> tuple[Decision, SimState] | None:
-        """The decision taken at a past tick, and the state it was taken in; None while a result stood."""
+        """The decision at a past tick and the state it was taken in; None while a result stood."""
         run = self.timeline.at(tick)
         decision = self.timeline.decided(run)
         return None if decision is None else (decision, run)
@@ -141,7 +141,7 @@ class Session:
     # Time
 
     def set_paused(self, paused: bool) -> None:
-        """Stand still or go on; the clock is told."""
+        """Pause or resume, on the clock as well."""
         self.paused = paused
         if paused:
             self.services.clock.remove(self)
@@ -149,7 +149,7 @@ class Session:
             self.services.clock.add(self)
 
     def tick(self) -> None:
-        """One turn of the clock: a tick, or several where they follow each other in no time."""
+        """Run one turn of the clock: one tick, or several at high speed."""
         if self._changing:
             self._tick_due = True
             return
@@ -162,7 +162,7 @@ class Session:
             self._tick_once()
 
     def _on_decision(self, run: SimState, decision: Decision) -> None:
-        """A planner of another package has decided, or has not in time."""
+        """Tick with the decision of an external planner, or with its fallback."""
         if self.closed or self._changing or self.paused or self.timeline.state is not run:
             return  # asked anew when its turn comes
         try:
@@ -187,7 +187,7 @@ class Session:
             self.reachability.start_road(tick.state)
 
     def _start_manual_override(self, silence: PlannerSilentError) -> None:
-        """Let a person drive, as a change like any other: a replay does not ask that planner again."""
+        """Switch to manual driving, by a stored change: a replay does not ask that planner again."""
         self._changing = True  # no tick until it is done
         text = self.services.narrator.planner_timeout(silence.planner, silence.fault)
         task = asyncio.ensure_future(self._switch_to_manual(text))
@@ -199,7 +199,7 @@ class Session:
         self.feed.publish_change(None, text, (), [self.feed.log_line(self.timeline.tick, "event", text)])
 
     def tick_failed(self, error: Exception) -> None:
-        """A defect of the world's rules: stand still and say so, rather than fail twice a second."""
+        """Pause and log a defect of the rules, rather than fail twice a second."""
         _LOG.error("session paused after a failed tick", session=self.id, error=repr(error))
         self.paused = True
         line = self.feed.log_line(
@@ -209,28 +209,28 @@ class Session:
 
     @property
     def busy(self) -> bool:
-        """Whether something is being done to it just now."""
+        """Whether work is under way on this session."""
         return self._lock.locked() or bool(self._tasks) or self.feed.narrating
 
     def retire(self) -> None:
-        """Stand still for good; whoever still holds it must ask for the session anew."""
+        """Stop for good, at once; whoever holds the session must ask the manager for it again."""
         self.closed = True
         self.services.clock.remove(self)
 
     async def close(self) -> None:
-        """Stand still for good, once the change under way is done; later changes find no session."""
+        """Stop for good, after the change under way; later changes raise `UnknownSession`."""
         async with self._lock:
             self.closed = True
             self.set_paused(True)
 
     def announce(self, kind: str, text: str | None, reply: str) -> None:
-        """Tell watchers of something that changed nothing in the session itself."""
+        """Log and publish something that changed nothing in the session itself."""
         self.feed.publish_change(text, reply, (), [self.feed.log_line(self.timeline.tick, kind, reply)])
 
     # Change
 
     def is_possible(self, actions: tuple[Action, ...]) -> bool:
-        """Whether these would be done, and change something; long work is taken to be possible."""
+        """Whether the actions would succeed now and change something."""
         return is_possible(self.begin_transaction(), self.sequence, actions)
 
     def begin_transaction(self, language: str = DEFAULT_LANGUAGE) -> Transaction:
@@ -239,7 +239,7 @@ class Session:
 
     @asynccontextmanager
     async def locked(self, preconditions: Preconditions) -> AsyncIterator[None]:
-        """Nothing is changed by anyone meanwhile. Raises `Stale`."""
+        """Hold the session's lock, so that nothing changes meanwhile. Raises `PreconditionFailed`."""
         async with self._lock:
             preconditions.check(self.sequence)
             yield
@@ -251,9 +251,9 @@ class Session:
         dry_run: bool = False,
         preconditions: Preconditions = NO_PRECONDITIONS,
     ) -> Outcome:
-        """Do an utterance, or one made once it is its turn, all or nothing.
+        """Perform an utterance, or one made when its turn comes; all or nothing.
 
-        Raises a `ProblemError`; the session is then as it was.
+        Raises a `ProblemError`; the session is unchanged then.
         """
         if isinstance(utterance, Utterance):
             check_step_ticks(utterance.actions, self.services.settings.max_step_ticks)
@@ -323,7 +323,7 @@ class Session:
         event: Event | None = None,
         transaction: Transaction | None = None,
     ) -> Outcome:
-        """The outcome in words; beside the event loop where that takes long. `event`: of the draft's road."""
+        """The outcome in words, made in a thread where slow. `event`: about the transaction's road."""
         notice = None
         if event is not None and transaction is not None:
             notice = ReachabilityNotice(
@@ -352,7 +352,7 @@ class Session:
         self.log_position.append(entry)
 
     def _commit(self, transaction: Transaction, outcome: Outcome) -> None:
-        """Take the draft's state and tell watchers."""
+        """Take over a transaction's state and publish the outcome."""
         before, began = self.run, self.timeline.tick
         if transaction.playback_speed != self.playback_speed:
             self.services.clock.remove(self)  # the turn it waits for is at the old speed
@@ -376,7 +376,7 @@ class Session:
             self.after_change(self)
 
     def adopt(self, transaction: Transaction, sequence: int, actions: Sequence[Action]) -> None:
-        """Take a draft's state, made by these actions; for who has the session to itself."""
+        """Take over a transaction's state; for callers that have the session to themselves."""
         if is_partly_of_world(actions):
             self.partial_changes.add(sequence)
         self.timeline, self.undo_stack = transaction.timeline, transaction.undo_stack
@@ -394,6 +394,6 @@ class Session:
                 self.tick()
 
     def start_from(self, way: ForkPoint) -> None:
-        """Begin where another session's log has led to; for a session that nobody else has yet."""
+        """Start from a fork point; for a session that nobody else has yet."""
         self.timeline, self.undo_stack = way.timeline, way.undo_stack(self.paused)
         self.sequence = way.branch.sequence

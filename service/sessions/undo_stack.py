@@ -107,7 +107,7 @@ class UndoStack:
         return step
 
     def redo(self, timeline: Timeline) -> UndoStep | None:
-        """Move the step that was undone last back to those that can be undone, and return it; None if none."""
+        """Move the step that was undone last back to those that can be undone, and return it; or None."""
         if not self.undone:
             return None
         step = self.undone[-1]

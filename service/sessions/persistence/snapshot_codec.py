@@ -1,9 +1,9 @@
-"""A whole session as one value, and that as JSON values and back.
+"""Snapshots: a whole session as one value, and that value as JSON.
 
-All that a replay of its log would come to: the present, the past with what makes every tick of it near, what
-can be undone and redone, moments with a name, what "it" is, the latest lines. Taking the value is quick and
-done where the session lives; what it is made of never changes, so writing it is for any thread. Leaves out
-what a restart does away with: passing lines, talk that was kept nowhere, watchers.
+A snapshot has all that a replay of the log would lead to: the present and the past states, what can be undone
+and redone, bookmarks, the conversation, the latest lines. Taking the value is quick and runs on the event
+loop; it is immutable, so encoding it runs in any thread. Transient lines, unstored talk and subscribers are
+left out, as a restart drops them.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ class SessionSnapshot:
 
     @staticmethod
     def take(session: Session) -> SessionSnapshot:
-        """A session as it is now; for its own thread."""
+        """The snapshot of a session; for the event loop's thread."""
         last, lines = session.log.durable_lines()
         return SessionSnapshot(
             session=session.id,
@@ -73,7 +73,7 @@ class SessionSnapshot:
         )
 
     def apply_to(self, session: Session) -> None:
-        """Make this of a new session, as its log has it."""
+        """Make a new session equal to the snapshot."""
         session.sequence, session.playback_speed, session.paused = (
             self.sequence,
             self.playback_speed,
@@ -93,13 +93,13 @@ class SessionSnapshot:
 
 
 def encode(frozen: SessionSnapshot, thinned: int = 1) -> tuple[dict[str, Any], set[str]]:
-    """It as JSON values, with one of so many states on the way, and the planners that drive in it."""
+    """A snapshot as JSON values, with one of `thinned` intermediate states, and its planners."""
     writing = _Encoder(frozen, thinned)
     return writing.values, writing.packer.planners()
 
 
 class _Encoder:
-    """Numbers for what is shared: entries of logs, the logs, states, timelines."""
+    """Numbers shared parts, so that each is written once: entries, logs, states and timelines."""
 
     def __init__(self, frozen: SessionSnapshot, thinned: int) -> None:
         self.packer = Packer()
@@ -144,7 +144,7 @@ class _Encoder:
         }
 
     def _gap_beside(self, beside: Iterable[Timeline]) -> int:
-        """One of how many states is written of what is beside the present timeline, so that all have room."""
+        """One of how many states to write of timelines other than the present one, so that all fit."""
         others = {id(each) for timeline in beside for each in timeline.parts()[3]} - self._main
         room, gap = max(1, MAX_STATES - len(self._main)), self._thinned
         while len(others) > room * gap:
@@ -152,7 +152,7 @@ class _Encoder:
         return gap
 
     def _encode_logs(self, timelines: Sequence[Timeline]) -> tuple[dict[int, int], list[Any]]:
-        """Each list that logs are beginnings of: how much is as in the one before, and what follows."""
+        """The distinct logs, each as the length of the prefix it shares with the one before, and the rest."""
         most: dict[int, int] = {}
         lists: dict[int, Sequence[Entry]] = {}
         log: Sequence[Entry]
@@ -215,7 +215,7 @@ def _ascii(moves: bytes) -> str:
 
 
 def _entries(entries: Sequence[Entry]) -> list[Any]:
-    """Sequences, ticks, which action each is, and the actions, each once."""
+    """Sequences, ticks, which action each entry has, and the distinct actions."""
     numbers: dict[str, int] = {}
     actions: list[Any] = []
     which = []
@@ -231,9 +231,9 @@ def _entries(entries: Sequence[Entry]) -> list[Any]:
 
 
 def decode(values: Mapping[str, Any], session: str) -> SessionSnapshot:
-    """What was written.
+    """The snapshot from JSON values.
 
-    Raises `ValueError`, `TypeError` or `LookupError` for what cannot be read.
+    Raises `ValueError`, `TypeError` or `LookupError` for invalid values.
     """
     states = Unpacker(values["states"])
     sequences, ticks, which, dumped = values["entries"]
@@ -302,7 +302,7 @@ def decode(values: Mapping[str, Any], session: str) -> SessionSnapshot:
 
 
 def _common_prefix_length(one: Sequence[Entry], other: Sequence[Entry]) -> int:
-    """How many entries both begin with."""
+    """The number of entries that both begin with."""
     low, high = 0, min(len(one), len(other))
     while low < high:  # whole slices: comparing them is quick where they are the same objects
         middle = (low + high + 1) // 2
@@ -314,7 +314,7 @@ def _common_prefix_length(one: Sequence[Entry], other: Sequence[Entry]) -> int:
 
 
 def _encode_runs(numbers: Sequence[int]) -> list[int]:
-    """Numbers as stretches of such that follow each other: the first of each, and how many."""
+    """Numbers as runs of consecutive ones: the first of each run, and its length."""
     stretches: list[int] = []
     for number in numbers:
         if stretches and number == stretches[-2] + stretches[-1]:
