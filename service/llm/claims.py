@@ -1,11 +1,10 @@
-"""What a text claims, so that other words for it can be held against the first.
+"""Claims of a text: whether a rephrased explanation says the same as the original.
 
-A model may change how an explanation sounds and nothing it says. So both are read down to their claims
-in order: ids, numbers, moves, negations, and every other word that carries a fact (`claims.yaml` names
-them). A faithful text has the same claims in the same order; the order keeps "vehicle-1 was left of me
-and pothole-2 right" from becoming the reverse. Every other word must be neutral, or the first text's.
-Much that is faithful is thrown away: that costs a nicer sentence, and keeping one that is wrong would
-cost the truth of an explanation.
+A model may change the wording of an explanation, not what it says. Both texts are reduced to their claims in
+order: ids, numbers, moves, negations, and every other word that carries a fact (`claims.yaml`). A faithful
+text has the same claims in the same order; the order keeps "vehicle-1 was left of me and pothole-2 right"
+from becoming the reverse. Every other word must be neutral, or in the original. Many faithful texts are
+rejected: that costs a nicer sentence, while accepting a wrong one would make an explanation false.
 """
 
 from __future__ import annotations
@@ -46,7 +45,7 @@ class Claims:
 
     @classmethod
     def load(cls) -> Claims:
-        """From `prompts/llm`. Raises `PromptError`."""
+        """The words in `prompts/llm`. Raises `PromptError`."""
         values = load_claims()
         groups = {word: name for name, words in values["groups"].items() for word in words}
         numbers = {str(word): str(number) for word, number in values["numbers"].items()}
@@ -57,7 +56,7 @@ class Claims:
         return tuple(self._claims(text))
 
     def is_faithful(self, answer: str, text: str, facts: Facts) -> bool:
-        """Whether an answer may stand for a text that was made from these facts."""
+        """Whether an answer may replace a text that was made from these facts."""
         claims = self.claims_in(text)
         named = {value for sort, value in claims if sort == "id"}
         return (
@@ -70,7 +69,7 @@ class Claims:
         )
 
     def _foreign(self, answer: str, text: str) -> set[str]:
-        """The words of an answer that are neither the text's, nor claims, nor neutral."""
+        """The words of an answer that are neither in the text, nor claims, nor neutral."""
         return _words(answer) - _words(text) - self.groups.keys() - self.numbers.keys() - self.neutral
 
     def _claims(self, text: str) -> Iterator[Claim]:

@@ -1,4 +1,4 @@
-"""The tables as they are now. How older ones become these is told in `migrations`."""
+"""The tables in their current version; `migrations` upgrades older ones."""
 
 from __future__ import annotations
 
