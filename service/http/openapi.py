@@ -13,6 +13,7 @@ from typing import Any
 from fastapi import FastAPI
 from fastapi.routing import APIRoute
 
+from service.contract.problem import ProblemDocument
 from service.http import access_control, openapi_links
 from service.http.conditional import etag, idempotency
 from service.http.errors import documented
@@ -31,6 +32,7 @@ def install(app: FastAPI) -> None:
 
     def openapi() -> dict[str, Any]:
         if not made:
+            ProblemDocument.model_rebuild()  # once, rather than for each of the hundreds that are documented
             document = generate()
             _correct(document, [each for each in app.routes if isinstance(each, APIRoute)], languages)
             made.append(document)
@@ -58,7 +60,9 @@ def _operations(
     document: dict[str, Any], routes: Sequence[APIRoute]
 ) -> Iterator[tuple[APIRoute, str, dict[str, Any]]]:
     """Each documented operation with its route."""
-    by_call = {(route.path_format, method.lower()): route for route in routes for method in route.methods}
+    by_call = {
+        (route.path_format, method.lower()): route for route in routes for method in route.methods or ()
+    }
     for path, item in document["paths"].items():
         for method, operation in item.items():
             yield by_call[path, method], method, operation
@@ -66,13 +70,14 @@ def _operations(
 
 def _document_route(route: APIRoute, method: str, operation: dict[str, Any]) -> None:
     """Adds what holds for every call alike."""
-    is_api, guarded = isinstance(route, ApiRoute), isinstance(route, GuardedRoute)
+    is_api = isinstance(route, ApiRoute)
+    policy = route.policy if isinstance(route, GuardedRoute) else None
     if is_api:
         _add_problems(operation, "invalid")  # parameters in the URL
-    idempotency.document(method, guarded and route.policy.idempotency_key, operation, _add_problems)
-    tagged = guarded and route.policy.entity_tag
+    idempotency.document(method, policy is not None and policy.idempotency_key, operation, _add_problems)
+    tagged = policy is not None and policy.entity_tag
     etag.document(method, route.path_format, tagged, operation, _add_problems)
-    access_control.document(method, guarded, operation, _add_problems)
+    access_control.document(method, policy is not None, operation, _add_problems)
 
 
 def _name_languages(document: dict[str, Any], languages: Sequence[str]) -> None:

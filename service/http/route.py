@@ -78,7 +78,7 @@ class GuardedRoute(APIRoute):
     async def handle(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answers a request that matches the path. Raises a `ProblemError`."""
         context = context_in(scope)
-        timed = self.policy.timed and scope["method"] in self.methods
+        timed = self.policy.timed and scope["method"] in (self.methods or ())
         with context.metrics.command("rest") if timed else nullcontext():
             check_access(scope, context.guard)
             body = b""
@@ -90,7 +90,7 @@ class GuardedRoute(APIRoute):
                 except ClientDisconnect:
                     return
                 receive = receive_again(body, receive)
-            if self._direct is not None and scope["method"] in self.methods:
+            if self._direct is not None and scope["method"] in (self.methods or ()):
                 read = self._direct.read(scope, body)
                 if read is not None:
                     await self._call_directly(self._direct, read[0], scope, receive, send)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from copy import deepcopy
 from typing import Any
 
+import orjson
 from hypothesis import strategies as st
 
 from service.grammar.topic import Phrases
@@ -38,7 +39,7 @@ def all_of(session: Session) -> dict[str, Any]:
         ],
         "jumps": [(one.state, other.state, [*one.entries], [*other.entries]) for one, other in jumps],
         "standing": session.status,
-        "state": session.state_body(),
+        "state": orjson.loads(session.state_body()),
         "talk": session.conversation.to_json(),
         "first line": session.log.first_number,
     }

@@ -7,8 +7,8 @@ from typing import Annotated
 from fastapi import Body, Response
 
 from service.actions import Advise
-from service.contract import advice as schemas_advice
 from service.contract import requests as bodies
+from service.contract.advice import Advice
 from service.contract.encode.advice import advice_json
 from service.http import examples
 from service.http.content_type import JSON_ONLY
@@ -41,7 +41,7 @@ _FIGURES = ("hazard", "distance_m", "speed_kmh")
 
 @router.post(
     "/advice",
-    response_model=schemas_advice.Advice,
+    response_model=Advice,
     summary="Ask what to do about a hazard",
     dependencies=[JSON_ONLY],
     responses=documented(

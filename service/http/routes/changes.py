@@ -6,11 +6,9 @@ from itertools import groupby
 from typing import Annotated
 
 from fastapi import Query, Response
-from pydantic import Field
 
 from service import actions as contract
-from service.contract.parts import Answered
-from service.contract.requests import Tick
+from service.contract.timeline import RoadChanges
 from service.http.deps import Here, TheSession
 from service.http.errors import documented
 from service.http.responses import json_response
@@ -21,22 +19,6 @@ from service.resources import DEFAULT_LANGUAGE
 router = api_router("time")
 
 MOST_CHANGES = 1_000
-
-
-class RoadChange(Answered):
-    """Something said or done that changed the road, and still stands."""
-
-    tick: Tick
-    sequence: int
-    text: str = Field(description="As it was said; of typed actions, what says the same.")
-    said: bool = Field(description="Whether it was said, rather than done by typed actions.")
-
-
-class RoadChanges(Answered):
-    """The newest changes that stand, oldest first."""
-
-    items: list[RoadChange]
-    more: bool = Field(description="Whether older ones are left out.")
 
 
 @router.get(

@@ -15,7 +15,8 @@ from service.actions import Action
 from service.actions.table import is_world_action
 from service.contract.counterfactual import Counterfactual
 from service.contract.encode.counterfactual import beside_json
-from service.contract.requests import MAX_ACTIONS, Sent, Strictly, Tick
+from service.contract.model import Tick
+from service.contract.requests import MAX_ACTIONS, Sent, Strictly
 from service.http.content_type import JSON_ONLY
 from service.http.deps import Here, TheSession
 from service.http.errors import documented

@@ -7,11 +7,9 @@ from typing import Annotated, Any
 
 from anyio import to_thread
 from fastapi import Query, Response
-from pydantic import Field
 
 from service.contract.encode.state import SessionStatus, state_json
-from service.contract.parts import Answered, Decision, State
-from service.contract.requests import Tick
+from service.contract.timeline import Moments
 from service.http.deps import Here, TheSession
 from service.http.errors import documented
 from service.http.pagination import MAX_INTEGER
@@ -28,20 +26,6 @@ router = api_router("time")
 
 MOST_MOMENTS = 64
 """Worlds in a page."""
-
-
-class Moment(Answered):
-    """A world, with the decision that led to it."""
-
-    state: State
-    decision: Decision | None
-
-
-class Moments(Answered):
-    """Several ticks in a row."""
-
-    items: list[Moment]
-    now: Tick = Field(description="The session's present tick.")
 
 
 @router.get(

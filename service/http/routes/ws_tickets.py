@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Annotated
 
 from fastapi import Body, Response
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict
 
+from service.contract.operations import Ticket
 from service.http.content_type import JSON_ONLY
 from service.http.deps import Here
 from service.http.errors import documented
@@ -22,13 +23,6 @@ class NoFields(BaseModel):
     """An empty object."""
 
     model_config = ConfigDict(extra="forbid")
-
-
-class Ticket(BaseModel):
-    """Good for one socket."""
-
-    ticket: str = Field(description="To be sent as the first message of a socket.")
-    good_for_s: int = Field(description="Seconds within which it must be used.")
 
 
 @router.post(
