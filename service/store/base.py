@@ -195,7 +195,7 @@ class Store(Protocol):
         """Delete responses older than a time."""
 
     async def shift_responses(self, newest: int) -> None:
-        """Shift the times of all responses so that the newest is at this time (for a clock set back)."""
+        """Shift the times of all responses so that the newest is at this time: none expires in a stop."""
 
     async def save_phrase(self, record: PhraseRecord, answer: StoredResponse | None = None) -> None:
         """Store a phrase, replacing one of the same owner, language and key."""
