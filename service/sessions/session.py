@@ -68,7 +68,7 @@ THREAD_TICKS = 200
 """Work of more ticks than this is done beside the event loop."""
 
 MAX_STREAMED_TICKS = 8
-"""Steps of up to so many ticks are shown to watchers tick by tick."""
+"""Steps of up to so many ticks are published tick by tick."""
 
 
 class Session:

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from sim.fast_replace import fast_constructor
 
 QUEUE_SIZE = 16
-"""A watcher that keeps up never has more than a few waiting; stepping plays through as many."""
+"""Messages in a queue. A subscriber that keeps up has a few; a step publishes as many at most."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -109,7 +109,7 @@ class Inside:
         live = self._live(path)
         if live is not None:
             await self._quiet()
-            self._manager.snapshots._take(live)
+            self._manager.snapshots.take(live)
             await self._manager.snapshots.flush()
 
     def drop(self) -> None:

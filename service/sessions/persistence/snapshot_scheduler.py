@@ -17,7 +17,7 @@ from typing import Literal
 import structlog
 from anyio import to_thread
 
-from service.sessions.persistence.snapshot_codec import SessionSnapshot
+from service.sessions.persistence.session_snapshot import SessionSnapshot
 from service.sessions.persistence.snapshots import TooLargeError, UnfitError, pack
 from service.sessions.session import Session
 from service.settings import Settings
@@ -64,7 +64,7 @@ class SnapshotScheduler:
         session.after_change = self._on_change
         position = session.log_position
         if position.add_work(session.timeline.worked, 0) >= self._interval_of(session):
-            self._take(session)
+            self.take(session)
 
     def add_fork(self, session: Session) -> None:
         """Begin to watch a fork, which has no snapshot of the part that it shares."""
@@ -75,7 +75,7 @@ class SnapshotScheduler:
     def remove(self, session: Session) -> None:
         """Take a last snapshot of an evicted session, if its restore would take long."""
         if self._work_of(session) * REMOVE_FRACTION >= self._interval_of(session):
-            self._take(session)
+            self.take(session)
 
     def forget(self, session_id: str) -> None:
         """Drop the pending snapshot of a deleted session."""
@@ -128,9 +128,10 @@ class SnapshotScheduler:
 
     def _on_change(self, session: Session) -> None:
         if session.log_position.add_work(session.timeline.worked, 1) >= self._interval_of(session):
-            self._take(session)
+            self.take(session)
 
-    def _take(self, session: Session) -> None:
+    def take(self, session: Session) -> None:
+        """Take a snapshot now and queue it to be saved, unless the queue is full."""
         if len(self._due) >= MAX_DUE and session.id not in self._due:
             return  # with the next change, or never: it is only a shortcut
         session.log_position.work = 0

@@ -22,7 +22,8 @@ import orjson
 from pydantic import ValidationError
 
 from service.sessions.persistence.log_position import LogPosition
-from service.sessions.persistence.snapshot_codec import SessionSnapshot, decode, encode
+from service.sessions.persistence.session_snapshot import SessionSnapshot
+from service.sessions.persistence.snapshot_codec import decode, encode
 from service.store import EntryRecord, SessionRecord, SnapshotRecord
 from service.version import VERSION
 from sim.plan.safe_planning import is_foreign

@@ -27,7 +27,7 @@ MAX: Final = "max"
 SHORTEST_TURN_S: Final = 0.004
 """Ticks that follow each other sooner than this are taken several in a turn of the clock."""
 MAX_TURN_TICKS: Final = 8
-"""As fast as possible is this many ticks a turn at most, half of what a watcher's slot holds."""
+"""As fast as possible is this many ticks a turn at most, half of a subscriber's queue."""
 MAX_TURN_S: Final = 0.001
 """How long a turn of as fast as possible may hold the clock; the tick that was begun is finished."""
 MAX_PERIOD_S: Final = 0.002

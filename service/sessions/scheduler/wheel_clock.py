@@ -65,7 +65,7 @@ LATENESS_SAMPLES = 4_096
 class WheelClock:
     """The clock of a running service, on the event loop's timer.
 
-    `now` answers seconds that never run backwards; `late` is told the lateness of every tick in seconds.
+    `now` returns seconds of a monotonic clock; `late` is called with the lateness of every tick in seconds.
     """
 
     def __init__(
@@ -115,7 +115,7 @@ class WheelClock:
         self._arm()
 
     def remove(self, ticker: Ticker) -> None:
-        """See `Clock.remove`. Its place in the wheel is skipped when its slot comes."""
+        """See `Clock.remove`. Its entry in the wheel is skipped when the slot comes."""
         self._due.pop(ticker, None)
         self._postponed_lateness.pop(ticker, None)
         self._unthrottled.pop(ticker, None)
@@ -125,7 +125,7 @@ class WheelClock:
         return Lateness.from_samples(self._samples)
 
     def serve(self) -> None:
-        """Tick all that is due, for at most `TURN_S`; what is left comes next turn of the loop."""
+        """Tick all that is due, for at most `TURN_S`; the rest is ticked in the next turn of the loop."""
         began = self._time()
         if self._serve_due(began):
             patience_s, self._behind_since = 0.0, None
@@ -137,14 +137,11 @@ class WheelClock:
             self._serve_unthrottled()
 
     def _time(self) -> float:
-        """The time in which deadlines are: it has stood still wherever they were put off."""
+        """The time of the deadlines, which stood still wherever they were postponed."""
         return self._now() - self._postponed_s
 
     def _fall_behind(self, now: float) -> None:
-        """Something due is left, in the first slot; where that goes on and on, put all off by so much.
-
-        That is how late the first is.
-        """
+        """Postpone all deadlines by the lateness of the first, when that has been large for long."""
         late_s = now - self._order[0] * SLOT_S
         if self._behind_since is None:
             self._behind_since = now
@@ -158,7 +155,7 @@ class WheelClock:
                 self._postponed_lateness[ticker] = self._postponed_lateness.get(ticker, 0.0) + given_up_s
 
     def _serve_due(self, began: float) -> bool:
-        """Whether all was ticked that is due."""
+        """Tick what is due; returns whether all of it was ticked."""
         order, due_at, now = self._order, self._due, began
         while order and order[0] * SLOT_S <= now:
             slot = order[0]
@@ -191,7 +188,7 @@ class WheelClock:
         return True
 
     def _serve_unthrottled(self) -> None:
-        """Each in its turn, and nobody twice."""
+        """Tick unthrottled tickers in turn, each at most once."""
         began = now = self._time()
         for ticker in list(self._unthrottled):
             if ticker not in self._unthrottled:
@@ -216,7 +213,7 @@ class WheelClock:
             self._schedule(ticker, due + period)
 
     def _tick(self, ticker: Ticker, stages: TickOutput | None = None) -> None:
-        """Tick one; where it has stages, what it has to tell of that waits for `_tell`."""
+        """Tick one ticker; the output of one that has a batch waits for `_send_output`."""
         try:
             if stages is not None:
                 stages.hold()
@@ -226,7 +223,7 @@ class WheelClock:
             self._handle_failure(ticker, error)
 
     def _send_output(self) -> None:
-        """Let all tell that have ticked, one stage after the other."""
+        """Encode, then send, the output of all that have ticked."""
         if self._ticked:
             telling, self._ticked = self._ticked, []
             for ticker, stages in telling:
@@ -246,9 +243,9 @@ class WheelClock:
         ticker.tick_failed(error)
 
     def _least_loaded(self, due: float, period: float) -> float:
-        """A time from `due` on, within a period, at which few others are due.
+        """A time from `due` on, within a period, in the slot with the fewest tickers.
 
-        Those count that are due then, and those that are a period before and so will be.
+        Tickers count that are due in that slot, or a period before it and so will be.
         """
         first, period_slots = math.ceil(due / SLOT_S), max(1, round(period / SLOT_S))
         found, fewest = first, math.inf
@@ -271,7 +268,7 @@ class WheelClock:
             waiting.append(ticker)
 
     def _arm(self) -> None:
-        """Set the one timer to what comes next, unless it is set to that or to something before."""
+        """Set the one timer to the next deadline, unless it is set to that or an earlier one."""
         if self._loop is None or not (self._order or self._unthrottled):
             return
         at = self._order[0] * SLOT_S if self._order else math.inf
