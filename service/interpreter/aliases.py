@@ -35,7 +35,7 @@ RICH_TOPIC = Topic(
     kind=Kind.POTHOLE.value,
     where=Where(lane="left"),
 )
-"""A talk in which "again", "two more" or "remove them" mean something: they cannot be taught either."""
+"""A conversation in which "again", "two more" and "remove them" mean something, so they cannot be taught."""
 
 
 class Aliases:

@@ -32,10 +32,10 @@ from sim.session.errors import EditError
 from sim.session.settings import change_setting
 
 MAX_INLINE_CHARS = 40
-"""Characters of the longest prefix that is completed where it came in: each completion is read as a whole."""
+"""Longest prefix, in characters, that is completed on the event loop; longer ones in a thread."""
 
 EXAMPLES = 6
-"""How many examples an intent is shown with."""
+"""Number of examples of an intent."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -39,8 +39,8 @@ from sim.session.config_to_actions import UndescribableError, config_to_actions
 MAX_SUGGESTIONS = 3
 
 MAX_INLINE_CHARS = 120
-"""Characters of the longest text that is read where it came in. Longer ones may take some 20 ms and more, in
-which ticks would wait, so a thread reads them."""
+"""Longest text, in characters, that is parsed on the event loop. Longer ones may take 20 ms and more, in which
+ticks would wait, so a thread parses them."""
 
 Source = Literal["grammar", "llm", "typed"]
 

@@ -21,7 +21,7 @@ from service.sessions.transaction import Transaction
 from sim.session.edits import Change
 
 MAX_TICKS = 64
-"""More ticks than this are not run for a preview."""
+"""A preview that would run more ticks is not tried."""
 
 PreviewStatus = Literal["does", "asks", "ambiguous", "not_understood", "refused"]
 

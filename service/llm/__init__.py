@@ -11,7 +11,7 @@ from service.settings import Settings
 __all__ = ["Facts", "Interpretation", "LanguageModel", "MissingExtraError", "create_model"]
 
 _LIBRARIES = ("pydantic_ai", "openai", "httpx2")
-"""What the extra `llm` brings."""
+"""The packages of the extra `llm`."""
 
 
 class MissingExtraError(RuntimeError):

@@ -20,7 +20,7 @@ from service.llm.schema import FORBIDDEN, WORDS
 from sim.actions import Add, Drive, Remove, Set, SetMode
 
 MAX_ACTIONS: Final = 8
-"""Actions in one answer, those inside others counted."""
+"""Largest number of actions in one answer, nested ones included."""
 
 _FENCED = re.compile(r"```[a-zA-Z]*\n?(.*?)```", re.DOTALL)
 

@@ -19,10 +19,10 @@ from service.llm.prompts import load_claims
 from service.llm.protocol import Facts
 
 Claim = tuple[str, str]
-"""What sort of claim, and which: `("id", "vehicle-3")`, `("number", "12")`, `("word", "left")`."""
+"""The sort of claim and its value: `("id", "vehicle-3")`, `("number", "12")`, `("word", "left")`."""
 
 EXTRA_CHARS: Final = 80
-"""A text may be twice as long as the first, and this much."""
+"""An answer may have twice the characters of the original, and so many more."""
 
 _TOKEN = re.compile(
     r"(?P<id>[^\W\d_]+-\d+)"
@@ -31,7 +31,7 @@ _TOKEN = re.compile(
 )
 _ADDRESS = re.compile(r"://|www\.|[a-z]\.[a-z]")
 _PLAIN = frozenset(" .,;:!?'\"()-–—’‘“”…/→")
-"""Marks that a sentence may have; letters and digits are those of ASCII."""
+"""Punctuation that an answer may have, beside ASCII letters and digits."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +39,7 @@ class Claims:
     """The words of a language that carry facts."""
 
     groups: dict[str, str]
-    """Word → what it says; words that say the same have one name."""
+    """Word → claim; synonyms have the same claim."""
     numbers: dict[str, str]
     neutral: frozenset[str]
 

@@ -18,7 +18,7 @@ from service.llm.failures import ModelFailure
 from service.rate_limit import TokenBucket
 
 MAX_ANSWER_BYTES: Final = 262_144
-"""The size of a response that is read; what a model may say is a hundredth of it."""
+"""Largest response, in bytes; an answer takes a hundredth of it."""
 PATH: Final = "/chat/completions"
 
 

@@ -17,10 +17,10 @@ from sim.session.edits import Change
 from sim.session.timeline import Timeline
 
 MAX_BOOKMARKS = 100
-"""Names that a session may hold: each keeps a whole timeline, though states are shared."""
+"""Largest number of bookmarks of a session: each holds a whole timeline, though states are shared."""
 
 MAX_SUGGESTIONS = 3
-"""How many names are told to whoever asks for one that is not there."""
+"""Largest number of similar names in the problem of an unknown name."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,10 +23,10 @@ from sim.session.edits import Applied
 from sim.world import World
 
 MAX_REMEMBERED = 200
-"""How many added things are remembered by the order they came in."""
+"""Largest number of added things that are remembered in order."""
 
 Episode: TypeAlias = tuple[int, int]
-"""An episode's number and the tick it began at."""
+"""The number of an episode and its first tick."""
 
 
 class Conversation:
@@ -42,7 +42,7 @@ class Conversation:
         self._where: Where | None = None
         self._episode: Episode | None = None
         self._durable: Conversation | None = None
-        """the same without what is kept nowhere, where they differ"""
+        """the memory without unstored talk, where that differs"""
 
     @property
     def durable(self) -> Conversation:

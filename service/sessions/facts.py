@@ -46,7 +46,7 @@ class Asked:
     ask: Ask
     timeline: Timeline
     supposes: str | None = None
-    """what the question was said to be about, beyond its keys: a `crash`"""
+    """what the question takes for granted, beyond its keys: a `crash`"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,11 +73,11 @@ class AliasChange:
     sentence: str
     taught: bool
     before: str | None = None
-    """what it meant before, as a sentence"""
+    """the former meaning, as a sentence"""
 
 
 Answerable: TypeAlias = Asked | Advised
-"""What is answered, and changes nothing."""
+"""Facts that are answered and change nothing."""
 
 Fact: TypeAlias = (
     Applied | PauseSet | PlaybackSpeedSet | Stepped | Undone | Bookmarked | Jumped | Viewed | Answerable

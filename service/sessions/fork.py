@@ -29,7 +29,7 @@ class ForkPoint:
     timeline: Timeline
     branch: Branch
     steps: int
-    """changes on it"""
+    """number of changes up to the fork"""
 
     def undo_stack(self, paused: bool) -> UndoStack:
         """The undo stack of a session that starts here."""

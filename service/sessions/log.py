@@ -35,7 +35,7 @@ class EventLog:
         self._transient_count = 0
         self._transient: set[int] = set()
         self._before: deque[LogEvent] = deque()
-        """lines that would still be held if there were no passing ones"""
+        """lines that would still be kept without the transient ones"""
 
     @property
     def last_number(self) -> int:

@@ -46,10 +46,10 @@ from sim.session.timeline import Timeline
 _LOG = structlog.get_logger(__name__)
 
 CLOSE_TIMEOUT_S = 0.2
-"""How long changes under way are waited for at a stop."""
+"""Time for changes under way to finish at a stop."""
 
 SNAPSHOT_TIMEOUT_S = 0.15
-"""How long snapshots are kept at a stop."""
+"""Time for saving snapshots at a stop."""
 
 
 class SessionManager:

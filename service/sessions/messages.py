@@ -20,13 +20,13 @@ from sim.types import Cell, Kind
 from sim.world import World
 
 PROTOCOL = 1
-"""Raised when a message changes its meaning; new keys do not raise it."""
+"""Version of the stream: increases when a message changes its meaning, not for new keys."""
 
 _FIRST_AV: Final = f"{Kind.AV}-1"
 _SIDES: Final = {"1": "right", "0": "left"}
 
 _SMALL_ROAD: Final = 512
-"""Roads of so many cells have a table of them; so do many sizes of road at once, in a few megabytes."""
+"""Roads of up to so many cells have a cached table of cells; many sizes of them take a few megabytes."""
 
 
 def hello_message(

@@ -32,4 +32,4 @@ class Preconditions:
 
 
 NO_PRECONDITIONS = Preconditions()
-"""No terms at all."""
+"""None at all."""

@@ -16,7 +16,7 @@ from service.sessions.utterance import Utterance
 from sim.session.timeline import Timeline
 
 MAX_TICKS = 10_000
-"""How far one action goes back; a longer way is several of them."""
+"""Largest number of ticks of one action; a longer way is several of them."""
 
 
 @dataclass(frozen=True, slots=True)

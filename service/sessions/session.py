@@ -65,7 +65,7 @@ from sim.types import Mode
 _LOG = structlog.get_logger(__name__)
 
 THREAD_TICKS = 200
-"""Work of more ticks than this is done beside the event loop."""
+"""Work of more ticks than this runs in a thread."""
 
 MAX_STREAMED_TICKS = 8
 """Steps of up to so many ticks are published tick by tick."""
@@ -82,7 +82,7 @@ class Session:
         self.sequence = 0
         self.undo_stack = UndoStack()
         self.partial_changes: set[int] = set()
-        """changes of which the timeline has a part only: the others were no changes of the road"""
+        """changes of which the log of the road has only some actions"""
         self.conversation = Conversation()
         self.log_position = LogPosition(record)
         self.after_change: Callable[[Session], None] | None = None

@@ -16,7 +16,7 @@ from sim.session.persistent_list import PersistentList
 from sim.session.timeline import Entry, Timeline
 
 MAX_JUMPS = 100
-"""How many moves in time can be taken back: each keeps a timeline. What is older than that stays."""
+"""Largest number of time jumps that can be undone, each of which holds a timeline."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +28,7 @@ class UndoStep:
     paused_before: bool
     paused_after: bool
     jump: TimeJump | None = None
-    """where it moved time"""
+    """the timelines on both sides, if the step moved time"""
 
     @property
     def since(self) -> int:

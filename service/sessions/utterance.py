@@ -20,9 +20,9 @@ class Utterance:
     actions: tuple[Action, ...]
     text: str | None = None
     supposes: str | None = None
-    """what its questions were said to be about, beyond their keys (`Asked.supposes`)"""
+    """what its questions take for granted (`Asked.supposes`)"""
     language: str = DEFAULT_LANGUAGE
-    """the language in which it is refused, where it cannot be done"""
+    """the language of a refusal"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +46,7 @@ class Outcome:
     before: SimState | None = None
     """the state in which it was said"""
     done: str = ""
-    """the reply without the notice: what a replay says again"""
+    """the reply without the notice, as a replay would make it"""
     notice: ReachabilityNotice | None = None
 
     @property

@@ -26,16 +26,16 @@ from service.store import wal
 from service.store.base import StoreError
 
 _BUSY_S = 1.0
-"""How long a file or a table that another process holds is waited for."""
+"""Time to wait for a file or table that another process has locked."""
 
 _ANSWER_S = 10.0
-"""How long a database server may take."""
+"""Time limit for an answer of a database server."""
 
 _LOCK = 0x0A0D7A1C
 """The advisory lock of a service, in the database it uses."""
 
 _TRIES = 10
-"""How often it is asked for while a table would be waited for."""
+"""Number of attempts to take it within `_BUSY_S`."""
 
 _HELD = (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED)
 

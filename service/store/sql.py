@@ -45,7 +45,7 @@ from service.store.schema import migrate
 from service.store.tables import ENTRIES, IDEMPOTENCY, MOMENTS, PHRASES, SESSIONS, SNAPSHOTS
 
 _PAGE = 500
-"""Entries read at once: making records of rows holds up the event loop."""
+"""Entries in a page: making records of rows blocks the event loop."""
 
 _Pending = tuple[str, EntryRecord, StoredResponse | None, "asyncio.Future[None]"]
 
@@ -64,9 +64,9 @@ class SqlStore:
         self._pending: list[_Pending] = []
         self._writer: asyncio.Task[None] | None = None
         self._unseen: set[str] = set()
-        """deleted meanwhile, but for their forks"""
+        """sessions deleted by this process, whose forks may still have their entries"""
         self._uncertain: list[Delete] = []
-        """takes out what was not acknowledged, and may be there"""
+        """deletes rows that were not acknowledged and may have been committed"""
 
     async def open(self) -> None:
         """Open the database, creating or upgrading its tables. Raises `StoreError`."""

@@ -20,7 +20,7 @@ from sqlalchemy import (
 )
 
 VERSION = 5
-"""Of the schema; the number of the last migration."""
+"""Version of the schema: the number of the last migration."""
 
 METADATA = MetaData()
 

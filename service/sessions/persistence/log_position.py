@@ -16,7 +16,7 @@ import orjson
 from service.store import EntryRecord, SessionRecord
 
 ENTRY_WORK = 2
-"""What a change takes beside what it does, in ticks."""
+"""Work of replaying an entry beside its ticks, in ticks."""
 
 
 class LogPosition:
@@ -26,13 +26,13 @@ class LogPosition:
 
     def __init__(self, record: SessionRecord) -> None:
         self.paused = record.paused
-        """whether time stands still, as the log has it"""
+        """whether the clock stands, as a replay would have it"""
         self.tick = 0
-        """where time stood when the latest change was done"""
+        """the tick of the latest change"""
         self.work = 0
-        """about how much work it would be to come here from the latest snapshot"""
+        """approximate work of a restore from the latest snapshot, in ticks"""
         self.counted_work = 0
-        """of its timeline's work, how much is in that"""
+        """how much of the timeline's work is counted in `work`"""
         branch = record.branch
         shared = branch and [branch.parent, branch.sequence, branch.tick, branch.standing, [*branch.instead]]
         begun = [record.id, dict(record.config), record.paused, shared]

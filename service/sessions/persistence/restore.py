@@ -17,7 +17,7 @@ from sim.session.timeline import Timeline
 _LOG = structlog.get_logger(__name__)
 
 LONG_ENTRIES = 1_000
-"""A log of so many changes may take seconds to be done again, which whoever runs the service is told."""
+"""A replay of so many entries may take seconds, so it is logged."""
 
 
 def restore(

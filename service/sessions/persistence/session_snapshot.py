@@ -30,7 +30,7 @@ class SessionSnapshot:
     sequence: int
     log_digest: bytes
     changed_at: int
-    """the tick at which the latest change was done"""
+    """the tick of the latest change"""
     paused: bool
     playback_speed: PlaybackSpeed
     timeline: Timeline

@@ -19,10 +19,10 @@ from sim.session.serialization import Packer, Pool, Unpacker
 from sim.session.timeline import Entry, Snapshot, Timeline
 
 MAX_STATES = 1_024
-"""States on the way of all timelines together; of those beside the present one fewer are written then."""
+"""Largest number of intermediate states; timelines beside the present one are thinned to fit."""
 
 ACTIONS_PER_CALL = 500
-"""Actions written at once: nothing else is done meanwhile, not even in other threads."""
+"""Actions dumped in one call, which holds the interpreter lock."""
 
 
 def encode(frozen: SessionSnapshot, thinned: int = 1) -> tuple[dict[str, Any], set[str]]:

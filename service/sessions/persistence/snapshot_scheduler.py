@@ -26,19 +26,19 @@ from service.store import SnapshotRecord, Store, StoreError
 _LOG = structlog.get_logger(__name__)
 
 DELAY_S = 0.25
-"""How long is waited before each: what came just before has others to serve."""
+"""Pause before each snapshot, so that requests go first."""
 
 ENTRIES_PER_WORK = 2
-"""One work for so many entries: writing a long log takes as long as that."""
+"""Encoding so many entries of a log takes as long as one tick of work."""
 
 THINGS_PER_DOUBLING = 100
-"""A road with so many things on it takes twice as long as an empty one."""
+"""A road with so many things takes twice as long to simulate as an empty one."""
 
 MAX_DUE = 64
-"""Sessions whose snapshot is waiting to be written: each is held in memory as it was."""
+"""Largest number of pending snapshots, each of which holds a session in memory."""
 
 REMOVE_FRACTION = 4
-"""Of the work after which one is kept, one part of so many is enough where the session is let go of."""
+"""At an eviction, this fraction of the interval is enough for a snapshot (one in so many)."""
 
 SnapshotResult = Literal["kept", "used", "unfit", "failed"]
 SNAPSHOT_RESULTS: tuple[SnapshotResult, ...] = ("kept", "used", "unfit", "failed")
@@ -57,7 +57,7 @@ class SnapshotScheduler:
         self._hurry = asyncio.Event()
         self._said = False
         self.counts: Counter[SnapshotResult] = Counter()
-        """what became of snapshots"""
+        """snapshots by result"""
 
     def add(self, session: Session) -> None:
         """Begin to watch a live session."""

@@ -32,10 +32,10 @@ from sim.session.saved_config import saved_config
 from sim.session.serialization import BeliefError
 
 FORMAT = 2
-"""Of the JSON values."""
+"""Version of the JSON values."""
 
 MAX_BYTES = 4_000_000
-"""Of one snapshot; where it would be more, fewer states on the way are in it."""
+"""Largest packed snapshot; larger ones get fewer intermediate states."""
 
 MAX_PLAIN_BYTES = 200_000_000
 

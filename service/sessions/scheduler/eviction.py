@@ -20,7 +20,7 @@ from service.store import StoreError
 _LOG = structlog.get_logger(__name__)
 
 CHECKS_PER_TIMEOUT = 4
-"""How often it is looked in the time after which a session sleeps."""
+"""Number of checks in the time after which a session is evicted."""
 
 
 class IdleTimes:

@@ -21,11 +21,11 @@ from sim.planner_names import installed
 from sim.session.timeline import Timeline
 
 QUESTION_S: Final = 10.0
-"""How long foreign planners are waited for, in all, for the answer to a question."""
+"""Time limit for planners of other packages in all, for a question."""
 STEPS_S: Final = 60.0
-"""The same for steps, and for what is undone or made again."""
+"""The same for steps, undo and redo."""
 REPLAY_S: Final = 120.0
-"""The same for a session that comes back."""
+"""The same for the replay of a session."""
 THREADS: Final = 4
 
 Result = TypeVar("Result")

@@ -17,7 +17,7 @@ from typing import Final, Literal, TypeAlias
 from sim.actions import Adjust, Set
 
 PlaybackSpeed: TypeAlias = float | Literal["max"]
-"""Simulated seconds in a second, or as many as there is time for."""
+"""Simulated seconds per second, or as many as there is time for."""
 
 SLOWEST: Final = 0.25
 FASTEST: Final = 64.0
@@ -25,13 +25,13 @@ NORMAL: Final = 1.0
 MAX: Final = "max"
 
 SHORTEST_TURN_S: Final = 0.004
-"""Ticks that follow each other sooner than this are taken several in a turn of the clock."""
+"""Shortest turn of the clock: at higher speeds a turn has several ticks."""
 MAX_TURN_TICKS: Final = 8
-"""As fast as possible is this many ticks a turn at most, half of a subscriber's queue."""
+"""Largest number of ticks of a turn at `max` speed, half of a subscriber's queue."""
 MAX_TURN_S: Final = 0.001
-"""How long a turn of as fast as possible may hold the clock; the tick that was begun is finished."""
+"""Time limit of a turn at `max` speed; a tick that began is finished."""
 MAX_PERIOD_S: Final = 0.002
-"""From one such turn to the next: half of the time at least is the others'."""
+"""Time between turns at `max` speed, at least half of which is for other sessions."""
 
 
 class PlaybackSpeedError(Exception):

@@ -32,34 +32,34 @@ from service.sessions.scheduler.clock import SLOT_S, Lateness, Ticker, TickOutpu
 _LOG = structlog.get_logger(__name__)
 
 TURN_S = 0.005
-"""How long ticks may hold the event loop before waiting requests get their turn."""
+"""Longest time that ticks hold the event loop before requests get a turn."""
 
 SLOT_CAPACITY = 4
-"""So many due in one slot are enough for one that begins, if there is another slot."""
+"""A slot with so many tickers is full: a new ticker takes another slot, if there is one."""
 
 UNTHROTTLED_TURN_S = 0.002
-"""How long those that tick as often as can be may hold the event loop, all together."""
+"""Longest time that unthrottled tickers hold the event loop, all together."""
 
 UNTHROTTLED_PAUSE_S = 0.001
-"""Until they have their next turn, at least; as long as they took, if that is longer."""
+"""Shortest pause between their turns; a turn that took longer is followed by as long a pause."""
 
 UNTHROTTLED_MAX_WAIT_S = 0.1
-"""After so long they have a turn even where what is due is never done."""
+"""They get a turn after so long even if the clock is behind."""
 
 POSTPONE_MARGIN_S = 0.02
-"""About half of this is left when deadlines are put off."""
+"""Half of this is the lateness that is left when deadlines are postponed."""
 
 OVERLOAD_LATENESS_S = 0.05
-"""So far behind and not more, all is caught up with: to put all off would make more ticks late than that."""
+"""Up to this lateness the clock catches up, since postponing all would make more ticks late."""
 
 OVERLOAD_AFTER_S = 0.2
-"""Who is further behind for so long puts every deadline off."""
+"""A clock that is later than that for so long postpones all deadlines."""
 
 BATCH_SIZE = 32
-"""So many are ticked before what they have to tell is told."""
+"""Largest number of ticks before their output is sent."""
 
 LATENESS_SAMPLES = 4_096
-"""How many of the latest ticks the lateness figures are taken from."""
+"""Number of latest ticks in the figures of lateness."""
 
 
 class WheelClock:
@@ -77,7 +77,7 @@ class WheelClock:
         self._due: dict[Ticker, float] = {}
         self._postponed_s = 0.0
         self._postponed_lateness: dict[Ticker, float] = {}
-        """how late those are already whose deadline was put off"""
+        """the lateness of tickers whose deadline was postponed"""
         self._behind_since: float | None = None
         self._slots: dict[int, list[Ticker]] = {}
         self._order: list[int] = []
