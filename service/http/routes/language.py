@@ -45,7 +45,7 @@ async def read_language(
     interpreter = here.interpreter
     guide = interpreter.languages.guide(language)
     live = None if session is None else await here.manager.get(session)
-    taught = interpreter.aliases.list(language)
+    taught = interpreter.aliases.records(language)
     told: dict[str, Any] = {"language": language, "languages": interpreter.languages.codes, "prefix": prefix}
     if prefix is None:
         intents = () if guide is None else await to_thread.run_sync(lambda: guide.intents)
