@@ -33,6 +33,7 @@ from service.http.routes import (
     config,
     counterfactual,
     forks,
+    guide,
     health,
     links,
     pages,
@@ -185,6 +186,7 @@ def create_app(
         addresses.add(at_root.router)
     openapi.install(app)
     pages.install(app)
+    guide.install(app)
     app.router.default = nearby.told_sockets(app.router.default)
     return app
 
