@@ -8,7 +8,9 @@ PORT   ?= 8000
 # One test process more than there are cores: tests that wait for a browser leave their core to others.
 WORKERS ?= $(shell echo $$(($$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2) + 1)))
 
-SPHINX := $(BIN)/python -m sphinx -q -W --keep-going -E -b html -d $(VENV)/doctrees docs docs/site
+# The site is built aside and moved into place, so that a running service never shows half of it.
+SPHINX := $(BIN)/python -m sphinx -q -W --keep-going -E -b html -d $(VENV)/doctrees docs $(VENV)/site && \
+          rm -rf docs/site && mv $(VENV)/site docs/site
 
 .DEFAULT_GOAL := help
 .PHONY: help setup run docs test check style types format bench clean
@@ -18,7 +20,9 @@ help: ## List the targets
 
 setup: $(VENV)/.ready-dev ## Install everything for development
 
-run: $(VENV)/.ready-run docs/site/index.html ## Start the service and print its address (HOST=…, PORT=…)
+# The first time, the guide is built in the background while the service already runs.
+run: $(VENV)/.ready-run ## Start the service and print its address (HOST=…, PORT=…)
+	@test -e docs/site/index.html || ( $(SPHINX) ) >$(VENV)/guide.log 2>&1 </dev/null &
 	@$(BIN)/roadtalk serve --host $(HOST) --port $(PORT)
 
 docs: $(VENV)/.ready-run ## Build the documentation site; warnings and dead links are errors
@@ -51,11 +55,6 @@ bench: $(VENV)/.ready-bench ## Measure speed, compared with other simulators
 
 clean: ## Remove everything that was installed or built
 	rm -rf $(VENV) docs/site .pytest_cache .mypy_cache .ruff_cache .hypothesis
-
-# A service without its guide is better than none: /guide then says how to build it.
-docs/site/index.html: | $(VENV)/.ready-run
-	@echo "Building the guide (once; some seconds) ..."
-	@$(SPHINX) || echo "The guide was not built. The service starts without it."
 
 # Packages are installed by uv if it is there, by venv and pip otherwise. The stamps make the second time quick.
 $(VENV)/bin/python:

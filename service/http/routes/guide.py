@@ -25,7 +25,8 @@ _NOT_BUILT = """<!doctype html>
 <html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
 <title>Roadtalk: the guide</title>
 <h1>The guide is not built yet</h1>
-<p>Run <code>make docs</code> in the project's folder, then reload this page. It takes a few seconds.</p>
+<p><code>make run</code> builds it in the background the first time: reload this page in half a minute.
+If it does not appear, run <code>make docs</code> in the project's folder.</p>
 <p>The sources can be read without building: the folder <code>docs/</code>, beginning with <code>docs/index.md</code>.</p>
 <p><a href="/">The road</a> · <a href="/docs">The REST API</a></p>
 </html>
