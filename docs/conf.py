@@ -26,7 +26,7 @@ extensions = [
 exclude_patterns = ["site", "_ext", "_templates", "**/README.md"]
 suppress_warnings = ["misc.highlighting_failure"]
 
-# Markdown. Links to headings are checked; links to files of the project become downloads, and are checked as well.
+# Markdown. Links to headings are checked. Links to files of the project become downloads, checked too.
 myst_enable_extensions = ["deflist", "attrs_inline", "colon_fence"]
 myst_heading_anchors = 3
 
@@ -59,7 +59,7 @@ html_theme_options = {
 
 
 def setup(app: Sphinx) -> None:
-    """Keeps the decisions out of the sidebar: their index lists them, and a hundred entries double the build time."""
+    """Keeps the decisions out of the sidebar: their index lists them, and a hundred entries build slowly."""
 
     def mark(app: Sphinx, _: object) -> None:
         if app.env.docname.startswith("decisions/0"):

@@ -1,4 +1,4 @@
-"""Watches a running session for a few ticks. Start the service with `make run`, then: python examples/watch_live.py"""
+"""Watches a running session. Start the service with `make run`, then: python examples/watch_live.py"""
 
 import asyncio
 import sys

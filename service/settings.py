@@ -58,11 +58,11 @@ class Settings(BaseSettings):
     sleep_after_s: float = Field(
         default=600.0,
         ge=1,
-        description="Idle timeout in seconds: paused sessions without subscribers or requests are evicted from memory.",
+        description="Idle timeout in seconds, after which paused sessions without subscribers leave memory.",
     )
     sleep_running: bool = Field(
         default=False,
-        description="Whether running sessions without subscribers are evicted as well. They come back paused.",
+        description="Whether running sessions without subscribers leave memory too. They return paused.",
     )
     snapshot_work: int = Field(
         default=4_000,
@@ -74,7 +74,7 @@ class Settings(BaseSettings):
     )
     llm_base_url: str | None = Field(
         default=None,
-        description="Base URL of an OpenAI-compatible server, including `/v1`. Unset: no language model is used.",
+        description="Base URL of an OpenAI-compatible server, including `/v1`. Unset: no language model.",
     )
     llm_model: str | None = Field(default=None, description="Name of the language model.")
     llm_api_key: SecretStr | None = Field(

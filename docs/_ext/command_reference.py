@@ -20,7 +20,9 @@ def commands() -> str:
 def _section(name: str, command: Any) -> str:
     positional = [each for each in command.params if each.param_type_name == "argument"]
     options = [each for each in command.params if each.param_type_name == "option" and not each.hidden]
-    usage = " ".join(["roadtalk", name, *(each.name.upper() for each in positional), *(["[OPTIONS]"] if options else [])])
+    usage = " ".join(
+        ["roadtalk", name, *(each.name.upper() for each in positional), *(["[OPTIONS]"] if options else [])]
+    )
     parts = [f"## `roadtalk {name}`", f"```text\n{usage}\n```", inspect.cleandoc(command.help or "")]
     rows = [f"| `{each.name.upper()}` | {each.help or ''} |" for each in positional]
     rows += [f"| {_flags(each)} | {each.help or ''}{_default(each)} |" for each in options]

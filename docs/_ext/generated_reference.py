@@ -1,4 +1,4 @@
-"""Writes the reference pages that follow from the code: settings, the command line, the REST API, metrics, what can be said.
+"""Writes the reference that follows from the code: settings, commands, REST API, metrics, what can be said.
 
 A page asks for one with a line `<!-- generated: NAME -->`; NAME is a key of `GENERATORS`.
 """
@@ -39,5 +39,6 @@ def _insert(_: Sphinx, _page: str, source: list[str]) -> None:
 
 
 def _outdated(_app: Sphinx, env: BuildEnvironment, *_: set[str]) -> list[str]:
-    """Generated pages are read in every build: what they are made of is not among the files Sphinx watches."""
-    return [page for page in env.found_docs if _REQUEST.search(env.doc2path(page).read_text(encoding="utf-8"))]
+    """Generated pages are read in every build: Sphinx does not watch what they are made of."""
+    texts = {page: env.doc2path(page).read_text(encoding="utf-8") for page in env.found_docs}
+    return [page for page, text in texts.items() if _REQUEST.search(text)]

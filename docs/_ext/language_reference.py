@@ -10,7 +10,7 @@ _MOST_EXAMPLES = 6
 
 
 def intents() -> str:
-    """Returns what is available, then what is understood and not available yet, each with example sentences."""
+    """Returns requests, questions, and what is not available yet, each with example sentences."""
     guide = get("/api/v1/language").json()["intents"]
     available = sorted((each for each in guide if each["available"]), key=lambda each: each["intent"])
     questions = [each for each in available if each["intent"].startswith("ask ")]

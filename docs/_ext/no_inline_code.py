@@ -1,4 +1,4 @@
-"""Moves the theme's inline scripts and styles to files, since the service's content security policy allows none inline."""
+"""Moves the theme's inline scripts and styles to files: the service's content security policy allows none."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ def _move_inline_code(app: Sphinx, error: Exception | None) -> None:
         html = page.read_text(encoding="utf-8")
         up = "../" * (len(page.relative_to(site).parts) - 1)
         for suffix, (pattern, tag) in _INLINE.items():
-            for code in set(pattern.findall(html)):
+            for code in pattern.findall(html):
                 name = f"_static/inline-{hashlib.sha256(code.encode()).hexdigest()[:12]}.{suffix}"
                 (site / name).write_text(code.strip() + "\n", encoding="utf-8")
-                html = pattern.sub(
-                    lambda found, code=code, to=tag.format(up + name): to if found[1] == code else found[0], html
-                )
+                found = pattern.search(html)
+                assert found is not None
+                html = html[: found.start()] + tag.format(up + name) + html[found.end() :]
         page.write_text(html, encoding="utf-8")
     for unused in (*site.rglob("*.map"), *site.rglob(".buildinfo"), *site.rglob("objects.inv")):
         unused.unlink()

@@ -1,7 +1,7 @@
-"""Makes the README's animated picture: `python -m tests.browser.animation`. The first minute, in a few seconds.
+"""Makes the README's animated picture: `python -m tests.browser.animation`.
 
-A real browser shows the page while a road runs and somebody types. Chromium's screencast gives the frames; they are
-written as an animated WebP beside the other pictures.
+A real browser shows the page while a road runs and somebody types. Chromium's screencast gives the
+frames; they are written as an animated WebP beside the other pictures.
 """
 
 from __future__ import annotations
@@ -52,10 +52,14 @@ class Screencast:
         begun, ended = self.frames[0][0], self.frames[-1][0]
         images, number = [], 0
         for instant in range(int((ended - begun) * FRAMES_PER_S) + 1):
-            while number + 1 < len(self.frames) and self.frames[number + 1][0] - begun <= instant / FRAMES_PER_S:
+            while (
+                number + 1 < len(self.frames) and self.frames[number + 1][0] - begun <= instant / FRAMES_PER_S
+            ):
                 number += 1
             image = Image.open(io.BytesIO(self.frames[number][1])).convert("RGB")
-            images.append(image.resize((WIDTH, round(WIDTH * image.height / image.width)), Image.Resampling.LANCZOS))
+            images.append(
+                image.resize((WIDTH, round(WIDTH * image.height / image.width)), Image.Resampling.LANCZOS)
+            )
         return images
 
 

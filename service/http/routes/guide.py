@@ -27,7 +27,7 @@ _NOT_BUILT = """<!doctype html>
 <h1>The guide is not built yet</h1>
 <p><code>make run</code> builds it in the background the first time: reload this page in half a minute.
 If it does not appear, run <code>make docs</code> in the project's folder.</p>
-<p>The sources can be read without building: the folder <code>docs/</code>, beginning with <code>docs/index.md</code>.</p>
+<p>The sources are readable as they are: begin with <code>docs/index.md</code>.</p>
 <p><a href="/">The road</a> · <a href="/docs">The REST API</a></p>
 </html>
 """
@@ -56,7 +56,9 @@ def install(app: FastAPI) -> None:
 def _not_built(path: str) -> Response:
     if path != "index.html":
         raise HTTPException(404)
-    return HTMLResponse(_NOT_BUILT, status_code=503, headers={"Cache-Control": "no-store", "Retry-After": "10"})
+    return HTMLResponse(
+        _NOT_BUILT, status_code=503, headers={"Cache-Control": "no-store", "Retry-After": "10"}
+    )
 
 
 def _file(folder: Path, path: str) -> ServedFile:
