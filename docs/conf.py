@@ -40,6 +40,7 @@ autodoc_default_options = {"members": True, "show-inheritance": False}
 python_use_unqualified_type_names = True
 python_maximum_signature_line_length = 90
 add_module_names = False
+toc_object_entries = False  # else the sidebar lists every method
 
 html_theme = "furo"
 html_title = "Roadtalk"
