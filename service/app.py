@@ -70,7 +70,8 @@ _DESCRIPTION = """
 A vehicle that drives itself along a road of obstacles and potholes, live; changed and questioned in
 plain words.
 
-The guide is at [/guide](/guide). Everything the page does is a call documented here. Errors are problems (RFC 9457). A session is also
+The guide is at [/guide](/guide). Everything the page does is a call documented here.
+Errors are problems (RFC 9457). A session is also
 a stream: open a WebSocket on `/api/v1/sessions/{id}/stream`; it sends `hello`, then `tick` and
 `changed` messages, and takes `{"type": "command", "id": "1", "text": "add five potholes"}`.
 
