@@ -38,6 +38,7 @@ from service.http.routes import (
     forecast,
     forks,
     frame,
+    guide,
     health,
     links,
     metrics,
@@ -94,6 +95,7 @@ RESOURCES = (
     sse,
     ws_tickets,
     forks,
+    frame,
     rewind,
     bookmarks,
     links,
@@ -112,7 +114,8 @@ _DESCRIPTION = """
 A vehicle that drives itself along a road of obstacles and potholes, live; changed and questioned in
 plain words.
 
-Everything the page does is a call documented here. Errors are problems (RFC 9457). A session is also
+The guide is at [/guide](/guide). Everything the page does is a call documented here.
+Errors are problems (RFC 9457). A session is also
 a stream: open a WebSocket on `/api/v1/sessions/{id}/stream`; it sends `hello`, then `tick` and
 `changed` messages, and takes `{"type": "command", "id": "1", "text": "add five potholes"}`.
 
@@ -202,5 +205,6 @@ def create_app(
     openapi.install(app)
     docs.install(app)
     pages.install(app)
+    guide.install(app)
     app.router.routes.append(NO_WEBSOCKET)
     return app
