@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from bench.timing import timed
 from service import actions as contract
 from service.actions import Ask
-from service.narrate import Narrator
+from service.narration import Narrator
 from service.sessions.facts import Asked
 from sim.types import Move
 from tests.sim.explain.moments import moments

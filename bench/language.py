@@ -8,7 +8,7 @@ from pathlib import Path
 import orjson
 
 from bench.timing import timed
-from service.language import Language
+from service.grammar import Language
 
 _DATA = Path(__file__).parent.parent / "tests" / "language" / "data" / "dev.jsonl"
 

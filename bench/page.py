@@ -26,8 +26,8 @@ from playwright.sync_api import Browser, CDPSession, Page, sync_playwright
 
 from bench.serving import machine
 from tests.browser.conftest import QUIET, chromium
-from tests.browser.service_process import ServiceProcess
 from tests.browser.visitor import WATCH_PICTURES, until
+from tests.support.service_process import ServiceProcess
 
 RESULTS = Path(__file__).parent / "PAGE.md"
 DESK = {"width": 1440, "height": 900}

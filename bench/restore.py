@@ -23,10 +23,10 @@ from pathlib import Path
 from typing import Any
 
 from service import actions as contract
-from service.narrate import Narrator
+from service.narration import Narrator
 from service.problems import ProblemError
-from service.sessions.clock import WheelClock
 from service.sessions.manager import SessionManager
+from service.sessions.scheduler.clock import WheelClock
 from service.sessions.session import Session, Surroundings
 from service.sessions.utterance import Utterance
 from service.settings import Settings

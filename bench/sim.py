@@ -31,7 +31,7 @@ from sim.search.reachability import shortest_plan, steps_left
 from sim.state import SimState
 from sim.transition import step
 from sim.types import Outcome
-from tests.sim import twin
+from tests.support import twin
 
 WORLDS, TICKS, REPEATS = 4096, 1000, 7
 LONGER = 4

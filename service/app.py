@@ -15,56 +15,53 @@ from anyio import CapacityLimiter
 from fastapi import FastAPI
 from fastapi.routing import APIRoute
 
-from service.api import (
+from service.http import errors, openapi
+from service.http import not_found as nearby
+from service.http.conditional.idempotency import Answers
+from service.http.deps import Context
+from service.http.middleware import access_control as gate
+from service.http.middleware import body_limit as edges
+from service.http.middleware import head_method as bodiless
+from service.http.middleware import hot_routes as plainly
+from service.http.middleware import metrics
+from service.http.middleware import state_cache as glance
+from service.http.realtime import sse
+from service.http.realtime import websocket as stream
+from service.http.routes import (
     advice,
-    bodiless,
     commands,
     config,
     counterfactual,
-    edges,
-    errors,
-    film,
     forks,
-    frames,
-    gate,
-    glance,
     health,
-    insight,
     links,
-    metrics,
-    nearby,
-    openapi,
     pages,
     parse,
-    plainly,
     sessions,
-    sse,
-    stream,
-    tickets,
     timeline,
-    watching,
 )
-from service.api import (
-    language as language_route,
-)
-from service.api.context import Context
-from service.api.idempotency import Answers
-from service.api.views import PREFIX
+from service.http.routes import forecast as insight
+from service.http.routes import frame as frames
+from service.http.routes import language as language_route
+from service.http.routes import state as watching
+from service.http.routes import video as film
+from service.http.routes import ws_tickets as tickets
+from service.http.session_json import PREFIX
+from service.interpreter.aliases import Phrasebook
+from service.interpreter.interpreter import Listener
+from service.interpreter.languages import Language, Languages
 from service.llm import LanguageModel, configured
-from service.logs import RequestIds
-from service.narrate import Narrator
+from service.log_format import RequestIds
+from service.narration import Narrator
 from service.resources import DEFAULT_LANGUAGE
 from service.security.guard import Guard
-from service.sessions.clock import Clock, WheelClock
 from service.sessions.manager import SessionManager
+from service.sessions.narrator_protocol import Words
+from service.sessions.scheduler.clock import Clock, WheelClock
 from service.sessions.session import Surroundings
-from service.sessions.words import Words
 from service.settings import Settings
-from service.stopping import STOP_S, within
+from service.shutdown import STOP_S, within
 from service.store import Store, open_store
-from service.talk.languages import Language, Languages
-from service.talk.listener import Listener
-from service.talk.phrasebook import Phrasebook
 from service.version import VERSION
 from sim.plan.sandbox.client import without_waiting
 

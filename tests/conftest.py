@@ -17,15 +17,17 @@ import fastapi.routing
 import pytest
 from hypothesis import HealthCheck, settings
 
-from service.language import engine
-from service.language.data import LanguageData
+from service.grammar import engine
+from service.grammar.data import LanguageData
+from service.interpreter import languages
+from service.interpreter.languages import Languages
 from service.llm.claims import Claims
-from service.narrate import Narrator
+from service.narration import Narrator
 from service.resources import prompts_folder
-from service.talk import languages
-from service.talk.languages import Languages
-from tests.leaving_out import EVEN_IN_CI
-from tests.service.postgres import Server, binaries, serving
+from tests.support.postgres import Server, binaries, serving
+from tests.support.skips import EVEN_IN_CI
+
+pytest_plugins = ["tests.support.service"]
 
 Report = TypeVar("Report", pytest.TestReport, pytest.CollectReport)
 

@@ -14,10 +14,10 @@ from typing import Any
 import httpx
 import pytest
 
-from service.cli import cli
+from service.cli.main import cli
 from service.settings import Settings
 from sim.plan.conformance import check
-from tests.browser.service_process import PATIENCE_S, ServiceProcess
+from tests.support.service_process import PATIENCE_S, ServiceProcess
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -87,28 +87,6 @@ def test_every_link_leads_to_a_file_and_its_heading(path: Path) -> None:
         assert not heading or heading in headings(target), link
 
 
-def tables_of_files(text: str) -> str:
-    """The rows of the first table, and of every later one headed `file` or `folder`."""
-    tables = re.findall(r"(?:^\|.*\n)+", text, re.MULTILINE)
-    return "".join(tables[:1] + [table for table in tables[1:] if re.match(r"\| (file|folder) \|", table)])
-
-
-@pytest.mark.parametrize("name", ["service", "service/language", "service/llm", "sim", "bench"])
-def test_every_file_in_a_table_of_files_is_there(name: str) -> None:
-    """The first column names files and folders; after `sessions/draft`, `history` is in `sessions`, too."""
-    text = (ROOT / name / "README.md").read_text(encoding="utf-8")
-    missing = []
-    for row in re.findall(r"^\| (`[^|]*`) \|", tables_of_files(text), re.MULTILINE):
-        folder = ROOT / name
-        for file in re.findall(r"`([^`]+)`", row):
-            if "/" in file.rstrip("/"):
-                folder = ROOT / name / file.rpartition("/")[0]
-            place = folder / file.rpartition("/")[2] if not file.endswith("/") else ROOT / name / file
-            if not (place.is_dir() or place.with_suffix(".py").is_file()):
-                missing.append(file)
-    assert missing == []
-
-
 def test_the_index_of_decisions_names_each_once_in_order() -> None:
     folder = ROOT / "docs" / "decisions"
     index = re.findall(
@@ -120,15 +98,6 @@ def test_the_index_of_decisions_names_each_once_in_order() -> None:
     assert [int(number) for number, _, _, _ in index] == list(range(1, len(index) + 1))
     for number, file, title, date in index:
         assert (folder / file).read_text("utf-8").startswith(f"# {number}. {title}\n\nDate: {date}\n"), file
-
-
-def test_every_module_of_the_page_that_is_named_is_there() -> None:
-    source = ROOT / "web" / "src"
-    files = re.findall(
-        r"(?<![\w/])(?:src/)?([\w/]+\.js)", (ROOT / "web" / "README.md").read_text(encoding="utf-8")
-    )
-    assert len(files) > 30
-    assert [name for name in files if not (source / name.removeprefix("web/src/")).is_file()] == []
 
 
 def test_every_command_of_roadtalk_that_is_named_is_there() -> None:

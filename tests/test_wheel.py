@@ -53,7 +53,7 @@ def test_it_runs_from_the_wheel_alone(wheel: Path, tmp_path: Path) -> None:
         "import service\n"
         "from service.resources import prompts_folder, web_folder\n"
         "from service.store import SqlStore\n"
-        "from service.talk.languages import Languages\n"
+        "from service.interpreter.languages import Languages\n"
         "assert service.__file__.startswith(sys.argv[1])\n"
         "assert (web_folder() / 'index.html').is_file()\n"
         "print(len(Languages.load().codes) > 0, str(prompts_folder()).startswith(sys.argv[1]))\n"

@@ -5,7 +5,7 @@ Knows the service by its documented calls only; nothing of the service itself is
 
 from __future__ import annotations
 
-from service.client.aio import AsyncClient, AsyncSession
+from service.client.async_client import AsyncClient, AsyncSession
 from service.client.errors import (
     Ambiguous,
     Choice,
@@ -53,7 +53,7 @@ from service.client.runs import (
     RoadChanges,
     Timeline,
 )
-from service.client.sync import Client, Session
+from service.client.sync_client import Client, Session
 from service.client.unbound import Advice, Guide
 
 __all__ = [

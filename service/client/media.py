@@ -6,7 +6,7 @@ import struct
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from service.client import html
+from service.client import notebook_html as html
 from service.client.errors import UnexpectedAnswer
 
 _HEADER = struct.Struct(">2sBBfQ")

@@ -13,7 +13,8 @@ from urllib.parse import quote, urlencode
 
 from websockets.exceptions import ConnectionClosed, InvalidStatus, WebSocketException
 
-from service.client import calls, reading
+from service.client import endpoints as calls
+from service.client import reading
 from service.client.errors import NotReachable, Refused, RoadtalkError, UnexpectedAnswer, refusal
 from service.client.media import Picture, picture
 from service.client.reading import Json, Result

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from service.client import html
+from service.client import notebook_html as html
 from service.client.reading import Json, Result
 
 Cell = tuple[int, int]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
-from service.client import html
+from service.client import notebook_html as html
 from service.client.reading import Result
 from service.client.results import BriefDecision, Cell, CrashCause, Decision, State
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from service.client import html
+from service.client import notebook_html as html
 from service.client.reading import Json, Result
 
 

@@ -26,12 +26,12 @@ from pydantic_ai.settings import ModelSettings
 from pydantic_core import to_json
 
 from service.actions import Action
-from service.llm.bucket import Bucket
+from service.llm.answer_parser import read
 from service.llm.claims import Claims
-from service.llm.failure import ModelFailure
+from service.llm.failures import ModelFailure
 from service.llm.prompts import load_prompt, load_told
 from service.llm.protocol import Facts, Interpretation
-from service.llm.reading import read
+from service.llm.rate_limit import Bucket
 from service.llm.transport import GuardedTransport
 from service.settings import Settings
 

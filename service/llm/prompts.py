@@ -12,7 +12,7 @@ from typing import Any, Final, get_args
 
 import yaml
 
-from service.llm.failure import ModelFailure, Reason
+from service.llm.failures import ModelFailure, Reason
 from service.llm.schema import schema
 from service.resources import prompts_folder
 

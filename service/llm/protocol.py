@@ -14,7 +14,7 @@ from typing import Any, Protocol, TypeAlias
 from service.actions import Action
 
 Facts: TypeAlias = Mapping[str, Any]
-"""The structured part of an explanation, as JSON values: `service.wire.explanation`."""
+"""The structured part of an explanation, as JSON values: `service.contract.encode.explanation`."""
 
 
 @dataclass(frozen=True, slots=True)

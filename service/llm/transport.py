@@ -14,8 +14,8 @@ from annotated_types import MinLen
 from pydantic import BaseModel, SecretStr, ValidationError
 from pydantic_core import to_json
 
-from service.llm.bucket import Bucket
-from service.llm.failure import ModelFailure
+from service.llm.failures import ModelFailure
+from service.llm.rate_limit import Bucket
 
 MAX_ANSWER_BYTES: Final = 262_144
 """The size of a response that is read; what a model may say is a hundredth of it."""

@@ -7,11 +7,11 @@ from typing import Any, cast
 from starlette.requests import HTTPConnection
 
 from service.problems import TooManyChanges
-from service.security.bucket import Buckets
+from service.security.api_key import Key
 from service.security.hosts import Hosts, loopback
-from service.security.key import Key
 from service.security.quotas import Quotas
-from service.security.tickets import Tickets
+from service.security.rate_limit import Buckets
+from service.security.ws_tickets import Tickets
 from service.settings import Settings
 
 STRANGERS_PER_MINUTE = 600

@@ -9,7 +9,7 @@ from __future__ import annotations
 from service.actions import Action, Ask, Hide, Show
 from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE
-from service.sessions.pace import sets_pace
+from service.sessions.scheduler.playback_speed import sets_pace
 from sim.actions import Add, Adjust, Drive, Remove, Reset, Scenario, Set, SetCount, SetMode
 from sim.session.scenario import find_unavailable
 from sim.session.settings import is_available

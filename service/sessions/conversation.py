@@ -15,7 +15,7 @@ from typing import Any, TypeAlias
 
 from service import actions as contract
 from service.actions import Action, Redo, Undo
-from service.language.topic import Phrases, Topic
+from service.grammar.topic import Phrases, Topic
 from service.sessions.facts import Answerable, Asked, Fact, Undone
 from service.sessions.utterance import Outcome
 from sim.actions import Add, Remove, Reset, SetCount, Where

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from service.actions import Ask
-from service.sessions.pace import PaceSet
-from service.sessions.saved import Kept, Went
+from service.sessions.bookmarks import Kept, Went
+from service.sessions.scheduler.playback_speed import PaceSet
 from sim.hazard_advice import Advice
 from sim.session.edits import Applied, Change
 from sim.session.timeline import Timeline

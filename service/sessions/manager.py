@@ -28,17 +28,17 @@ from service.problems import (
     UnknownSession,
 )
 from service.refusals import refusals
-from service.sessions.draft import Draft, check_ticks
-from service.sessions.elsewhere import REPLAY_S, STEPS_S, patiently
-from service.sessions.forking import way_of
-from service.sessions.keeping import Keeper
-from service.sessions.pace import NORMAL
-from service.sessions.replaying import ReplayError, repeat, replay
-from service.sessions.saved import with_names
+from service.sessions.bookmarks import with_names
+from service.sessions.fork import way_of
+from service.sessions.persistence.replay import ReplayError, repeat, replay
+from service.sessions.persistence.restore import woken
+from service.sessions.persistence.snapshot_scheduler import Keeper
+from service.sessions.preconditions import ANY_TERMS, Terms
+from service.sessions.scheduler.eviction import Idleness, Sleeper
+from service.sessions.scheduler.offload import REPLAY_S, STEPS_S, patiently
+from service.sessions.scheduler.playback_speed import NORMAL
 from service.sessions.session import CHANGES_NOTHING, Session, Surroundings
-from service.sessions.sleeping import Idleness, Sleeper
-from service.sessions.terms import ANY_TERMS, Terms
-from service.sessions.waking import woken
+from service.sessions.transaction import Draft, check_ticks
 from service.store import EntryRecord, KeptAnswer, MomentRecord, SessionRecord, StoreError
 from sim.actions import Set
 from sim.config import Config, ConfigError

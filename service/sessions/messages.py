@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import lru_cache
 from typing import Any, Final
 
+from service.contract.encode.decision import brief_decision_json
+from service.contract.encode.json import encoded
+from service.contract.encode.state import Json, Standing, metrics_json, state_json
 from service.sessions.log import LogEvent
-from service.sessions.watchers import Missed
-from service.wire.decision import brief_decision_json
-from service.wire.encode import encoded
-from service.wire.state import Json, Standing, metrics_json, state_json
+from service.sessions.subscribers import Missed
 from sim.plan import Decision
 from sim.session.edits import Change
 from sim.state import SimState

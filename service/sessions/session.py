@@ -18,34 +18,34 @@ import structlog
 from anyio import to_thread
 
 from service.actions import Action, Advise, Ask, Hide, Show
+from service.contract.encode.state import Standing, state_json
 from service.problems import NotSaved, UnknownName, UnknownSession
 from service.resources import DEFAULT_LANGUAGE
-from service.sessions.asking import Asking
-from service.sessions.clock import Clock
+from service.server_timing import part as timed
+from service.sessions.bookmarks import told_where
 from service.sessions.conversation import Conversation
-from service.sessions.draft import Draft, check_ticks
-from service.sessions.elsewhere import QUESTION_S, STEPS_S, asks_others, names_another, off_loop
+from service.sessions.dry_run import possible
 from service.sessions.facts import Fact, asked_about, happened_in, views_of
-from service.sessions.footing import Footing
-from service.sessions.forking import Way, is_mixed
-from service.sessions.history import History
-from service.sessions.later import Later
+from service.sessions.fork import Way, is_mixed
 from service.sessions.log import Log, LogEvent
 from service.sessions.messages import changed_message, tick_message
-from service.sessions.outlooks import Outlooks
-from service.sessions.pace import NORMAL, Pace, hurried, period_s, turn
-from service.sessions.possible import possible
-from service.sessions.saved import told_where
-from service.sessions.stages import Stages
-from service.sessions.telling import entry_of, long_to_answer, outcome_of
-from service.sessions.terms import ANY_TERMS, Terms
+from service.sessions.narrator_protocol import Words
+from service.sessions.outcome import entry_of, long_to_answer, outcome_of
+from service.sessions.persistence.log_position import Footing
+from service.sessions.preconditions import ANY_TERMS, Terms
+from service.sessions.reachability import Outlooks
+from service.sessions.scheduler.background_task import Later
+from service.sessions.scheduler.clock import Clock
+from service.sessions.scheduler.external_planner import Asking
+from service.sessions.scheduler.offload import QUESTION_S, STEPS_S, asks_others, names_another, off_loop
+from service.sessions.scheduler.playback_speed import NORMAL, Pace, hurried, period_s, turn
+from service.sessions.scheduler.tick_batch import Stages
+from service.sessions.subscribers import Watchers
+from service.sessions.transaction import Draft, check_ticks
+from service.sessions.undo_stack import History
 from service.sessions.utterance import Notice, Outcome, Utterance
-from service.sessions.watchers import Watchers
-from service.sessions.words import Words
 from service.settings import Settings
 from service.store import SessionRecord, Store, StoreError
-from service.timing import part as timed
-from service.wire.state import Standing, state_json
 from sim.actions import SetMode
 from sim.events import Event
 from sim.explain.summary import long_to_tell

@@ -22,7 +22,8 @@ from sqlalchemy.exc import ArgumentError, DBAPIError
 from sqlalchemy.ext.asyncio import AsyncEngine, create_async_engine
 from sqlalchemy.pool import AsyncAdaptedQueuePool
 
-from service.store import holders, wal
+from service.store import lock_owner as holders
+from service.store import wal
 from service.store.base import StoreError
 
 _BUSY_S = 1.0

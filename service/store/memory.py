@@ -18,7 +18,7 @@ from service.store.base import (
     SnapshotRecord,
     StoreError,
 )
-from service.store.lineage import joined
+from service.store.fork_log import joined
 
 
 class MemoryStore:

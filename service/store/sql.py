@@ -32,7 +32,7 @@ from service.store.base import (
     StoreError,
 )
 from service.store.engines import Postgres, Sqlite, kind_of, reason
-from service.store.lineage import joined
+from service.store.fork_log import joined
 from service.store.rows import (
     answer_values,
     entry_of,

@@ -6,7 +6,7 @@ from collections.abc import Callable, Hashable
 
 import pygame
 
-from service.window import look
+from service.window import theme as look
 from sim.render import theme
 
 

@@ -7,10 +7,10 @@ from typing import Final
 
 import pygame
 
-from service.window import look
+from service.window import theme as look
 from service.window.exchange import Exchange, told
-from service.window.line import Line
 from service.window.panels import PANELS, TITLES, Panels
+from service.window.text_input import Line
 from sim.render import theme
 from sim.render.text import render_text, text_width, truncate, wrap_text
 

@@ -13,7 +13,7 @@ import pygame
 from service.actions import Action, Pause, Redo, Resume, Rewind, Step, Undo
 from service.window.console import Console
 from service.window.exchange import Exchange
-from service.window.game import Game
+from service.window.local_session import Game
 from service.window.panels import PANELS, Panels
 from sim.actions import Adjust, Drive, Reset, SetMode
 from sim.types import Mode, Move

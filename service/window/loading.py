@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from service.sessions.words import Words
-    from service.talk.languages import Languages
+    from service.interpreter.languages import Languages
+    from service.sessions.narrator_protocol import Words
 
 
 class LoadError(Exception):
@@ -26,12 +26,11 @@ class Loaded:
 def load() -> Loaded:
     """Read it all, here and now. Raises `LanguageDataError` and `FileNotFoundError` for unfit data."""
     from service.actions import Hide, Show
-    from service.language import Language
-    from service.narrate import Narrator
+    from service.grammar import Language
+    from service.interpreter.languages import Languages
+    from service.narration import Narrator
     from service.resources import DEFAULT_LANGUAGE
     from service.sessions.availability import refusal
-    from service.talk.languages import Languages
-    from service.window import game  # noqa: F401 - all that a game imports, too
 
     def offered(action: object) -> bool:
         return isinstance(action, Show | Hide) or refusal(action) is None  # type: ignore[arg-type]
@@ -41,7 +40,7 @@ def load() -> Loaded:
     languages = Languages({DEFAULT_LANGUAGE: grammar})
     guide = languages.guide(DEFAULT_LANGUAGE)
     if guide is not None:
-        from service.language.topic import ALONE
+        from service.grammar.topic import ALONE
 
         guide.completions("a", None, ALONE, [])
     return Loaded(languages, Narrator.load(DEFAULT_LANGUAGE))

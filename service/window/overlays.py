@@ -6,7 +6,7 @@ from typing import Final
 
 import pygame
 
-from service.window import look
+from service.window import theme as look
 from service.window.keys import EXAMPLES, KEYS
 from sim.render import theme
 from sim.render.text import render_text, text_width, truncate

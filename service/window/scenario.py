@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from service.language.parse_types import Ambiguous, Refused, Understood
+from service.grammar.parse_types import Ambiguous, Refused, Understood
+from service.interpreter.languages import Languages
 from service.resources import DEFAULT_LANGUAGE
 from service.sessions.availability import refusal
-from service.talk.languages import Languages
 from sim.actions import Scenario
 
 

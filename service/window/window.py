@@ -10,19 +10,19 @@ from typing import Final
 import pygame
 
 from service.refusals import refusals
-from service.sessions.pace import said
-from service.window import look
+from service.sessions.scheduler.playback_speed import said
+from service.window import theme as look
+from service.window.animation import Showing
 from service.window.canvas import Canvas
 from service.window.console import Console, draw_console
 from service.window.controls import Controls
 from service.window.exchange import Exchange
-from service.window.game import Game
 from service.window.layout import Shape, arrange, body_of, close_of, head_of
 from service.window.loading import Loading
+from service.window.local_session import Game
 from service.window.overlays import draw_help, draw_quit
 from service.window.panels import PANELS, TITLES, Panels
-from service.window.showing import Showing
-from service.window.start import Start
+from service.window.start_screen import Start
 from sim.config import Config
 from sim.generation import GenerationError
 from sim.render import MIN_SIDE_PX, render

@@ -18,9 +18,9 @@ import pytest
 from playwright.sync_api import Browser, expect, sync_playwright
 
 from tests.browser.hands import Road, empty_road
-from tests.browser.service_process import ServiceProcess
 from tests.browser.visitor import PATIENCE_MS, Visitor
 from tests.browser.walking import began
+from tests.support.service_process import ServiceProcess
 
 # Nothing of a browser's own is wanted on the network; the rest is for running as root without a screen.
 QUIET = [

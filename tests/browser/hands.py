@@ -8,15 +8,15 @@ from typing import Any
 
 from playwright.sync_api import Locator, expect
 
-from tests.browser.service_process import ServiceProcess
 from tests.browser.visitor import Visitor
+from tests.support.service_process import ServiceProcess
 
 Cell = list[int]
 
 # Once the road has come to rest: while the vehicle glides, so does the view.
 PLACE_OF = """
 async (cell) => {
-  const { viewUnder } = await import("/src/hits.js");
+  const { viewUnder } = await import("/src/road/hitTest.js");
   const { places } = viewUnder(document.querySelector(".road-hands"));
   let [at, still] = ["", 0];
   while (still < 4) {

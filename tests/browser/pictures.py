@@ -21,8 +21,8 @@ from playwright.sync_api import Browser, expect, sync_playwright
 
 from tests.browser.conftest import QUIET, chromium
 from tests.browser.hands import PLACE_OF
-from tests.browser.service_process import ServiceProcess
 from tests.browser.visitor import Visitor
+from tests.support.service_process import ServiceProcess
 
 FOLDER = Path(__file__).parent / "pictures"
 MOST_BYTES = 250_000

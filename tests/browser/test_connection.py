@@ -9,7 +9,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.browser.conftest import Visit
-from tests.browser.service_process import ServiceProcess
+from tests.support.service_process import ServiceProcess
 
 
 @pytest.fixture(scope="module")

@@ -8,8 +8,8 @@ from playwright.sync_api import expect
 
 from tests.browser.conftest import Visit
 from tests.browser.hands import Road, empty_road
-from tests.browser.service_process import ServiceProcess
 from tests.browser.visitor import until
+from tests.support.service_process import ServiceProcess
 
 # At one moment: keys are taken together when they are pressed within some milliseconds.
 TWO_KEYS = """

@@ -8,9 +8,9 @@ from playwright.sync_api import expect
 
 from tests.browser.conftest import STANDING, Visit
 from tests.browser.held import Held
-from tests.browser.service_process import ServiceProcess
 from tests.browser.visitor import Visitor
 from tests.browser.walking import TICKS, figure
+from tests.support.service_process import ServiceProcess
 
 
 def gone_elsewhere(visitor: Visitor, session: str) -> None:

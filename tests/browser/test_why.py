@@ -8,8 +8,8 @@ from playwright.sync_api import expect
 
 from tests.browser.conftest import Visit
 from tests.browser.hands import Road, empty_road
-from tests.browser.service_process import ServiceProcess
 from tests.browser.visitor import until
+from tests.support.service_process import ServiceProcess
 
 # All at one moment: a tick later, the one behind is where the other was, and in the end both stand anyway.
 STOPPED_APART = """
@@ -129,7 +129,7 @@ def test_the_schematic_tells_too(road: Road) -> None:
     canvas = road.page.locator("#schematic canvas")
     x, y = road.page.evaluate(
         """async (cell) => {
-          const { viewUnder } = await import("/src/hits.js");
+          const { viewUnder } = await import("/src/road/hitTest.js");
           const at = viewUnder(document.querySelector("#schematic canvas")).places.placeOf(cell);
           return [at.left + at.width / 2, at.top + at.height / 2];
         }""",

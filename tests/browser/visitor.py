@@ -8,7 +8,7 @@ from typing import Any
 
 from playwright.sync_api import Browser, ConsoleMessage, Locator, Page, Request, expect
 
-from tests.browser.service_process import Script
+from tests.support.service_process import Script
 
 PATIENCE_MS = 60_000
 """How long anything on the page may take: a machine may be slow, or busy with other things."""

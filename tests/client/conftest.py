@@ -12,8 +12,8 @@ from service.app import create_app
 from service.client import AsyncClient, Client
 from service.settings import Settings
 from service.store import MemoryStore
-from tests.browser.service_process import ServiceProcess
-from tests.service.fakes import HandClock
+from tests.support.fakes import HandClock
+from tests.support.service_process import ServiceProcess
 
 
 @pytest.fixture

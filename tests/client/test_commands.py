@@ -15,16 +15,17 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from service.cli import cli
+from service.cli import doctor
+from service.cli import say as talking
+from service.cli.main import cli
+from service.cli.sessions import table
+from service.cli.terminal import plain
+from service.cli.watch import lines
 from service.client import Changed, Client, Gone, LogEvent, Message, Session, SessionSummary, Standing
 from service.client.messages import Hello
-from service.commands import doctor, talking
-from service.commands.listing import table
-from service.commands.terminal import plain
-from service.commands.watching import lines
 from service.settings import Settings
-from tests.browser.service_process import ServiceProcess
-from tests.service.test_cli import COMMAND, ENVIRONMENT, ROOT, run
+from tests.cli.test_cli import COMMAND, ENVIRONMENT, ROOT, run
+from tests.support.service_process import ServiceProcess
 
 COMMANDS = ("serve", "say", "watch", "replay", "sessions", "doctor", "check-planner", "language-eval")
 

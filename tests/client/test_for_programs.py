@@ -7,9 +7,9 @@ import json
 import pytest
 from typer.testing import CliRunner, Result
 
-from service.cli import cli
+from service.cli.main import cli
 from service.client import Client
-from tests.browser.service_process import ServiceProcess
+from tests.support.service_process import ServiceProcess
 
 
 def asked(process: ServiceProcess, *words: str, given: str | None = None) -> Result:

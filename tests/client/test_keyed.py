@@ -9,8 +9,8 @@ import pytest
 from websockets.sync.client import connect
 
 from service.client import AsyncClient, Client, Hello, NotAllowed
-from service.client.calls import KEY_VARIABLE
-from tests.browser.service_process import ServiceProcess
+from service.client.endpoints import KEY_VARIABLE
+from tests.support.service_process import ServiceProcess
 
 KEY = "open-sesame"
 

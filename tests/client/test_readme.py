@@ -5,7 +5,7 @@ from __future__ import annotations
 import doctest
 from pathlib import Path
 
-from tests.browser.service_process import ROOT, ServiceProcess
+from tests.support.service_process import ROOT, ServiceProcess
 
 README = ROOT / "service" / "client" / "README.md"
 

@@ -8,9 +8,16 @@ from html.parser import HTMLParser
 import pytest
 from pydantic import BaseModel
 
-from service.api import insight, schemas, schemas_advice, schemas_counterfactual, shapes, tickets, timeline
-from service.client import AsyncClient, Film, Frame, html, media, reading, results, runs, unbound
+from service.client import AsyncClient, Film, Frame, media, reading, results, runs, unbound
+from service.client import notebook_html as html
 from service.client.errors import UnexpectedAnswer
+from service.contract import advice as schemas_advice
+from service.contract import answers as schemas
+from service.contract import counterfactual as schemas_counterfactual
+from service.contract import parts as shapes
+from service.http.routes import forecast as insight
+from service.http.routes import timeline
+from service.http.routes import ws_tickets as tickets
 
 PAIRS: list[tuple[type, type[BaseModel]]] = [
     (results.Vehicle, shapes.Vehicle),

@@ -24,7 +24,7 @@ from service.client import (
     UnknownSession,
 )
 from service.client.messages import Watching
-from tests.browser.service_process import ServiceProcess
+from tests.support.service_process import ServiceProcess
 
 
 def test_what_happens_is_seen_until_the_end(client: Client) -> None:

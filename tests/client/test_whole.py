@@ -8,9 +8,10 @@ from typing import Any
 
 import pytest
 
-from service.client import AsyncClient, BlockedMove, calls, runs
-from service.client.calls import Call
-from service.client.following import Following
+from service.client import AsyncClient, BlockedMove, runs
+from service.client import endpoints as calls
+from service.client.endpoints import Call
+from service.client.sse import Following
 from tests.contract.document import document
 
 Json = dict[str, Any]

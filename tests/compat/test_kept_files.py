@@ -17,8 +17,8 @@ from typing import Any
 import httpx
 import pytest
 
-from service.api.views import PREFIX
 from service.app import create_app
+from service.http.session_json import PREFIX
 from service.settings import Settings
 from sim.planner_names import canonical
 from sim.session.timeline import Timeline

@@ -11,8 +11,8 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from service.api.views import PREFIX
-from service.cli import cli
+from service.cli.main import cli
+from service.http.session_json import PREFIX
 from sim.rules.versions import RULES
 from tests.compat.test_kept_files import ROOT, Json, copied, kept, opened
 

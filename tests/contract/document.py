@@ -11,7 +11,7 @@ from fastapi import FastAPI
 from service.app import create_app
 from service.settings import Settings
 from service.store import MemoryStore
-from tests.service.fakes import FewSentences, HandClock
+from tests.support.fakes import FewSentences, HandClock
 
 Json = dict[str, Any]
 

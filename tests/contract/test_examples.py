@@ -13,7 +13,7 @@ from service.app import create_app
 from service.settings import Settings
 from service.store import MemoryStore
 from tests.contract.document import document
-from tests.service.fakes import HandClock
+from tests.support.fakes import HandClock
 
 Json = dict[str, Any]
 APP = create_app(Settings(database="memory:"), store=MemoryStore(), clock=HandClock())

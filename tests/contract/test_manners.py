@@ -12,7 +12,7 @@ from service.app import create_app
 from service.settings import Settings
 from service.store import MemoryStore
 from tests.contract.document import Json, asked, document, operations
-from tests.service.live import running
+from tests.support.live_server import running
 
 APP = asked()
 DOCUMENT = document()

@@ -15,7 +15,13 @@ from hypothesis import strategies as st
 from pydantic import TypeAdapter
 
 from service import problems
-from service.api import bodies, insight, schemas, schemas_advice, schemas_counterfactual, tickets, timeline
+from service.contract import advice as schemas_advice
+from service.contract import answers as schemas
+from service.contract import counterfactual as schemas_counterfactual
+from service.contract import requests as bodies
+from service.http.routes import forecast as insight
+from service.http.routes import timeline
+from service.http.routes import ws_tickets as tickets
 from tests.contract.document import Json, asked, document, operations
 
 APP = asked()

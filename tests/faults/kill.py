@@ -27,8 +27,8 @@ from uuid import uuid4
 
 import httpx
 
-from tests.ports import lasting_port
-from tests.service.postgres import binaries, serving
+from tests.support.ports import lasting_port
+from tests.support.postgres import binaries, serving
 
 ROUNDS_OF_A_SESSION = 8
 SNAPSHOT_WORK = 15

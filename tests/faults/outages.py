@@ -14,7 +14,7 @@ import httpx
 from tests.faults.cases import CannotError, Row, told
 from tests.faults.process import Watched
 from tests.faults.talk import Talk
-from tests.service.postgres import Server, binaries, serving
+from tests.support.postgres import Server, binaries, serving
 
 KILLS = 3
 TALKERS = 4

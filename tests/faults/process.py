@@ -37,7 +37,7 @@ class Watched:
         """`before` is put before the command; `errors` is where its log goes. Raises `NotStartedError`."""
         self._folder = tempfile.TemporaryDirectory(prefix="roadtalk-")
         out, self.errors = Path(self._folder.name) / "out", errors or Path(self._folder.name) / "errors"
-        command = [*before, sys.executable, "-m", "tests.faults.watched"]
+        command = [*before, sys.executable, "-m", "tests.faults.watched_process"]
         with out.open("w") as stdout, self.errors.open("w") as stderr:
             self.process = subprocess.Popen(
                 [*command, "serve", "--port", "0", "--database", database],

@@ -9,7 +9,7 @@ import pytest
 
 from tests.faults.cases import CASES, CannotError, ForbiddenError, Row
 from tests.faults.outages import server_faults
-from tests.leaving_out import leave_out
+from tests.support.skips import leave_out
 
 MOST_S = 0.5
 """The aim is 50 ms, which `report` measures; machines that test share, and what must be found here, a wait

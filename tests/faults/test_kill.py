@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from tests.faults import kill
-from tests.service.postgres import Server
+from tests.support.postgres import Server
 
 
 def test_killed_it_loses_nothing(tmp_path: Path) -> None:

@@ -11,9 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from service.actions import ACTIONS, Action, Ask, dump, load
-from service.llm.failure import ModelFailure, Reason
+from service.llm.answer_parser import MAX_ACTIONS, read
+from service.llm.failures import ModelFailure, Reason
 from service.llm.prompts import load_prompt
-from service.llm.reading import MAX_ACTIONS, read
 from service.llm.schema import FORBIDDEN, MAY, schema
 from sim.session.settings import AS_IT_IS
 

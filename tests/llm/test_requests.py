@@ -10,7 +10,7 @@ import pytest
 import structlog
 from structlog.testing import capture_logs
 
-from service.llm.failure import ModelFailure
+from service.llm.failures import ModelFailure
 from service.llm.openai import OpenAIModel, _failure_in
 from service.llm.prompts import load_prompt
 from tests.llm.conftest import KEY, Making, Seconds

@@ -11,7 +11,7 @@ from functools import partial
 
 import structlog
 
-from service.language import Language
+from service.grammar import Language
 from tests import conftest
 from tests.model.compare import DifferenceError
 from tests.model.plan import Op, walk

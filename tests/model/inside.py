@@ -19,7 +19,7 @@ from service.settings import Settings
 from service.store import MemoryStore
 from tests.model.following import Follower
 from tests.model.wires import Events, Socket
-from tests.service.fakes import HandClock
+from tests.support.fakes import HandClock
 
 NEVER = 10**9
 TURNS = 20_000

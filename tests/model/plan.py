@@ -16,7 +16,7 @@ from typing import Any, TypeAlias
 Op: TypeAlias = tuple[Any, ...]
 Json: TypeAlias = dict[str, Any]
 
-DEV = Path(__file__).parents[1] / "language" / "data" / "dev.jsonl"
+DEV = Path(__file__).parents[1] / "grammar" / "data" / "dev.jsonl"
 KINDS = ("pothole", "vehicle", "barrier", "pedestrian")
 MOVES = ("forward", "left", "right", "forward_left", "forward_right", "stay")
 PLANNERS = ("rules", "rules", "priority", "astar", "dijkstra", "bfs")

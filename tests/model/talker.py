@@ -6,7 +6,7 @@ import asyncio
 from typing import Any
 
 from service import actions as contract
-from service.language.sentences import Unsayable
+from service.grammar.sentences import Unsayable
 from tests.model import pages
 from tests.model.compare import DifferenceError, compare_result, dumped, holds, same
 from tests.model.plain import NOTHING, Plain, RefusedError

@@ -10,7 +10,7 @@ import json
 import pytest
 
 from service.actions import Undo
-from service.language import Language
+from service.grammar import Language
 from sim.actions import Add, Where
 from sim.config import Config
 from tests.model.compare import DifferenceError

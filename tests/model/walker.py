@@ -9,7 +9,7 @@ from typing import Any
 import httpx
 
 from service import actions as contract
-from service.language import Language
+from service.grammar import Language
 from sim.config import Config, ConfigError
 from tests.model import asking, pages
 from tests.model.compare import (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from contextlib import nullcontext
 
-from service.language import Language
+from service.grammar import Language
 from tests.model import small
 from tests.model.inside import Inside
 from tests.model.outside import Outside

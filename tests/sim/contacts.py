@@ -23,7 +23,7 @@ from sim.rules.collision_geometry import SIZES, Path, first_contact
 from sim.types import HAZARDS, MOVERS, Cell, Kind, Move, Outcome
 from sim.world import World
 from sim.world.boards import BOARDED, NO_BOARDS, Boards
-from tests.sim.roads import numbered, road
+from tests.support.roads import numbered, road
 
 TABLE: Final = FilePath(__file__).parents[1] / "web" / "bodies.json"
 PHASES: Final = (0.4, 1.0)

@@ -17,7 +17,7 @@ from sim.state import SimState
 from sim.types import Kind
 from sim.world import World
 from sim.world.grid import bits
-from tests.sim.roads import road, run_on
+from tests.support.roads import road, run_on
 
 EMPTY = run_on(
     road(

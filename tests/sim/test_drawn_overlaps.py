@@ -12,7 +12,7 @@ from sim.types import Kind, Mode, Move, Outcome
 from sim.world import World
 from tests.sim.contacts import Case, cases, worlds
 from tests.sim.drawn_overlaps import Found, overlaps, watch
-from tests.sim.roads import road, run_on
+from tests.support.roads import road, run_on
 
 CUTTING = Case(Move.FORWARD_LEFT, Kind.VEHICLE, (-1, 0), 1)
 

@@ -25,8 +25,8 @@ from sim.types import Kind, Mode, Move, Outcome
 from sim.validation import validate_world
 from sim.world import World
 from sim.world.grid import bits
-from tests.sim import twin
-from tests.sim.roads import road, run_on
+from tests.support import twin
+from tests.support.roads import road, run_on
 
 FIRST, SECOND = "av-1", "av-2"
 PLANNERS = {"rules": 300, "priority": 300, "exact": 60, "dijkstra": 20, "astar": 20}

@@ -12,8 +12,8 @@ from sim.perceive import perceive_truth
 from sim.types import Move
 from sim.world import World
 from sim.world.grid import bits
-from tests.sim import twin
-from tests.sim.roads import road, run_on, worlds
+from tests.support import twin
+from tests.support.roads import road, run_on, worlds
 
 
 def expected(world: World, move: Move, horizon: int = 1) -> tuple[StepVerdict, tuple[str, ...]]:

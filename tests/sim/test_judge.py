@@ -10,7 +10,7 @@ from sim.judge import collisions, outcome
 from sim.rules.dynamics_registry import dynamics_on
 from sim.types import Kind, Outcome
 from sim.world import Cause, World
-from tests.sim.roads import road
+from tests.support.roads import road
 
 
 def av_at(world: World, *cells: tuple[int, int]) -> World:

@@ -32,8 +32,8 @@ from sim.validation import validate_world
 from sim.world import World, notation
 from sim.world.boards import Boards
 from sim.world.grid import bits
-from tests.sim import twin
-from tests.sim.roads import road, run_on, worlds
+from tests.support import twin
+from tests.support.roads import road, run_on, worlds
 
 every_kind = pytest.mark.parametrize("kind", PLACEABLE)
 

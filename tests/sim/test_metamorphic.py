@@ -20,9 +20,9 @@ from sim.types import Kind, Move, Outcome
 from sim.world import World
 from sim.world.boards import Boards
 from sim.world.grid import Board, Road, bits, board_of
-from tests.sim import slow_search
-from tests.sim.roads import road, run_on, worlds
-from tests.sim.twin import position
+from tests.support import slow_search
+from tests.support.roads import road, run_on, worlds
+from tests.support.twin import position
 
 MIRRORED = {
     Move.LEFT: Move.RIGHT,

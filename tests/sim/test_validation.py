@@ -15,8 +15,8 @@ from sim.transition import step
 from sim.types import Kind, Move, Outcome
 from sim.validation import validate_world
 from sim.world import Cause, World
-from tests.sim.plan_defects import validate_plan
-from tests.sim.roads import road, run_on, worlds
+from tests.support.plan_defects import validate_plan
+from tests.support.roads import road, run_on, worlds
 
 SOUND = road("....", ".o#.", ".>(.", ".A..")
 BIT = 1 << 15

@@ -21,7 +21,7 @@ from sim.state import SimState
 from sim.transition import step
 from sim.types import Cell, Outcome
 from sim.world.grid import Board, bits
-from tests.sim import twin
+from tests.support import twin
 
 
 def cells(state: SimState, board: Board) -> set[Cell]:

@@ -4,15 +4,15 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 
-import { boxOf, firstContact, SIZES } from "../../web/src/bodies.js";
-import { Stage } from "../../web/src/motion.js";
-import { cracksOf, paintBarrier, paintPothole } from "../../web/src/paint/hazards.js";
-import { paintWarning } from "../../web/src/paint/signals.js";
-import { drawThing } from "../../web/src/paint/things.js";
-import { lookOf, paintEgo, paintVehicle } from "../../web/src/paint/vehicle.js";
-import { drawWalker } from "../../web/src/paint/walker.js";
-import { STEPS } from "../../web/src/foresight.js";
-import { worldAfter, worldOf } from "../../web/src/world.js";
+import { boxOf, firstContact, SIZES } from "../../web/src/road/collisionGeometry.js";
+import { Stage } from "../../web/src/road/motion.js";
+import { cracksOf, paintBarrier, paintPothole } from "../../web/src/road/paint/hazards.js";
+import { paintWarning } from "../../web/src/road/paint/signals.js";
+import { drawThing } from "../../web/src/road/paint/things.js";
+import { lookOf, paintEgo, paintVehicle } from "../../web/src/road/paint/vehicle.js";
+import { drawWalker } from "../../web/src/road/paint/pedestrian.js";
+import { STEPS } from "../../web/src/why/forecast.js";
+import { worldAfter, worldOf } from "../../web/src/road/world.js";
 import { tick, wireState } from "./fakes.mjs";
 
 const TOLD = JSON.parse(readFileSync(new URL("bodies.json", import.meta.url), "utf-8"));

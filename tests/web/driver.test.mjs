@@ -2,8 +2,8 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { handOver } from "../../web/src/panels/driver.js";
-import { createRoads } from "../../web/src/panels/roads.js";
-import { changeWords } from "../../web/src/words.js";
+import { createRoads } from "../../web/src/talk/roadFamilies.js";
+import { changeWords } from "../../web/src/core/words.js";
 
 const SET_ASTAR = { do: "set", parameter: "planner", value: "astar" };
 const world = { mode: "auto", planner: "rules" };

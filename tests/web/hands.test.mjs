@@ -3,15 +3,15 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { endWords, fetchBeside, nameOfOther, partOf, sumOf, titleOf } from "../../web/src/counterfactual.js";
-import { isDriving, moveOf } from "../../web/src/drive.js";
-import { hindrance, isLoose, moving, placing, removing } from "../../web/src/edit.js";
-import { cellWords, decidedAbout, decidedOn, headingWords, onRoad, placeWords, thingAt, thingIn } from "../../web/src/hits.js";
-import { fetchDecision, labelOf } from "../../web/src/otherwise.js";
-import { servedView } from "../../web/src/served.js";
-import { INITIAL } from "../../web/src/state.js";
-import { tellOf } from "../../web/src/why.js";
-import { worldOf } from "../../web/src/world.js";
+import { endWords, fetchBeside, nameOfOther, partOf, sumOf, titleOf } from "../../web/src/why/counterfactual.js";
+import { isDriving, moveOf } from "../../web/src/road/drivingKeys.js";
+import { hindrance, isLoose, moving, placing, removing } from "../../web/src/road/edit.js";
+import { cellWords, decidedAbout, decidedOn, headingWords, onRoad, placeWords, thingAt, thingIn } from "../../web/src/road/hitTest.js";
+import { fetchDecision, labelOf } from "../../web/src/why/alternatives.js";
+import { servedView } from "../../web/src/road/serverCamera.js";
+import { INITIAL } from "../../web/src/core/state.js";
+import { tellOf } from "../../web/src/why/why.js";
+import { worldOf } from "../../web/src/road/world.js";
 import { wireState } from "./fakes.mjs";
 
 const world = worldOf(wireState());

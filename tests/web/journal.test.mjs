@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { LOG_LINES, logChange, logEvents, logTick } from "../../web/src/journal.js";
+import { LOG_LINES, logChange, logEvents, logTick } from "../../web/src/talk/journal.js";
 import { logEvent, tick, wireState } from "./fakes.mjs";
 
 const at = (number, narration) =>

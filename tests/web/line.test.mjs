@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { drawLine, tickAt, xOf } from "../../web/src/paint/line.js";
+import { drawLine, tickAt, xOf } from "../../web/src/timeline/paint/line.js";
 
 /** A canvas that writes down what is drawn on it, with the colour it was drawn in. */
 function recording() {

@@ -1,9 +1,9 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { fileName, filmPath, recordingIn, sizeWords, stretch } from "../../web/src/downloads.js";
-import { ask, askJson, Refused } from "../../web/src/http.js";
-import { forkAt, forks, hashOf, noteFork, placeInHash, shareLink } from "../../web/src/links.js";
+import { fileName, filmPath, recordingIn, sizeWords, stretch } from "../../web/src/timeline/downloads.js";
+import { ask, askJson, Refused } from "../../web/src/core/http.js";
+import { forkAt, forks, hashOf, noteFork, placeInHash, shareLink } from "../../web/src/timeline/links.js";
 
 const page = new URL("http://localhost:8000/?x=1#/s/a");
 

@@ -1,9 +1,9 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { watchKeys } from "../../web/src/keys.js";
-import { onDemand } from "../../web/src/lazy.js";
-import { prefer, preference } from "../../web/src/prefs.js";
+import { watchKeys } from "../../web/src/core/keyboard.js";
+import { onDemand } from "../../web/src/core/lazy.js";
+import { prefer, preference } from "../../web/src/core/preferences.js";
 import { settle } from "./fakes.mjs";
 
 test("a part is made once, for all who want it", async () => {

@@ -1,9 +1,9 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { Camera, viewOf } from "../../web/src/camera.js";
-import { ease, Stage } from "../../web/src/motion.js";
-import { INITIAL, reduce } from "../../web/src/state.js";
+import { Camera, viewOf } from "../../web/src/road/camera.js";
+import { ease, Stage } from "../../web/src/road/motion.js";
+import { INITIAL, reduce } from "../../web/src/core/state.js";
 import { hello, tick, wireState } from "./fakes.mjs";
 
 const worlds = (...events) => {

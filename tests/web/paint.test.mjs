@@ -1,15 +1,15 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { drawChart } from "../../web/src/paint/chart.js";
-import { drawGlyph } from "../../web/src/paint/glyphs.js";
-import { cracksOf, paintBarrier, paintPothole, rimOf } from "../../web/src/paint/hazards.js";
-import { drawCell, drawImpact, drawMove, drawRing, drawTrail, drawWait } from "../../web/src/paint/marks.js";
-import { drawOccupancy } from "../../web/src/paint/occupancy.js";
-import { drawBoxes, drawForecast, drawHazards } from "../../web/src/paint/overlays.js";
-import { drawSignal, paintWarning } from "../../web/src/paint/signals.js";
-import { drawLines } from "../../web/src/paint/surface.js";
-import { drawWalker, paintWalkerShadow } from "../../web/src/paint/walker.js";
+import { drawChart } from "../../web/src/timeline/paint/chart.js";
+import { drawGlyph } from "../../web/src/road/paint/glyphs.js";
+import { cracksOf, paintBarrier, paintPothole, rimOf } from "../../web/src/road/paint/hazards.js";
+import { drawCell, drawImpact, drawMove, drawRing, drawTrail, drawWait } from "../../web/src/road/paint/annotations.js";
+import { drawOccupancy } from "../../web/src/road/paint/occupancy.js";
+import { drawBoxes, drawForecast, drawHazards } from "../../web/src/road/paint/overlays.js";
+import { drawSignal, paintWarning } from "../../web/src/road/paint/signals.js";
+import { drawLines } from "../../web/src/road/paint/surface.js";
+import { drawWalker, paintWalkerShadow } from "../../web/src/road/paint/pedestrian.js";
 
 /** A canvas that writes down every call, with the colour in force, and knows no colours but the palette's. */
 function recording() {

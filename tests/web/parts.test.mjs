@@ -2,12 +2,12 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { ACTS } from "../../web/src/acts.js";
-import { History } from "../../web/src/history.js";
-import { createLoop } from "../../web/src/loop.js";
-import { cracksOf, rimOf } from "../../web/src/paint/hazards.js";
-import { lookOf } from "../../web/src/paint/vehicle.js";
-import { seeded } from "../../web/src/seeded.js";
+import { ACTS } from "../../web/src/core/commands.js";
+import { History } from "../../web/src/talk/history.js";
+import { createLoop } from "../../web/src/core/renderLoop.js";
+import { cracksOf, rimOf } from "../../web/src/road/paint/hazards.js";
+import { lookOf } from "../../web/src/road/paint/vehicle.js";
+import { seeded } from "../../web/src/road/random.js";
 
 function storage(kept = {}) {
   return { getItem: (key) => kept[key] ?? null, setItem: (key, value) => (kept[key] = value), kept };

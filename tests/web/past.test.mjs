@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { Looking, PAGE, pastOf } from "../../web/src/past.js";
+import { Looking, PAGE, pastOf } from "../../web/src/timeline/past.js";
 import { FakeClock, settle, wireState } from "./fakes.mjs";
 
 const NOW = 100;

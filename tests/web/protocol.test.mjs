@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { decode, encode, ProtocolError, sessionPath, streamUrl } from "../../web/src/protocol.js";
+import { decode, encode, ProtocolError, sessionPath, streamUrl } from "../../web/src/core/protocol.js";
 import { hello, tick } from "./fakes.mjs";
 
 test("a message comes back as it was sent", () => {

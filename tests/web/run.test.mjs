@@ -1,9 +1,9 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { noteFork } from "../../web/src/links.js";
-import { Run } from "../../web/src/run.js";
-import { NO_COURSE } from "../../web/src/time.js";
+import { noteFork } from "../../web/src/timeline/links.js";
+import { Run } from "../../web/src/timeline/runStore.js";
+import { NO_COURSE } from "../../web/src/timeline/runChart.js";
 import { FakeClock, settle } from "./fakes.mjs";
 
 function stage({ now = 1_200, changes = [], failing = false } = {}) {

@@ -1,9 +1,9 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { foresee, guide, previewWords } from "../../web/src/language.js";
-import { Latest, turns } from "../../web/src/latest.js";
-import { rank } from "../../web/src/panels/palette.js";
+import { foresee, guide, previewWords } from "../../web/src/talk/language.js";
+import { Latest, turns } from "../../web/src/core/latest.js";
+import { rank } from "../../web/src/talk/palette.js";
 
 /** A clock that is moved by hand, and answers that come when they are told to. */
 function asking() {

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { createSession, findSession, hashOfSession, sessionInHash } from "../../web/src/sessions.js";
+import { createSession, findSession, hashOfSession, sessionInHash } from "../../web/src/core/sessions.js";
 
 const answering = (status, body = {}) => async () => new Response(JSON.stringify(body), { status });
 const failing = async () => {

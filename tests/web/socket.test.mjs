@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { Connection, pauseBefore } from "../../web/src/socket.js";
+import { Connection, pauseBefore } from "../../web/src/core/socket.js";
 import { FakeClock, FakeSocket, hello, settle, tick } from "./fakes.mjs";
 
 function connected({ find = async () => "here" } = {}) {

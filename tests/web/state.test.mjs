@@ -1,9 +1,9 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { INITIAL, reduce, sceneOf } from "../../web/src/state.js";
-import { shown } from "../../web/src/talk.js";
-import { countsOf, describe, egoOf, toGo } from "../../web/src/world.js";
+import { INITIAL, reduce, sceneOf } from "../../web/src/core/state.js";
+import { shown } from "../../web/src/talk/exchanges.js";
+import { countsOf, describe, egoOf, toGo } from "../../web/src/road/world.js";
 import { hello, logEvent, tick, wireState } from "./fakes.mjs";
 
 const after = (...events) => events.reduce(reduce, INITIAL);

@@ -1,8 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { INITIAL, reduce } from "../../web/src/state.js";
-import { NO_STEPS, standingOf, stepsAfter } from "../../web/src/steps.js";
+import { INITIAL, reduce } from "../../web/src/core/state.js";
+import { NO_STEPS, standingOf, stepsAfter } from "../../web/src/core/undoStack.js";
 import { hello, wireState } from "./fakes.mjs";
 
 const changed = (sequence, undo) => ({

@@ -14,10 +14,10 @@ from typing import get_args
 
 import pytest
 
-from service.narrate.sayings import Sayings
+from service.narration.sayings import Sayings
 from sim import planner_names
 from sim.actions import Layout
-from tests.leaving_out import leave_out
+from tests.support.skips import leave_out
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
@@ -88,7 +88,7 @@ def _type_checker() -> list[str] | None:
 
 def test_planners_and_families_of_roads_are_named_as_the_service_names_them() -> None:
     """In the words of its answers and the order of the choice; a planner without words goes by its name."""
-    source = (ROOT / "web" / "src" / "words.js").read_text(encoding="utf-8")
+    source = (ROOT / "web" / "src" / "core" / "words.js").read_text(encoding="utf-8")
     sayings = Sayings.load()
 
     def table(name: str) -> dict[str, str]:

@@ -1,9 +1,9 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { byLoudness, marksIn, markWords, nextMark, spanOf } from "../../web/src/marks.js";
-import { INITIAL, reduce } from "../../web/src/state.js";
-import { Chart } from "../../web/src/time.js";
+import { byLoudness, marksIn, markWords, nextMark, spanOf } from "../../web/src/timeline/timelineEvents.js";
+import { INITIAL, reduce } from "../../web/src/core/state.js";
+import { Chart } from "../../web/src/timeline/runChart.js";
 import { hello, logEvent, metrics, tick, wireState } from "./fakes.mjs";
 
 const opened = () => reduce(INITIAL, hello());

@@ -2,16 +2,16 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { foreseen, foresee, underWay } from "../../web/src/foresight.js";
-import { Book, WINDOW } from "../../web/src/judged.js";
-import { roadWords } from "../../web/src/lanes.js";
-import { drawPlan } from "../../web/src/paint/plan.js";
-import { pictureOf } from "../../web/src/panels/pixels.js";
+import { foreseen, foresee, underWay } from "../../web/src/why/forecast.js";
+import { Book, WINDOW } from "../../web/src/why/regret.js";
+import { roadWords } from "../../web/src/road/laneSentences.js";
+import { drawPlan } from "../../web/src/road/paint/plan.js";
+import { pictureOf } from "../../web/src/road/serverVideo.js";
 import { sightOf } from "../../web/src/panels/plan.js";
-import { INITIAL, reduce } from "../../web/src/state.js";
-import { AT_FIRST, viewsAfter } from "../../web/src/views.js";
-import { waysOf } from "../../web/src/ways.js";
-import { worldOf } from "../../web/src/world.js";
+import { INITIAL, reduce } from "../../web/src/core/state.js";
+import { AT_FIRST, viewsAfter } from "../../web/src/ui/views.js";
+import { waysOf } from "../../web/src/why/moveOptions.js";
+import { worldOf } from "../../web/src/road/world.js";
 import { hello, tick, wireState } from "./fakes.mjs";
 
 const begun = () => reduce(INITIAL, hello());

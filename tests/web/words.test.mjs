@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { changeWords, clock, counted, markWords, percent, plain, reasonWords, valueWords } from "../../web/src/words.js";
+import { changeWords, clock, counted, markWords, percent, plain, reasonWords, valueWords } from "../../web/src/core/words.js";
 
 const marked = (sentence, words) =>
   markWords(sentence, words)

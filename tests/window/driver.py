@@ -9,8 +9,8 @@ import pygame
 from service.window.console import Console
 from service.window.controls import Controls
 from service.window.exchange import Exchange
-from service.window.game import Game
 from service.window.loading import Loaded, Loading
+from service.window.local_session import Game
 from service.window.window import Window
 from sim.config import Config
 

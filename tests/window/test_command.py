@@ -43,7 +43,7 @@ def test_what_cannot_be_is_one_clear_sentence(arguments: tuple[str, ...], said: 
 def test_it_is_a_command_of_roadtalk() -> None:
     from typer.testing import CliRunner
 
-    from service.cli import cli
+    from service.cli.main import cli
 
     shown = CliRunner().invoke(cli, ["play", "--help"], env={"COLUMNS": "200"})
     assert shown.exit_code == 0

@@ -6,7 +6,7 @@ import pygame
 import pytest
 
 from service.window.layout import body_of
-from service.window.look import CARD, GROUND
+from service.window.theme import CARD, GROUND
 from sim.config import Config
 from sim.render import theme
 from sim.types import Kind, Outcome

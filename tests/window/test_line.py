@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from service.window.line import MAX_CHARS, Line
+from service.window.text_input import MAX_CHARS, Line
 
 EDITS = (
     "insert",

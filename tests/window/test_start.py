@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pygame
 
-from service.window.look import ACCENT
+from service.window.theme import ACCENT
 from sim.render.theme import REFUSED
 from sim.state import SimState
 from sim.types import Kind

@@ -7,7 +7,7 @@ import pytest
 
 from service.window.exchange import Exchange
 from service.window.keys import EXAMPLES
-from service.window.look import ACCENT
+from service.window.theme import ACCENT
 from sim.types import Kind, Outcome
 from tests.window.conftest import Open
 from tests.window.driver import CARELESS, Driver

@@ -6,27 +6,27 @@
  * become the next state, and the loop shows it with the next frame.
  */
 
-import { ACTS } from "./acts.js";
-import { byId } from "./dom.js";
-import { watchKeys } from "./keys.js";
-import { spoken } from "./language.js";
-import { words } from "./http.js";
-import { turns } from "./latest.js";
-import { openLink, placeInHash } from "./links.js";
-import { createLoop } from "./loop.js";
+import { ACTS } from "./core/commands.js";
+import { byId } from "./ui/dom.js";
+import { watchKeys } from "./core/keyboard.js";
+import { spoken } from "./talk/language.js";
+import { words } from "./core/http.js";
+import { turns } from "./core/latest.js";
+import { openLink, placeInHash } from "./timeline/links.js";
+import { createLoop } from "./core/renderLoop.js";
 import { createPanels } from "./panels/index.js";
-import { createSession, findSession, hashOfSession, sessionInHash } from "./sessions.js";
-import { Connection } from "./socket.js";
-import { INITIAL, reduce, sceneOf } from "./state.js";
-import { watchPreferences } from "./theme.js";
+import { createSession, findSession, hashOfSession, sessionInHash } from "./core/sessions.js";
+import { Connection } from "./core/socket.js";
+import { INITIAL, reduce, sceneOf } from "./core/state.js";
+import { watchPreferences } from "./core/theme.js";
 
-/** @import { Act } from "./acts.js" */
-/** @import { Foresight } from "./foresight.js" */
-/** @import { Otherwise } from "./otherwise.js" */
-/** @import { Looking } from "./past.js" */
-/** @import { Action, ClientMessage } from "./protocol.js" */
-/** @import { State, Highlight, Event, Notice, Past } from "./state.js" */
-/** @import { Views } from "./views.js" */
+/** @import { Act } from "./core/commands.js" */
+/** @import { Foresight } from "./why/forecast.js" */
+/** @import { Otherwise } from "./why/alternatives.js" */
+/** @import { Looking } from "./timeline/past.js" */
+/** @import { Action, ClientMessage } from "./core/protocol.js" */
+/** @import { State, Highlight, Event, Notice, Past } from "./core/state.js" */
+/** @import { Views } from "./ui/views.js" */
 
 /**
  * @typedef {object} Page  what panels may ask for

@@ -18,7 +18,7 @@ from sim.transition import next_world, step
 from sim.types import Kind, Mode, Move, Outcome
 from sim.world import World
 from tests.sim.batch.parity import difference, mixed_configs
-from tests.sim.roads import road, run_on, worlds
+from tests.support.roads import road, run_on, worlds
 
 # What they use is compiled at first use, once in every worker that has one of them.
 pytestmark = pytest.mark.xdist_group("compiled")

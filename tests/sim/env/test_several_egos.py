@@ -12,7 +12,7 @@ from sim.session.serialization import Packer
 from sim.state import SimState
 from sim.transition import step
 from sim.types import Mode, Move
-from tests.sim.roads import road
+from tests.support.roads import road
 
 MOVES = list(Move)
 WORLD = road(".....", ".....", "A....", ".....", "...A.", ".....")

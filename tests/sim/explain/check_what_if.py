@@ -17,7 +17,7 @@ from typing import Any
 
 from service import actions as contract
 from service.actions import Ask
-from service.narrate import Narrator
+from service.narration import Narrator
 from service.sessions.facts import Asked
 from sim.actions import (
     Add,

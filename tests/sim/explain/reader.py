@@ -14,7 +14,7 @@ from collections import Counter
 from typing import Any
 
 from service.actions import load
-from service.wire.explanation import explanation_json
+from service.contract.encode.explanation import explanation_json
 from sim.explain import why
 from sim.types import Move
 from tests.sim.explain.judge import move_after, taking

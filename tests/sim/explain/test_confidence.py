@@ -20,7 +20,7 @@ from sim.transition import step
 from sim.types import Mode, Move, Outcome
 from tests.sim.explain import calibration
 from tests.sim.explain.moments import moments
-from tests.sim.roads import road, run_on
+from tests.support.roads import road, run_on
 
 
 def of(state: SimState) -> Confidence:

@@ -15,7 +15,7 @@ from sim.state import SimState
 from sim.transition import step
 from sim.types import Kind, Mode, Move, Outcome
 from tests.sim.explain.moments import moments
-from tests.sim.roads import road, run_on
+from tests.support.roads import road, run_on
 
 WALLED = run_on(road("........", "........", "...oo...", "...A...."))
 

@@ -16,7 +16,7 @@ from sim.state import SimState
 from sim.types import Kind, Move
 from sim.world import World
 from sim.world.boards import NO_BOARDS, Boards
-from tests.sim.roads import road, run_on, worlds
+from tests.support.roads import road, run_on, worlds
 
 
 def scene(state: SimState) -> Scene:

@@ -6,7 +6,7 @@ import random
 from collections.abc import Iterable
 
 from service.actions import Ask
-from service.narrate import Narrator
+from service.narration import Narrator
 from service.sessions.facts import Asked
 from sim.actions import Add, Remove, Where, WorldAction
 from sim.session.edits import apply

@@ -13,7 +13,7 @@ from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.types import Move, Outcome
 from tests.sim.explain.check_what_if import checked
-from tests.sim.roads import road, run_on
+from tests.support.roads import road, run_on
 
 NEAREST = Remove(kind="pothole", count=1, where=Where(nearest=True))
 

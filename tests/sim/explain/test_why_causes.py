@@ -12,7 +12,7 @@ from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.types import Mode, Move
 from tests.sim.explain.moments import all_ids, moments, move_after
-from tests.sim.roads import road, run_on
+from tests.support.roads import road, run_on
 
 
 def timeline_on(state: SimState) -> Timeline:

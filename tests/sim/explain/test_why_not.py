@@ -8,7 +8,7 @@ from sim.explain import QuestionError, why_not
 from sim.types import Move
 from tests.sim.explain.moments import moments, move_after
 from tests.sim.explain.test_why_causes import timeline_on
-from tests.sim.roads import road, run_on
+from tests.support.roads import road, run_on
 
 
 def test_every_change_stated_has_the_outcome_stated() -> None:

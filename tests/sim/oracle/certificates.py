@@ -13,8 +13,8 @@ from sim.batch import Batch
 from sim.config import Config
 from sim.oracle import Blocked, certify
 from sim.state import SimState
-from tests.sim.slow_search import least_ticks
-from tests.sim.twin import position
+from tests.support.slow_search import least_ticks
+from tests.support.twin import position
 
 
 def wrong(config: Config) -> str | None:

@@ -18,10 +18,10 @@ from sim.state import SimState, next_episode
 from sim.transition import step
 from sim.types import Move, Outcome
 from sim.world import World
-from tests.sim import slow_search
-from tests.sim.roads import road, run_on, worlds
-from tests.sim.twin import position
-from tests.sim.twin import step as twin_step
+from tests.support import slow_search
+from tests.support.roads import road, run_on, worlds
+from tests.support.twin import position
+from tests.support.twin import step as twin_step
 
 
 @settings(max_examples=150)

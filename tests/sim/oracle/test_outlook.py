@@ -11,7 +11,7 @@ from sim.oracle.outlook import OPEN, outlook, quickly_open
 from sim.state import SimState
 from sim.types import Kind
 from sim.world import notation
-from tests.sim.roads import run_on
+from tests.support.roads import run_on
 
 EMPTY = Config(rows=6, columns=3, vehicles=0, potholes=0, planner="priority", seed=4)
 

@@ -32,7 +32,7 @@ from sim.types import Kind, Move, Outcome
 from sim.world.boards import BOARDED
 from tests.sim.perceive.rides import rides
 from tests.sim.perceive.sensors import NAMES
-from tests.sim.roads import road, run_on
+from tests.support.roads import road, run_on
 
 DRAWN = 120
 """Futures drawn for one moment."""

@@ -22,9 +22,9 @@ from sim.state import SimState
 from sim.transition import step
 from sim.types import Mode, Move, Outcome
 from sim.world import World
-from tests.sim.roads import road, run_on, worlds
-from tests.sim.slow_search import totals
-from tests.sim.twin import position
+from tests.support.roads import road, run_on, worlds
+from tests.support.slow_search import totals
+from tests.support.twin import position
 
 # What they use is compiled at first use, once in every worker that has one of them.
 pytestmark = pytest.mark.xdist_group("compiled")

@@ -14,7 +14,7 @@ from sim.plan.priority import PriorityPlanner, options_in_order
 from sim.state import SimState
 from sim.types import MOVES, Move, kind_of
 from sim.world import World
-from tests.sim.roads import road, run_on, worlds
+from tests.support.roads import road, run_on, worlds
 
 
 def decided(world: World) -> Decision:

@@ -21,7 +21,7 @@ from sim.types import Move, Outcome
 from sim.world import World
 from sim.world.boards import Boards
 from sim.world.grid import board_of
-from tests.sim.roads import road, run_on, worlds
+from tests.support.roads import road, run_on, worlds
 
 MIRRORED = {
     Move.LEFT: Move.RIGHT,

@@ -15,7 +15,7 @@ from sim.render.schematic import draw_schematic
 from sim.state import SimState
 from sim.transition import step, transition
 from sim.types import Kind, Mode, Move, Outcome
-from tests.sim.roads import road
+from tests.support.roads import road
 
 WORLD = road(*("........",) * 20, "...A....", "...A....", *("........",) * 20, ".A......", "........")
 STATE = SimState.start(Config(columns=8, rows=44, vehicles=0, potholes=0, planner="rules"), WORLD).with_ego(

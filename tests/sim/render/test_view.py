@@ -19,7 +19,7 @@ from sim.render.camera import camera_on
 from sim.state import SimState, StepResult
 from sim.transition import step
 from sim.types import Outcome
-from tests.sim.roads import road, run_on
+from tests.support.roads import road, run_on
 
 BARE = ("........",) * 12
 PROGRAM = """

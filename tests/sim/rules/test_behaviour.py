@@ -20,7 +20,7 @@ from sim.transition import next_world
 from sim.types import MARKED, MOVES, Kind, Move, Outcome
 from sim.world import World
 from sim.world.grid import Board
-from tests.sim.roads import grid, road, run_on
+from tests.support.roads import grid, road, run_on
 
 
 class PatientPedestrians(SidewaysTraffic):

@@ -10,7 +10,7 @@ from sim.rules.traffic import steps_in_tick
 from sim.types import Kind, Move
 from sim.world import World, notation
 from sim.world.grid import bits
-from tests.sim.roads import grid, mirrored, road, run_on, worlds
+from tests.support.roads import grid, mirrored, road, run_on, worlds
 
 EMPTY = "......."
 

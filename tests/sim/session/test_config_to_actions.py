@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from service.language import Language, Understood
+from service.grammar import Language, Understood
 from sim.actions import Prefer, RoadType, Scenario, Set, Traffic, WorldAction
 from sim.config import Config, ConfigError
 from sim.session.config_to_actions import UndescribableError, config_to_actions

@@ -23,7 +23,7 @@ from sim.state import SimState
 from sim.transition import step
 from sim.types import PLACEABLE, Cell, Kind
 from tests.sim.edits import EMPTY, FULL, KINDS, counts_of, refusal, sound
-from tests.sim.roads import grid, road, run_on
+from tests.support.roads import grid, road, run_on
 
 # Adding
 

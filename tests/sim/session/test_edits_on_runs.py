@@ -27,7 +27,7 @@ from sim.transition import step
 from sim.types import Kind, Mode, Move, Outcome
 from sim.world import Thing
 from tests.sim.edits import EMPTY, FULL, KINDS, refusal, sound, tried
-from tests.sim.roads import road, run_on
+from tests.support.roads import road, run_on
 
 # Scenarios, reset, mode, drive
 

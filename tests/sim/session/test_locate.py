@@ -18,7 +18,7 @@ from sim.session.locate import (
 )
 from sim.types import Cell
 from sim.world.grid import Road, bits
-from tests.sim.roads import road
+from tests.support.roads import road
 
 # Seven lanes, the vehicle in lane 4; cells of 5 m.
 WORLD = road(

@@ -17,7 +17,7 @@ from sim.session.serialization import Packer, Unpacker
 from sim.state import SimState
 from sim.transition import step
 from sim.types import Kind, Mode, Move, Outcome
-from tests.sim.roads import run_on, worlds
+from tests.support.roads import run_on, worlds
 
 ACTIONS = st.sampled_from(
     [

@@ -14,7 +14,7 @@ from sim.transition import step
 from sim.types import Kind, Outcome
 from sim.world import Cause, World, notation
 from sim.world.notation import NotationError
-from tests.sim.roads import worlds
+from tests.support.roads import worlds
 
 TEXT = """\
 road 6x4 tick 12 episode 2 from 5 running

@@ -12,7 +12,7 @@ from sim.types import PLACEABLE, Kind, Outcome
 from sim.world import Thing, World
 from sim.world.boards import Boards
 from sim.world.grid import bits
-from tests.sim.roads import road, worlds
+from tests.support.roads import road, worlds
 
 ROAD = road(
     "....",

@@ -1,7 +1,7 @@
 // @ts-check
 /** How the connection stands: live, or since when what is seen is stale. */
 
-import { make, setText } from "../dom.js";
+import { make, setText } from "../ui/dom.js";
 
 /** @import { Page } from "../main.js" */
 /** @import { Panel } from "./index.js" */

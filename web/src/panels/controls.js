@@ -1,11 +1,11 @@
 // @ts-check
 /** The clock's buttons and its speed; the same acts as the keys (`acts.js`). */
 
-import { ACTS, perform } from "../acts.js";
-import { icon } from "../icons.js";
-import { make, setText } from "../dom.js";
+import { ACTS, perform } from "../core/commands.js";
+import { icon } from "../ui/icons.js";
+import { make, setText } from "../ui/dom.js";
 
-/** @import { Act } from "../acts.js" */
+/** @import { Act } from "../core/commands.js" */
 /** @import { Page } from "../main.js" */
 /** @import { Panel } from "./index.js" */
 

@@ -1,13 +1,13 @@
 // @ts-check
 /** Who drives: the planner, chosen from all there are, or the person at the page. */
 
-import { make } from "../dom.js";
-import { PLANNERS, plannerName } from "../words.js";
+import { make } from "../ui/dom.js";
+import { PLANNERS, plannerName } from "../core/words.js";
 
-/** @import { Act } from "../acts.js" */
+/** @import { Act } from "../core/commands.js" */
 /** @import { Page } from "../main.js" */
-/** @import { Action } from "../protocol.js" */
-/** @import { World } from "../world.js" */
+/** @import { Action } from "../core/protocol.js" */
+/** @import { World } from "../road/world.js" */
 /** @import { Panel } from "./index.js" */
 
 /** A person, as planners are named on the wire. */

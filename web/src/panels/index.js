@@ -1,42 +1,42 @@
 // @ts-check
 /** The panels of the page, each in a file of its own; a new panel is a file and a line here. */
 
-import { byId } from "../dom.js";
-import { createAnnouncer } from "./announcer.js";
-import { createCaption } from "./caption.js";
-import { createCard } from "./card.js";
-import { createCommand } from "./command.js";
-import { createComparison } from "./comparison.js";
+import { byId } from "../ui/dom.js";
+import { createAnnouncer } from "../talk/announcer.js";
+import { createCaption } from "../road/caption.js";
+import { createCard } from "../why/bubbleLoader.js";
+import { createCommand } from "../talk/commandBox.js";
+import { createComparison } from "../why/counterfactualLoader.js";
 import { createConnectionBadge } from "./connection.js";
 import { createControls } from "./controls.js";
 import { createDriver } from "./driver.js";
-import { createExport } from "./export.js";
-import { createForesight } from "./foresight.js";
-import { createHelp } from "./help.js";
-import { createHands } from "./hands.js";
-import { createLanes } from "./lanes.js";
+import { createExport } from "../timeline/export.js";
+import { createForesight } from "../why/forecastPoller.js";
+import { createHelp } from "../talk/help.js";
+import { createHands } from "../road/roadInput.js";
+import { createLanes } from "../road/laneList.js";
 import { createLog } from "./log.js";
 import { createMetrics } from "./metrics.js";
-import { createNotice } from "./notice.js";
+import { createNotice } from "../ui/notice.js";
 import { createOccupancy } from "./occupancy.js";
-import { createPalette } from "./palette.js";
-import { createLooking, createPast } from "./past.js";
-import { createPixels } from "./pixels.js";
+import { createPalette } from "../talk/palette.js";
+import { createLooking, createPast } from "../timeline/pastBar.js";
+import { createPixels } from "../road/serverVideo.js";
 import { createPlan } from "./plan.js";
-import { createRoad } from "./road.js";
-import { createRoads } from "./roads.js";
+import { createRoad } from "../road/road.js";
+import { createRoads } from "../talk/roadFamilies.js";
 import { createSchematic } from "./schematic.js";
-import { createShare } from "./share.js";
-import { createReader } from "./speech.js";
+import { createShare } from "../timeline/share.js";
+import { createReader } from "../talk/speech.js";
 import { createStatus } from "./status.js";
-import { createTalk } from "./talk.js";
-import { createTimeline } from "./timeline.js";
+import { createTalk } from "../talk/conversation.js";
+import { createTimeline } from "../timeline/timeline.js";
 import { createVerdict } from "./verdict.js";
 import { createViews } from "./views.js";
 
-/** @import { Act } from "../acts.js" */
+/** @import { Act } from "../core/commands.js" */
 /** @import { Page } from "../main.js" */
-/** @import { State } from "../state.js" */
+/** @import { State } from "../core/state.js" */
 
 /**
  * @typedef {object} Panel  any of these; all are called at most once a frame

@@ -1,9 +1,9 @@
 // @ts-check
 /** The driving log: newest last, following the newest unless the reader has scrolled up. */
 
-import { make, setText } from "../dom.js";
+import { make, setText } from "../ui/dom.js";
 
-/** @import { Line } from "../journal.js" */
+/** @import { Line } from "../talk/journal.js" */
 /** @import { Panel } from "./index.js" */
 
 const NEAR_END_PX = 24;

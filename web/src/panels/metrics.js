@@ -1,17 +1,17 @@
 // @ts-check
 /** How well it drives: results of the episodes, and along the run how tight it was and what was lost. */
 
-import { make, setText } from "../dom.js";
-import { words } from "../http.js";
-import { Book, WINDOW } from "../judged.js";
-import { drawChart } from "../paint/chart.js";
-import { readPalette } from "../theme.js";
-import { counted, percent } from "../words.js";
+import { make, setText } from "../ui/dom.js";
+import { words } from "../core/http.js";
+import { Book, WINDOW } from "../why/regret.js";
+import { drawChart } from "../timeline/paint/chart.js";
+import { readPalette } from "../core/theme.js";
+import { counted, percent } from "../core/words.js";
 
 /** @import { Page } from "../main.js" */
-/** @import { Metrics } from "../protocol.js" */
-/** @import { State } from "../state.js" */
-/** @import { Figure } from "../paint/chart.js" */
+/** @import { Metrics } from "../core/protocol.js" */
+/** @import { State } from "../core/state.js" */
+/** @import { Figure } from "../timeline/paint/chart.js" */
 /** @import { Panel } from "./index.js" */
 
 /** @type {{name: string, label: string, value: (metrics: Metrics) => string}[]} */

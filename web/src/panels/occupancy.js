@@ -1,14 +1,14 @@
 // @ts-check
 /** The road as the program has it: a matrix of 0 and 1, each 1 in the colour of what stands there. */
 
-import { make } from "../dom.js";
-import { offerPlaces } from "../hits.js";
-import { drawOccupancy } from "../paint/occupancy.js";
-import { readPalette } from "../theme.js";
-import { counted } from "../words.js";
-import { countsOf, egoOf } from "../world.js";
+import { make } from "../ui/dom.js";
+import { offerPlaces } from "../road/hitTest.js";
+import { drawOccupancy } from "../road/paint/occupancy.js";
+import { readPalette } from "../core/theme.js";
+import { counted } from "../core/words.js";
+import { countsOf, egoOf } from "../road/world.js";
 
-/** @import { World } from "../world.js" */
+/** @import { World } from "../road/world.js" */
 /** @import { Panel } from "./index.js" */
 
 const RATIO = 2;

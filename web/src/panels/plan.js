@@ -6,20 +6,20 @@
  * While the clock runs this is the move under way; while it stands, the next one.
  */
 
-import { make, setText } from "../dom.js";
-import { foreseen, underWay } from "../foresight.js";
-import { offerPlaces, same } from "../hits.js";
-import { drawPlan, SPAN } from "../paint/plan.js";
-import { readPalette } from "../theme.js";
-import { waysOf } from "../ways.js";
-import { MOVES } from "../words.js";
-import { egoOf } from "../world.js";
+import { make, setText } from "../ui/dom.js";
+import { foreseen, underWay } from "../why/forecast.js";
+import { offerPlaces, same } from "../road/hitTest.js";
+import { drawPlan, SPAN } from "../road/paint/plan.js";
+import { readPalette } from "../core/theme.js";
+import { waysOf } from "../why/moveOptions.js";
+import { MOVES } from "../core/words.js";
+import { egoOf } from "../road/world.js";
 
 /** @import { Page } from "../main.js" */
-/** @import { Cell, Decision } from "../protocol.js" */
-/** @import { State } from "../state.js" */
-/** @import { Told } from "../ways.js" */
-/** @import { World } from "../world.js" */
+/** @import { Cell, Decision } from "../core/protocol.js" */
+/** @import { State } from "../core/state.js" */
+/** @import { Told } from "../why/moveOptions.js" */
+/** @import { World } from "../road/world.js" */
 /** @import { Panel } from "./index.js" */
 
 /**

@@ -1,13 +1,13 @@
 // @ts-check
 /** The whole road at a glance: a sign for each thing, and a frame around what the road's view shows of it. */
 
-import { make } from "../dom.js";
-import { offerPlaces } from "../hits.js";
-import { drawGlyph } from "../paint/glyphs.js";
-import { readPalette } from "../theme.js";
+import { make } from "../ui/dom.js";
+import { offerPlaces } from "../road/hitTest.js";
+import { drawGlyph } from "../road/paint/glyphs.js";
+import { readPalette } from "../core/theme.js";
 
-/** @import { Places } from "../hits.js" */
-/** @import { World } from "../world.js" */
+/** @import { Places } from "../road/hitTest.js" */
+/** @import { World } from "../road/world.js" */
 /** @import { Panel } from "./index.js" */
 
 const MARGIN_PX = 9;
@@ -99,7 +99,7 @@ export function createSchematic(host, road) {
  * @param {number} width
  * @param {number} height
  * @param {number} along
- * @param {import("../theme.js").Palette} palette
+ * @param {import("../core/theme.js").Palette} palette
  */
 function frame(pen, [first, last], width, height, along, palette) {
   const top = Math.max(-2, first * along);

@@ -1,12 +1,12 @@
 // @ts-check
 /** The instruments: figures of the drive and of the session so far. */
 
-import { make, setText } from "../dom.js";
-import { clock, counted, percent } from "../words.js";
-import { speedKmh, toGo } from "../world.js";
+import { make, setText } from "../ui/dom.js";
+import { clock, counted, percent } from "../core/words.js";
+import { speedKmh, toGo } from "../road/world.js";
 
-/** @import { State } from "../state.js" */
-/** @import { World } from "../world.js" */
+/** @import { State } from "../core/state.js" */
+/** @import { World } from "../road/world.js" */
 /** @import { Panel } from "./index.js" */
 
 /** @type {{key: string, label: string, value: (world: World, state: State) => string, note?: (world: World) => string}[]} */

@@ -1,10 +1,10 @@
 // @ts-check
 /** What lies over the road: how an episode ended, that the clock stands, that there is no session. */
 
-import { make } from "../dom.js";
+import { make } from "../ui/dom.js";
 
 /** @import { Page } from "../main.js" */
-/** @import { State } from "../state.js" */
+/** @import { State } from "../core/state.js" */
 /** @import { Panel } from "./index.js" */
 
 const ENDS = /** @type {Record<string, {title: string, tone: string}>} */ ({

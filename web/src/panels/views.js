@@ -1,12 +1,12 @@
 // @ts-check
 /** Which parts of the page are seen: their heads' buttons, the menu, the keys 1–6; and that it is remembered. */
 
-import { byId, make } from "../dom.js";
-import { icon } from "../icons.js";
-import { createMenu } from "../menu.js";
-import { keepViews, LAYERS, PARTS, viewsLeft } from "../views.js";
+import { byId, make } from "../ui/dom.js";
+import { icon } from "../ui/icons.js";
+import { createMenu } from "../ui/menu.js";
+import { keepViews, LAYERS, PARTS, viewsLeft } from "../ui/views.js";
 
-/** @import { Act } from "../acts.js" */
+/** @import { Act } from "../core/commands.js" */
 /** @import { Page } from "../main.js" */
 /** @import { Panel } from "./index.js" */
 
@@ -116,7 +116,7 @@ function viewActs(toggle, enlarge) {
     ...LARGE.map(([name, label]) => ({
       name: `enlarge-${name}`,
       group,
-      now: (/** @type {import("../state.js").State} */ { views, large }) =>
+      now: (/** @type {import("../core/state.js").State} */ { views, large }) =>
         views[name] === false ? null : { label: large === name ? `Put the ${label.toLowerCase()} back` : `Enlarge the ${label.toLowerCase()}`, run: () => enlarge(name) },
     })),
     {

@@ -1,0 +1,94 @@
+"""`say`: one sentence to a session, or those of a file, one after the other."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from typing import Annotated
+
+import typer
+
+from service.cli.terminal import (
+    URL,
+    ApiKey,
+    AsJson,
+    SessionId,
+    Url,
+    echo_json,
+    fail,
+    plain,
+    service_at,
+    session_of,
+)
+from service.client import Ambiguous, NotUnderstood, Refused
+from service.client.sync_client import Session
+
+FROM_INPUT = "-"
+
+
+def say(
+    text: Annotated[
+        str,
+        typer.Argument(help="What to say, for instance: add five potholes. With - each line of the input."),
+    ],
+    session: SessionId = None,
+    language: Annotated[str, typer.Option(help="The language's code.")] = "en",
+    as_json: AsJson = False,
+    url: Url = URL,
+    api_key: ApiKey = None,
+) -> None:
+    """Say something to a session and print the reply. Exits with 1 when it is refused.
+
+    Where several things may be meant, they are listed; in a terminal one
+    of them can be chosen. Of several lines, those before the one that is
+    refused are done, and none after it.
+
+    Example: roadtalk say "add five potholes"
+    """
+    with service_at(url, api_key) as client:
+        heard = session_of(client, session)
+        for sentence in _sentences(text):
+            if as_json:
+                _told(heard, sentence, language)
+            else:
+                typer.echo(plain(_said(heard, sentence, language, asking=text != FROM_INPUT)))
+
+
+def _sentences(text: str) -> Iterator[str]:
+    if text != FROM_INPUT:
+        yield text
+        return
+    yield from (line.strip() for line in sys.stdin if line.strip())
+
+
+def _told(session: Session, text: str, language: str) -> None:
+    """The answer for a program; the problem, where it is refused."""
+    try:
+        echo_json(session.say(text, language=language).raw)
+    except Refused as refused:
+        echo_json(refused.document)
+        raise typer.Exit(1) from None
+
+
+def _said(session: Session, text: str, language: str, *, asking: bool) -> str:
+    try:
+        return session.say(text, language=language).reply
+    except NotUnderstood as refused:
+        fail(_offering(refused.detail, refused.suggestions))
+    except Ambiguous as unclear:
+        if not unclear.choices or not asking or not sys.stdin.isatty():
+            fail(_offering(unclear.detail, [choice.text for choice in unclear.choices]))
+        typer.echo(plain(unclear.detail))
+        for number, choice in enumerate(unclear.choices, 1):
+            typer.echo(plain(f"  {number}  {choice.text}"))
+        number = 0
+        while not 1 <= number <= len(unclear.choices):
+            number = typer.prompt(f"Which one (1 to {len(unclear.choices)})", type=int)
+        return str(unclear.choose(number - 1).reply)
+
+
+def _offering(detail: str, offers: tuple[str, ...] | list[str]) -> str:
+    lines = [detail]
+    if offers:
+        lines += ["You could say:", *(f"  {offer}" for offer in offers)]
+    return plain("\n".join(lines))

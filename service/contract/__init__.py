@@ -1,0 +1,1 @@
+"""The models of requests and answers, shared by the service and its client, and their JSON encoders."""

@@ -1,0 +1,147 @@
+"""What callers send. Unknown keys and values of another type are refused.
+
+The language contract's actions are `service.actions`; what is answered is in `schemas`.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal, TypeVar
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
+
+from service.actions import Action, load
+from service.contract.text import Letters, Name, check_letters
+from service.http.config_schema import CONFIG_SCHEMA
+from sim.actions import PlaceableKind, Weather
+
+Tick = Annotated[int, Field(ge=0, le=2**53 - 1, description="Ticks since the session began.")]
+ConfigParts = Annotated[dict[str, Any], WithJsonSchema(CONFIG_SCHEMA)]
+
+
+def _strictly(values: Any) -> Any:
+    """Actions as `service.actions.load` reads them: `"5"` and `true` are no numbers."""
+    if not isinstance(values, list):
+        return values
+    actions = list(load(values))
+    check_letters(values)
+    return actions
+
+
+Value = TypeVar("Value")
+Strictly = Annotated[Value, BeforeValidator(_strictly)]
+
+MAX_ACTIONS = 100
+"""Actions that may be sent at once."""
+
+
+class Sent(BaseModel):
+    """What callers send: unknown keys and values of another type are refused."""
+
+    model_config = ConfigDict(extra="forbid", strict=True)
+
+
+class RecordedEntry(Sent):
+    """One accepted change of a recording."""
+
+    sequence: int = Field(ge=1)
+    tick: Tick
+    text: Letters | None
+    actions: Strictly[list[Action]] = Field(max_length=MAX_ACTIONS)
+    digest: str | None = Field(
+        None, max_length=64, description="What the world after it must be; not said by older recordings."
+    )
+
+
+class Recording(Sent):
+    """A session as one small file."""
+
+    format: Literal["roadtalk-recording"]
+    version: Literal[1]
+    rules: int | None = Field(
+        None, ge=1, description="Of which version; recordings from before there were several name none."
+    )
+    name: Name | None = None
+    config: ConfigParts
+    entries: list[RecordedEntry] = Field(max_length=10_000)
+    tick: Tick = Field(description="Where it ends.")
+    digest: str = Field(description="What the world at its end must be.", max_length=64)
+
+
+class NewSession(Sent):
+    """How a session begins. Everything may be left out; without a seed one is drawn and told."""
+
+    name: Name | None = None
+    scenario: Letters | None = Field(None, description="A sentence that describes a road.")
+    config: ConfigParts | None = None
+    seed: int | None = Field(None, ge=0, le=2**53 - 1)
+    planner: str | None = None
+    paused: bool | None = Field(
+        None, description="Default: running, or paused when replayed from a recording."
+    )
+    recording: Recording | None = Field(None, description="Replay this; alone but for name and paused.")
+    link: str | None = Field(
+        None, max_length=4_096, description="Open this; alone but for name and paused. See `link`."
+    )
+
+
+class NewFork(Sent):
+    """How another session goes on from a tick of this one."""
+
+    at_tick: Tick | None = Field(None, description="Default: now.")
+    actions: Strictly[list[Action]] | None = Field(
+        None, max_length=MAX_ACTIONS, description="Done there first, together or the fork is not made."
+    )
+    name: Name | None = None
+    paused: bool | None = Field(None, description="Default: as this session is.")
+
+
+class RewindTo(Sent):
+    """Where to go back to."""
+
+    tick: Tick
+
+
+class Said(Sent):
+    """Something said to a session."""
+
+    text: Letters = Field(description="At most 500 characters, unless the service is set otherwise.")
+    dry_run: bool = Field(False, description="Say what would be done, and do nothing.")
+    language: str = Field("en", max_length=16, description="In which language; `GET /language` names them.")
+
+
+class TypedActions(Sent):
+    """Actions of the language contract, no language involved; done together or not at all."""
+
+    actions: Strictly[list[Action]] = Field(min_length=1, max_length=MAX_ACTIONS)
+    dry_run: bool = Field(False, description="Say what would be done, and do nothing.")
+
+
+class StepTicks(Sent):
+    """How many ticks to run."""
+
+    ticks: int = Field(1, ge=1, le=1_000)
+
+
+class Question(Sent):
+    """A question, and nothing but one."""
+
+    question: Letters
+    language: str = Field("en", max_length=16, description="In which language; `GET /language` names them.")
+
+
+class Text(Sent):
+    """A sentence to be understood."""
+
+    text: Letters
+    language: str = Field("en", max_length=16, description="In which language; `GET /language` names them.")
+
+
+class AdviceQuestion(Sent):
+    """A hazard ahead, as a sentence or in figures."""
+
+    text: Letters | None = Field(None, description="As a sentence; then without hazard, distance and speed.")
+    hazard: PlaceableKind | None = None
+    distance_m: float | None = Field(None, description="From 0.1 to 1,000.")
+    speed_kmh: float | None = Field(None, description="From 1 to 300.")
+    weather: Weather | None = Field(None, description="Default: clear.")
+    language: str = Field("en", max_length=16, description="In which language; `GET /language` names them.")

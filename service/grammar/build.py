@@ -1,0 +1,224 @@
+"""A filled frame → the actions it stands for, as JSON values.
+
+Templates come from the data: `$thing.count` is a value said, `$where` the place made of all its parts,
+`$amount` the number in the unit of the parameter it is for. A key whose value was not said is left out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Any
+
+from service.grammar.frames import Filled
+from service.grammar.lattice import Edge
+from service.grammar.lexicon import Sense
+from service.grammar.noun_phrases import Amount
+from sim.types import kind_of
+
+_ABSENT = object()
+_MEASURES = ("number", "length", "speed", "seconds", "fraction", "times", "cells")
+_SETTINGS = frozenset(("weather", "time_of_day", "traffic", "planner", "sensor", "dynamics"))
+"""Of these one value holds; a second in the same breath would be said instead of the first."""
+_EXCLUSIVE = (
+    {"cell", "lane"},
+    {"cell", "row"},
+    {"cells", "distance_m"},
+    {"nearest", "cell"},
+    {"nearest", "lane"},
+)
+
+
+class CannotBuild(Exception):  # noqa: N818 - not an error of the program: the frame does not fit
+    """The items fill the frame, but contradict each other or do not fit its values."""
+
+
+@dataclass(frozen=True, slots=True)
+class Parameters:
+    """What kinds of amount each numeric parameter takes, from `parameters.yaml`."""
+
+    takes: Mapping[str, Sequence[str]]
+
+    def fits(self, parameter: str, dimension: str) -> bool:
+        """Whether an amount in this dimension can be a value of the parameter."""
+        return dimension in self.takes.get(parameter, ())
+
+
+def build(filled: Filled, parameters: Parameters) -> list[dict[str, Any]]:
+    """The actions of a filled frame, in the order their things were said. Raises `CannotBuild`."""
+    frame = filled.frame
+    maker = _Maker(filled, parameters)
+    if not frame.per:
+        return [made for template in frame.actions for made in maker.actions(template)]
+    turns = filled.of(*frame.per)
+    if frame.last:
+        turns = list({edge.concept: edge for edge in turns}.values())
+    elif any(a.concept == b.concept and a.concept in _SETTINGS for a, b in combinations(turns, 2)):
+        raise CannotBuild("two values for one setting")
+    if len(turns) > 1 and maker.where() is not None:
+        raise CannotBuild("one place for several things")
+    return [maker.action(template, turn) for turn in turns for template in frame.actions]
+
+
+def _ids(edge: Edge) -> tuple[str, ...]:
+    return edge.sense.value.ids if isinstance(edge.sense.value, Amount) else ()
+
+
+class _Maker:
+    """Fills the templates of one frame."""
+
+    def __init__(self, filled: Filled, parameters: Parameters) -> None:
+        self._filled = filled
+        self._parameters = parameters
+
+    def actions(self, template: Mapping[str, Any] | str) -> list[dict[str, Any]]:
+        """One action; those of a slot that is actions itself; or one for each thing that is named by id."""
+        if isinstance(template, str):
+            whole: list[dict[str, Any]] = self._slot(template.removeprefix("$"), None)
+            return whole
+        named = [name for edge in self._filled.slots for name in _ids(edge)]
+        if not named:
+            return [self.action(template, None)]
+        turns = [Edge(0, 0, Sense("thing.id", Amount(kind_of(name), 1, (name,)))) for name in named]
+        return [self.action(template, turn) for turn in turns]
+
+    def action(self, template: Mapping[str, Any], turn: Edge | None) -> dict[str, Any]:
+        """One action; `turn` is the slot it is about when a frame makes one for each."""
+        value = self._value(template, turn)
+        if not isinstance(value, dict):
+            raise CannotBuild("an action must be a mapping")
+        about = value.get("parameter")
+        if about in self._parameters.takes and any(e.sense.value != about for e in self._filled.of("param")):
+            raise CannotBuild("another setting was named")
+        return value
+
+    def _value(self, template: Any, turn: Edge | None) -> Any:
+        if isinstance(template, str) and template.startswith("$"):
+            return self._slot(template[1:], turn)
+        if isinstance(template, Mapping):
+            pairs = {key: self._value(part, turn) for key, part in template.items()}
+            merged: dict[str, Any] = {}
+            for key, part in pairs.items():
+                if key == "parts":
+                    merged.update(part)
+                elif part is not _ABSENT:
+                    merged[key] = part
+            return merged
+        if isinstance(template, list):
+            return [part for part in (self._value(t, turn) for t in template) if part is not _ABSENT]
+        return template
+
+    def _slot(self, path: str, turn: Edge | None) -> Any:
+        name, _, attribute = path.partition(".")
+        match name:
+            case "where":
+                where = self.where()
+                return _ABSENT if where is None else where
+            case "amount":
+                return self._amount()
+            case "down_amount":
+                return -self._amount()
+            case "down_speed":
+                return -self._slot("speed", None)
+            case "share" | "more_part" | "less_part" | "more_percent" | "less_percent":
+                return self._relative(name)
+            case "parts":
+                return self.parts()
+            case "planners":
+                return [edge.sense.value for edge in self._filled.of("planner")] or _ABSENT
+            case "eval_scenario":
+                return self.parts(without=("planner",)) or _ABSENT
+            case "asked_move":
+                return self._asked_move()
+            case "concept" if turn:
+                return turn.concept
+            case "each" if turn:
+                return turn.sense.value
+        slots = [turn] if turn and turn.concept.partition(".")[0] == name else self._filled.of(name)
+        if not slots:
+            return _ABSENT
+        if len(slots) > 1 and len({repr(edge.sense.value) for edge in slots}) > 1:
+            raise CannotBuild(f"two values for {name}")
+        value = slots[0].sense.value
+        if isinstance(value, Amount):
+            return {"of": value.of, "count": value.count, "id": "".join(value.ids[:1])}[attribute or "count"]
+        return value[attribute] if attribute else value
+
+    def where(self) -> dict[str, Any] | None:
+        """The place, of all its parts; parts that contradict each other are no place."""
+        where: dict[str, Any] = {}
+        for edge in self._filled.of("place", "side", "nearest"):
+            value = edge.sense.value
+            part = value if isinstance(value, dict) else {"side": value}
+            for key, value in part.items():
+                if where.get(key, value) != value:
+                    raise CannotBuild("two places")
+                where[key] = value
+        for edge in self._filled.of("length"):
+            if "distance_m" in where:
+                raise CannotBuild("two distances")
+            where["distance_m"] = edge.sense.value
+        for edge in self._filled.of("cells"):
+            if "cells" in where:
+                raise CannotBuild("two distances")
+            where["cells"] = edge.sense.value.count
+        if any(pair <= where.keys() for pair in _EXCLUSIVE):
+            raise CannotBuild("a place said twice over")
+        return where or None
+
+    def _amount(self) -> int | float:
+        """The one number said, in a unit its parameter takes."""
+        parameter = self._slot("param", None)
+        amounts = self._filled.of(*_MEASURES)
+        if len(amounts) != 1:
+            raise CannotBuild("not one amount")
+        sense = amounts[0].sense
+        if not self._parameters.fits(str(parameter), sense.concept.partition(".")[0]):
+            raise CannotBuild(f"{parameter} is no {sense.concept}")
+        if isinstance(sense.value, Amount):
+            return sense.value.count or 0
+        value: int | float = round(sense.value / 100, 9) if sense.concept == "fraction" else sense.value
+        return value
+
+    def _relative(self, name: str) -> float:
+        """A part of something, as a value of its own or as a change of the value there is.
+
+        A percentage of what is itself a share is no change in proportion: 10 % more is 0.1 more.
+        """
+        parameter = str(self._slot("param", None))
+        is_share = self._parameters.fits(parameter, "fraction")
+        part: float = self._slot("fraction", None) / 100 if "percent" in name else self._slot("part_of", None)
+        if name == "share":
+            if not is_share or self._parameters.fits(parameter, "times"):
+                raise CannotBuild(f"{parameter} is no share")
+            return part
+        if "percent" in name and is_share:
+            raise CannotBuild(f"{parameter} is a share")
+        return round(1 + part if name.startswith("more") else 1 - part, 9)
+
+    def _asked_move(self) -> Any:
+        """The move a question is about: a direction, or staying; absent when none was named."""
+        moves = [edge.sense.value for edge in self._filled.of("dir")]
+        moves += ["stay" for _ in self._filled.of("stay_word")]
+        if len(set(moves)) > 1:
+            raise CannotBuild("two moves")
+        return moves[0] if moves else _ABSENT
+
+    def parts(self, without: tuple[str, ...] = ()) -> dict[str, Any]:
+        """The keys of a scenario, from everything said that is one."""
+        parts: dict[str, Any] = {}
+        for edge in self._filled.of(
+            "weather", "time_of_day", "road", "layout", "traffic", "planner", "sensor", "thing"
+        ):
+            key, value = edge.concept, edge.sense.value
+            if key in without:
+                continue
+            if isinstance(value, Amount):
+                key, value = f"{value.of}s", value.count
+            if parts.get(key, value) != value:
+                raise CannotBuild(f"two values for {key}")
+            if key in parts:
+                raise CannotBuild(f"{key} said twice")
+            parts[key] = value
+        return parts

@@ -1,0 +1,150 @@
+"""Parts of one utterance that cannot both hold: "make it sunny and rainy", "five potholes, no potholes".
+
+What is said in order ("pause, then resume") is done in order, and so is all between which time passes. Two
+values for one setting without that are asked about; where something is left out that another part
+would do all the same, the whole is refused.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+from service.grammar.clauses import Clause
+from service.grammar.lattice import Lattice
+from service.grammar.noun_phrases import Amount
+
+_IN_ORDER = "then"
+"""Separator that says that one comes after the other."""
+
+_PASSING = frozenset(("step", "rewind", "evaluate", "find_worst", "save", "load", "ask"))
+"""Actions after which a setting may well be another: time has passed, or something was told or kept."""
+
+_AND = "and"
+_COUNTED = ("counted", ".exact", ".more", ".post")
+"""Ends of the concepts of amounts that are a number."""
+
+_PLACES = frozenset(("place", "side", "length", "nearest"))
+
+
+@dataclass(frozen=True, slots=True)
+class Contradiction:
+    """What cannot both hold: the clauses, and the utterance with each of the values alone, if that helps."""
+
+    clauses: tuple[Clause, ...]
+    alternatives: tuple[list[dict[str, Any]], ...] = ()
+
+
+def contradiction(clauses: Sequence[Clause], lattice: Lattice) -> Contradiction | None:
+    """The first contradiction of an utterance, if there is one."""
+    if len(clauses) < 2:
+        return None
+    return _settings(clauses) or _switches(clauses) or _left_out(clauses, lattice)
+
+
+def _settings(clauses: Sequence[Clause]) -> Contradiction | None:
+    """Two values of one setting, neither said to come after the other."""
+    held: dict[object, dict[str, list[Clause]]] = {}
+    for clause in clauses:
+        if clause.after == _IN_ORDER or any(action["do"] in _PASSING for action in clause.actions):
+            if (found := _several(clauses, held)) is not None:
+                return found
+            held.clear()
+        for action in clause.actions:
+            if (said := _setting(action)) is not None:
+                held.setdefault(said[0], {}).setdefault(repr(said[1]), []).append(clause)
+    return _several(clauses, held)
+
+
+def _several(
+    clauses: Sequence[Clause], held: Mapping[object, Mapping[str, Sequence[Clause]]]
+) -> Contradiction | None:
+    """The first setting that was given several values."""
+    return next((_between(clauses, about, values) for about, values in held.items() if len(values) > 1), None)
+
+
+def _switches(clauses: Sequence[Clause]) -> Contradiction | None:
+    """The two sides of one switch with nothing but "and" between them; apart they are done in order."""
+    for before, clause in pairwise(clauses):
+        if clause.after != _AND or not (before.actions and clause.actions):
+            continue
+        one, other = _switch(before.actions[-1]), _switch(clause.actions[0])
+        if one is not None and other is not None and one[0] == other[0] and one[1] != other[1]:
+            return _between(clauses, one[0], {repr(one[1]): [before], repr(other[1]): [clause]})
+    return None
+
+
+def _between(
+    clauses: Sequence[Clause], about: object, values: Mapping[str, Sequence[Clause]]
+) -> Contradiction:
+    """Which of several values of a setting: the utterance with each of them alone."""
+    sayers = tuple(each for saying in values.values() for each in saying)
+    return Contradiction(sayers, tuple(_with(clauses, about, value) for value in values))
+
+
+def _with(clauses: Sequence[Clause], about: object, value: str) -> list[dict[str, Any]]:
+    """All actions of an utterance, of those about one setting only those with one value."""
+    kept = []
+    for action in (action for clause in clauses for action in clause.actions):
+        said = _setting(action) or _switch(action)
+        if said is None or said[0] != about or repr(said[1]) == value:
+            kept.append(action)
+    return kept
+
+
+def _setting(action: Mapping[str, Any]) -> tuple[object, object] | None:
+    """What an action sets, and to which value; None where several may well be done."""
+    match action["do"]:
+        case "set":
+            return ("set", action["parameter"]), action["value"]
+        case "adjust" if "direction" in action:
+            return ("adjust", action["parameter"]), action["direction"]
+        case "set_count":
+            return ("count", action["kind"]), action["count"]
+        case "scenario" if "layout" in action:
+            return "layout", action["layout"]
+    return None
+
+
+def _switch(action: Mapping[str, Any]) -> tuple[object, object] | None:
+    """What an action switches, and to which side."""
+    match action["do"]:
+        case "pause" | "resume":
+            return "clock", action["do"]
+        case "show" | "hide":
+            return ("view", action["view"]), action["do"]
+        case "mode":
+            return "mode", action["mode"]
+        case "record":
+            return "record", action["on"]
+    return None
+
+
+def _left_out(clauses: Sequence[Clause], lattice: Lattice) -> Contradiction | None:
+    """A part that says what not to do, where another would do it all the same."""
+    for at, clause in enumerate(clauses):
+        if not clause.negated or _says_how_many(clause, lattice):
+            continue
+        frame, slots = clause.filled.frame, clause.filled.slots
+        verbs = {str(template["do"]) for template in frame.actions if isinstance(template, dict)}
+        verb = "add" if frame.leaves_out else min(verbs, default="")
+        kinds = {edge.sense.value.of for edge in slots if isinstance(edge.sense.value, Amount)}
+        placed = any(edge.concept in _PLACES for edge in slots)
+        for place, other in enumerate(clauses):
+            if any(
+                action["do"] == verb
+                and action.get("kind") in kinds
+                and (verb == "add" or action.get("count") == "all")
+                and ("where" not in action if placed else place < at)
+                for action in other.actions
+            ):
+                return Contradiction((other, clause))
+    return None
+
+
+def _says_how_many(clause: Clause, lattice: Lattice) -> bool:
+    """Whether it names an amount: it may be only that which is not meant ("three, not five")."""
+    said = [e for e in lattice.between(clause.start, clause.end) if isinstance(e.sense.value, Amount)]
+    return not said or any(edge.concept.endswith(_COUNTED) for edge in said)

@@ -1,0 +1,155 @@
+"""Sentences that a language makes of itself: one for every action with every word it can hold.
+
+What help while typing is found in, and what the guide of all that can be said is made of.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, get_args
+
+from service.actions import MetricName, ViewName, load
+from service.grammar.sentences import Sentences, Unsayable
+from sim.actions import (
+    Layout,
+    Parameter,
+    RoadType,
+    TimeOfDay,
+    Traffic,
+    Weather,
+    Wish,
+)
+from sim.planner_names import BUILT_IN, PROMISED
+from sim.sensor_names import SensorName
+from sim.types import PLACEABLE, Move
+
+CHOICES: dict[str, tuple[str, ...]] = {
+    "weather": get_args(Weather),
+    "time_of_day": get_args(TimeOfDay),
+    "traffic": get_args(Traffic),
+    "planner": (*BUILT_IN, *PROMISED),
+    "sensor": get_args(SensorName),
+    "dynamics": ("grid", "continuous"),
+}
+"""The parameters that take a word, and which."""
+
+TYPICAL: dict[str, float] = {
+    "playback_speed": 2,
+    "target_speed_kmh": 50,
+    "step_seconds": 0.25,
+    "spawn_probability": 0.4,
+    "pothole_probability": 0.2,
+    "courtesy": 0.5,
+    "attentive": 0.5,
+    "sensor_noise": 0.1,
+    "detection_sensitivity": 0.8,
+    "false_positive_rate": 0.05,
+    "sensor_range_m": 40,
+    "safety_buffer": 2,
+    "columns": 12,
+    "rows": 40,
+    "seed": 7,
+}
+"""The parameters that take a number, each with a sensible one."""
+
+_PLACES: tuple[dict[str, Any] | None, ...] = (
+    None,
+    {"side": "ahead", "distance_m": 15},
+    {"lane": "left"},
+    {"lane": "right"},
+    {"lane": "middle"},
+    {"lane": 3},
+    {"row": 12},
+    {"cell": [3, 12]},
+    {"side": "ahead"},
+    {"side": "behind"},
+)
+
+
+def sentences(language: Sentences) -> Iterator[str]:
+    """All of them, the most useful first."""
+    for values in (*_things(), *_clock(), *_settings(), *_questions(), *_rest()):
+        try:
+            yield language.sentence(load([values]))
+        except Unsayable:
+            continue
+
+
+def _things() -> Iterator[dict[str, Any]]:
+    for where in _PLACES:
+        for kind in PLACEABLE:
+            for count in (5, 1):
+                yield _placed({"do": "add", "kind": kind, "count": count}, where)
+    for where in _PLACES:
+        for kind in PLACEABLE:
+            for amount in ("all", 2, 1):
+                yield _placed({"do": "remove", "kind": kind, "count": amount}, where)
+    for kind in PLACEABLE:
+        yield {"do": "remove", "kind": kind, "count": 1, "where": {"nearest": True}}
+        yield {"do": "set_count", "kind": kind, "count": 10}
+    yield {"do": "remove", "kind": "everything", "count": "all"}
+
+
+def _placed(action: dict[str, Any], where: dict[str, Any] | None) -> dict[str, Any]:
+    return action if where is None else {**action, "where": where}
+
+
+def _clock() -> Iterator[dict[str, Any]]:
+    for do in ("pause", "resume", "reset", "undo", "redo"):
+        yield {"do": do}
+    for do in ("step", "rewind"):
+        yield {"do": do, "ticks": 5}
+        yield {"do": do, "ticks": 1}
+    for mode in ("manual", "auto"):
+        yield {"do": "mode", "mode": mode}
+    for move in Move:
+        yield {"do": "drive", "move": move}
+
+
+def _settings() -> Iterator[dict[str, Any]]:
+    for parameter in get_args(Parameter):
+        for value in CHOICES.get(parameter, ()):
+            yield {"do": "set", "parameter": parameter, "value": value}
+        if parameter in TYPICAL:
+            yield {"do": "set", "parameter": parameter, "value": TYPICAL[parameter]}
+            for change in ({"direction": "up"}, {"direction": "down"}, {"by": 1}, {"by": -1}, {"factor": 2}):
+                yield {"do": "adjust", "parameter": parameter, **change}
+    for wish in get_args(Wish):
+        yield {"do": "prefer", "preference": wish}
+    for road in get_args(RoadType):
+        yield {"do": "scenario", "road": road, "potholes": 10, "vehicles": 2}
+        yield {"do": "scenario", "road": road, "weather": "rain"}
+    for layout in get_args(Layout):
+        yield {"do": "scenario", "layout": layout}
+        yield {"do": "scenario", "layout": layout, "pedestrians": 3}
+    yield {"do": "scenario", "potholes": 10}
+    yield {"do": "scenario", "traffic": "heavy", "potholes": 5}
+
+
+def _questions() -> Iterator[dict[str, Any]]:
+    for about in ("why", "next", "scene", "status", "metrics", "confidence", "maintenance", "help"):
+        yield {"do": "ask", "about": about}
+    for move in Move:
+        yield {"do": "ask", "about": "why_not", "move": move}
+        yield {"do": "ask", "about": "why", "move": move}
+    for kind in PLACEABLE:
+        yield {"do": "ask", "about": "scene", "kind": kind}
+    for metric in get_args(MetricName):
+        yield {"do": "ask", "about": "metrics", "metric": metric}
+    yield {"do": "ask", "about": "what_if", "change": [{"do": "add", "kind": "pothole", "count": 5}]}
+
+
+def _rest() -> Iterator[dict[str, Any]]:
+    for view in get_args(ViewName):
+        yield {"do": "show", "view": view}
+        yield {"do": "hide", "view": view}
+    yield {"do": "evaluate", "runs": 500, "planners": ["astar", "priority"]}
+    yield {"do": "find_worst", "runs": 200, "planner": "astar"}
+    yield {"do": "advise", "hazard": "pothole", "distance_m": 20, "speed_kmh": 50}
+    yield {"do": "save", "name": "monday demo"}
+    yield {"do": "load", "name": "monday demo"}
+    yield {"do": "record", "on": True}
+    yield {"do": "record", "on": False}
+    meaning = [{"do": "set", "parameter": "traffic", "value": "heavy"}]
+    yield {"do": "teach", "phrase": "rush hour", "meaning": meaning}
+    yield {"do": "forget", "phrase": "rush hour"}

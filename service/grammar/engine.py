@@ -1,0 +1,263 @@
+"""The language engine: text → actions, a question, or a refusal, and nothing in between.
+
+Tokens → typos → items → fragments → clauses → actions; each stage is a file of its own. Nothing here knows
+a word of any language: words, frames, messages all come from `prompts/language/<code>/`.
+
+Guarantees: every content word is accounted for or the sentence is refused; parsing is a
+pure function of the text; no input raises.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from service.actions import Action, dump
+from service.grammar.cache import Remembered
+from service.grammar.capture import names
+from service.grammar.correction import corrected, takes_back
+from service.grammar.data import LanguageData, LanguageDataError, read_language
+from service.grammar.lattice import Lattice, Name, Scanner
+from service.grammar.linter import defects, flaws
+from service.grammar.makes import REPAIR
+from service.grammar.matching import Frames
+from service.grammar.noun_phrases import NOUN
+from service.grammar.parse_types import Ambiguous, Choice, Correction, Parse, Refused, Understood
+from service.grammar.parser import Reading, content_of
+from service.grammar.paths import SEPARATOR
+from service.grammar.references import add_known
+from service.grammar.repairs import ALWAYS, DROPPED, Repaired
+from service.grammar.sentences import Sentences
+from service.grammar.suggestions import Suggestions
+from service.grammar.tokens import Token, as_said, normalise, renamed, tokenise
+from service.grammar.topic import ALONE, Phrases, Topic
+from service.grammar.typos import Typos
+from service.grammar.work_budget import READ_STEPS, TOKEN_STEPS, SpentError, Work
+from service.resources import prompts_folder
+
+MAX_TOKENS = 300
+"""Longer utterances are refused unread: the service caps text at 500 characters anyway."""
+
+
+class Language:
+    """One language, loaded. Immutable after loading; safe to share between threads."""
+
+    def __init__(self, data: LanguageData, offered: Callable[[Action], bool] | None = None) -> None:
+        self.data = data
+        self._offered = offered
+        self._lexicon = data.lexicon
+        self._scanner = Scanner(data.lexicon, data.numbers)
+        self.frames = Frames(data.frames, data.parameters)
+        self.sentences = Sentences(data.sentences)
+        self._remembered = Remembered(self._heard)
+
+    @classmethod
+    def load(
+        cls,
+        code: str = "en",
+        folder: Path | None = None,
+        offered: Callable[[Action], bool] | None = None,
+    ) -> Language:
+        """The language with this code, from `folder` (default: the project's prompts).
+
+        Everything in it is understood; only what is `offered` is suggested.
+        Raises `LanguageDataError`, naming every defect, when the files are unfit.
+        """
+        data = read_language((folder or prompts_folder() / "language") / code)
+        if found := flaws(data):
+            raise LanguageDataError("; ".join(found))
+        return cls(data, offered)
+
+    def parse(self, text: str, topic: Topic = ALONE, work: Work | None = None) -> Parse:
+        """What a person said: `Understood`, `Refused` or `Ambiguous`. Never raises.
+
+        `topic` is what it may refer to; without one it is read as a sentence that stands alone. `work` is
+        what it may cost, where several texts share that.
+        """
+        return self._remembered.parse(text, topic, work or Work())
+
+    def _heard(self, text: str, topic: Topic, work: Work) -> Parse:
+        work.known.clear()
+        try:
+            return self.read(text, topic, work, asking=True)
+        except SpentError:
+            return Refused(text, "not_understood", self.data.messages["too_involved"])
+
+    def read(self, text: str, topic: Topic, work: Work, *, asking: bool) -> Parse:
+        """`parse`; unless `asking`, what would be asked about is refused, and nothing is suggested.
+
+        Raises `SpentError` where the work does not suffice.
+        """
+        if asking:
+            return self._read(text, topic, work, asking=True)
+        key = text, id(topic)
+        known = work.known.get(key)
+        if known is None:
+            known = work.known[key] = self._read(text, topic, work, asking=False)
+        return known
+
+    def _read(self, text: str, topic: Topic, work: Work, *, asking: bool) -> Parse:
+        messages = self.data.messages
+        plain = normalise(text)
+        tokens = tokenise(plain, self.data.contractions)
+        if not tokens:
+            return Refused(text, "empty", messages["empty"])
+        if len(tokens) > MAX_TOKENS:
+            return Refused(text, "not_understood", messages["too_long"].format(words=MAX_TOKENS))
+        work.spend(READ_STEPS + TOKEN_STEPS * len(tokens))
+        kept = names(tokens, self._lexicon, as_said(text, plain), topic)
+        tokens, corrections = self._repaired(plain, tokens, kept, topic)
+        lattice = self._scanner.scan(tokens, kept)
+        lattice.keep_whole(self.data.nouns)
+        add_known(lattice, tokens, topic)
+        uncovered = bool(lattice.uncovered())
+        if not (kept or uncovered) and (repaired := Repaired.found(plain, tokens, lattice, work)) is not None:
+            readings = repaired.readings(lambda each: self.read(each, topic, work, asking=False))
+            if readings is not None:
+                return self._put_right(text, repaired.phrase, readings, lattice, asking=asking)
+        reading = Reading(self, text, plain, tokens, lattice, corrections, topic, work)
+        parsed = reading.parse(asking=asking)
+        if not asking or uncovered or tokens[0].text not in self._takes_back:
+            return parsed
+        sure = self._corrects(tokens)
+        return parsed if sure is None else corrected(self, text, plain, topic, parsed, work, sure=sure)
+
+    @cached_property
+    def _takes_back(self) -> frozenset[str]:
+        return takes_back(self.data)
+
+    def _corrects(self, tokens: Sequence[Token]) -> bool | None:
+        """Whether a sentence begins by taking something back for sure; None where it does not at all."""
+        after = [self._comma, *tokens]
+        matches = self._lexicon.matches(after, 0, {}, {})
+        senses = [sense for end, found, _ in matches if 1 < end < len(after) for sense in found]
+        kinds = {sense.value for sense in senses if sense.concept == REPAIR} - {DROPPED}
+        return ALWAYS in kinds if kinds else None
+
+    @cached_property
+    def _comma(self) -> Token:
+        return tokenise(",", self.data.contractions)[0]
+
+    def _put_right(
+        self, text: str, phrase: str, readings: list[Choice], lattice: Lattice, *, asking: bool
+    ) -> Parse:
+        """What a sentence means in which something was taken back."""
+        if len(readings) == 1:
+            return Understood(text, readings[0].actions)
+        if asking and readings:
+            return Ambiguous(text, self.data.messages["which"], tuple(readings))
+        message = self.data.messages["not_understood"].format(phrases=f'"{phrase}"')
+        suggestions = self.suggestions.nearest(text, content_of(lattice)) if asking else ()
+        return Refused(text, "not_understood", message, (phrase,), (), suggestions)
+
+    def sentence(self, actions: Sequence[Action]) -> str:
+        """One sentence that means exactly these actions. Raises `Unsayable`."""
+        return self.sentences.sentence(actions)
+
+    def phrases(self, taught: Mapping[str, Sequence[Action]]) -> Phrases:
+        """Taught phrases and what they mean, ready to be found in sentences of this language."""
+        by_first: dict[str, list[tuple[tuple[str, ...], list[dict[str, Any]]]]] = {}
+        for phrase, actions in taught.items():
+            if words := self.words_of(phrase):
+                by_first.setdefault(words[0], []).append((words, dump(tuple(actions))))
+        return Phrases(by_first)
+
+    @cached_property
+    def joiners(self) -> frozenset[str]:
+        """The words that stand between one request and the next."""
+        joining = (
+            w
+            for w, senses in self._lexicon.phrases_of(SEPARATOR)
+            if any(s.concept == SEPARATOR for s in senses)
+        )
+        return frozenset(words[0] for words in joining if len(words) == 1 and words[0].isalpha())
+
+    def ways_to_say(self, concept: str) -> list[str]:
+        """The best ways to say each value of a concept."""
+        return [" ".join(words) for (name, _), words in self._lexicon.typical.items() if name == concept]
+
+    def means_the_same(self, words: tuple[str, ...]) -> list[tuple[str, ...]]:
+        """The best ways to say what these words mean: for "put" it is "add"."""
+        senses = self._lexicon.senses_of(words)
+        told = (
+            self._lexicon.typical.get((sense.concept, repr(sense.value)))
+            for sense in senses
+            if not sense.form
+        )
+        return list(dict.fromkeys(typical for typical in told if typical))
+
+    def words_of(self, text: str) -> tuple[str, ...]:
+        """The words and marks of a text, as they are compared."""
+        return tuple(token.text for token in tokenise(normalise(text), self.data.contractions))
+
+    def check(self) -> list[str]:
+        """Every defect of the language's data (see `linter`); empty when it is fit."""
+        return defects(self.data, self.parse)
+
+    @cached_property
+    def typos(self) -> Typos:
+        """The typo repairer, made at the first unknown word."""
+        words = self._lexicon.words | self.data.numbers.words()
+
+        def same(a: str, b: str) -> bool:
+            if a.startswith(b) or b.startswith(a) or not self._nouns(a).isdisjoint(self._nouns(b)):
+                return True
+            meant = self._meant(a)
+            return bool(meant) and meant == self._meant(b)
+
+        return Typos(self.data.typos, words, self.data.numbers.words(), same)
+
+    def _meant(self, word: str) -> frozenset[tuple[str, str]]:
+        """All that a word alone can mean."""
+        senses = self._lexicon.senses_of((word,))
+        return frozenset((sense.concept, repr(sense.value)) for sense in senses)
+
+    def _nouns(self, word: str) -> frozenset[str]:
+        """What a word alone is a noun for, singular and plural taken together."""
+        senses = self._lexicon.senses_of((word,))
+        return frozenset(str(sense.value) for sense in senses if sense.concept.startswith(NOUN))
+
+    def _repaired(
+        self, plain: str, tokens: list[Token], kept: Mapping[int, Name], topic: Topic
+    ) -> tuple[list[Token], tuple[Correction, ...]]:
+        """The tokens with one-edit typos read as meant, and the list of what was changed."""
+        corrections: list[Correction] = []
+        in_names = {at for start, name in kept.items() for at in range(start, name.end)}
+        if topic.phrases.by_first:
+            words = [token.text for token in tokens]
+            for start in range(len(tokens)):
+                if (taught := topic.phrases.at(words, start)) is not None:
+                    in_names.update(range(start, taught[0]))
+        for at, token in enumerate(tokens):
+            word = token.text
+            if token.digits or token.id or at in in_names or self.data.knows(word) or not word.isalpha():
+                continue
+            meant = self.typos.repair(word)
+            if meant is not None:
+                tokens[at] = renamed(token, meant)
+                corrections.append(Correction(plain[token.start : token.end], meant))
+        return tokens, tuple(corrections)
+
+    @cached_property
+    def suggestions(self) -> Suggestions:
+        """The example sayings of all frames, ready to be ranked; made at the first refusal."""
+        sayings = [say for frame in self.data.frames for say in frame.says if self._suggests(say)]
+        return Suggestions((say, self.concepts(say)) for say in sayings)
+
+    def _suggests(self, say: str) -> bool:
+        if self._offered is None:
+            return True
+        try:
+            # Not `parse`: a refusal there names suggestions, which are what is being made here.
+            parse = self.read(say, ALONE, Work(), asking=False)
+        except SpentError:
+            return False
+        return isinstance(parse, Understood) and all(map(self._offered, parse.actions))
+
+    def concepts(self, text: str) -> frozenset[str]:
+        """The content concepts that occur in a text."""
+        plain = normalise(text)
+        tokens = tokenise(plain, self.data.contractions)
+        return content_of(self._scanner.scan(tokens, {}))

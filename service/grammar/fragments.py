@@ -1,0 +1,117 @@
+"""Where a sentence is cut: at "and", "then" and marks; what only calls or asks for consent is left off.
+
+What the parts mean is not looked at here; that is for `clauses`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from service.grammar.lattice import GLUE, Edge, Lattice
+from service.grammar.noun_phrases import COLON
+from service.grammar.paths import SEPARATOR
+
+STOP = "stop"
+OR = "or"
+EXCEPT = "except"
+"""After this comes where something shall not be: "anywhere but the left lane"."""
+BUT = "but"
+"""After this a part says for itself what to do: "remove all but two cars" leans on nothing."""
+
+_MARKS = frozenset({"pause", STOP})
+"""Separators that are punctuation."""
+
+INTERJECTION = "interjection"
+TAG = "tag"
+REPEATED = "repeated"
+"""What was done before, said again: "again"."""
+
+
+@dataclass(frozen=True, slots=True)
+class Fragment:
+    """Tokens `[start, end)` between two separators, and the separator before them."""
+
+    after: str
+    start: int
+    end: int
+
+
+def fragments(lattice: Lattice, start: int, end: int) -> list[Fragment]:
+    """Tokens `[start, end)` cut at separators; parts with nothing but glue are dropped."""
+    found: list[Fragment] = []
+    start, end = _past_interjection(lattice, start, end), _before_tag(lattice, start, end)
+    after, begin, at, inside = "pause", start, start, start
+    while at < end and SEPARATOR in lattice.concepts:
+        separator: Edge | None = None
+        reach = inside
+        for edge in lattice.edges[at]:
+            stop, concept = edge[1], edge[2][0]
+            if stop > end or concept == INTERJECTION:
+                continue
+            if concept != SEPARATOR:
+                reach = max(reach, stop)
+            elif separator is None or stop > separator.end:
+                separator = edge
+        if separator is not None and inside <= at:
+            if _says_something(lattice, begin, at):
+                found.append(Fragment(after, begin, at))
+                after = str(separator.sense.value)
+            elif str(separator.sense.value) not in _MARKS:
+                after = str(separator.sense.value)
+            at = begin = inside = separator.end
+            continue
+        inside = reach
+        at += 1
+    if _says_something(lattice, begin, end) or (after == OR and begin < end and found):
+        found.append(Fragment(after, begin, end))  # "five or so": how many was meant is not known
+    return found
+
+
+def _past_interjection(lattice: Lattice, start: int, end: int) -> int:
+    """Past a first part that only calls for attention: "right, …", "no, …", "car, …"."""
+    if INTERJECTION not in lattice.concepts:
+        return start
+    longest = max((edge.end for edge in lattice.edges[start]), default=start) if start < end else start
+    for edge in lattice.edges[start] if start < end else ():
+        if edge.end == longest and edge.sense.concept == INTERJECTION and edge.end < end:
+            marks = [
+                e
+                for e in lattice.edges[edge.end]
+                if (e.sense.concept == SEPARATOR and (e.sense.value in _MARKS or e.sense.value == BUT))
+                or (e.sense.concept == COLON and e.end == e.start + 1)
+            ]
+            if marks and _says_something(lattice, marks[0].end, end):
+                return max(mark.end for mark in marks)
+    return start
+
+
+def _before_tag(lattice: Lattice, start: int, end: int) -> int:
+    """Before a last part that only asks for consent: "…, won't you?"."""
+    if TAG not in lattice.concepts:
+        return end
+    for edge in lattice.between(start, end):
+        if (
+            edge.sense.concept == TAG
+            and edge.start > start
+            and not _says_something(lattice, edge.end, end, marks=True)
+        ):
+            return edge.start
+    return end
+
+
+def _says_something(lattice: Lattice, start: int, end: int, *, marks: bool = False) -> bool:
+    """Whether the tokens are not all glue; with `marks`, or punctuation."""
+    at = start
+    while at < end:
+        passed = 0
+        for _, stop, (concept, _, form), _ in lattice.edges[at]:
+            if stop > end:
+                continue
+            if concept == REPEATED:
+                return True
+            if stop > passed and ((concept == GLUE and not form) or (marks and concept == SEPARATOR)):
+                passed = stop
+        if not passed:
+            return True
+        at = passed
+    return False

@@ -1,0 +1,233 @@
+"""Words → concepts: a tree of all phrases, and the longest phrase at a place in a sentence.
+
+A phrase may have several senses ("clear" removes things and is a kind of weather); which one is
+meant is for the frames to find out. A concept written `v.add/ing` is `v.add` in the form `ing`,
+which only counts where that form is in place ("would you mind adding").
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+from service.grammar.numbers import Found
+from service.grammar.patterns import GAP, ID, NUMBER, ORDINAL, Words, expand
+from service.grammar.tokens import Token
+
+
+class Sense(NamedTuple):
+    """One thing a phrase can mean: a concept, its value (None when it needs none) and its form."""
+
+    concept: str
+    value: Any = None
+    form: str = ""
+
+
+Meant = tuple[tuple[Sense, Words], ...]
+"""Senses, each with the whole phrase where it is half of a split one."""
+
+
+@dataclass(slots=True)
+class Node:
+    """A place in the tree of phrases."""
+
+    next: dict[str, Node] = field(default_factory=dict)
+    senses: list[Sense] | None = None
+    split: dict[Words, list[Sense]] | None = None
+    """Whole split phrase → the senses this half of it has."""
+    _meant: tuple[Meant, frozenset[str]] | None = None
+
+    @property
+    def meant(self) -> tuple[Meant, frozenset[str]]:
+        """All that the phrase which ends here means, and the concepts; for a lexicon that is complete."""
+        if self._meant is None:
+            pairs: list[tuple[Sense, Words]] = [(sense, ()) for sense in self.senses or ()]
+            pairs += [(sense, whole) for whole, senses in (self.split or {}).items() for sense in senses]
+            self._meant = tuple(pairs), frozenset(sense.concept for sense, _ in pairs)
+        return self._meant
+
+
+Match = tuple[int, Sequence[Sense], Words]
+"""The end token of a phrase, its senses, and for half of a split phrase the whole of it."""
+
+SECOND = "second_part"
+"""Concept of the second half of a split phrase ("away" of "take ... away")."""
+
+
+class Lexicon:
+    """All phrases of a language."""
+
+    def __init__(self, macros: Mapping[str, tuple[Words, ...]]) -> None:
+        self._macros = macros
+        self._root = Node()
+        self.words: set[str] = set()
+        self.concepts: dict[str, set[str]] = {}
+        """Concept → its forms."""
+        self.collisions: list[str] = []
+        self.begins: dict[str, set[str]] = {}
+        """Concept → the first words of its phrases."""
+        self.typical: dict[tuple[str, str], Words] = {}
+        """Concept and value → its first phrase without a slot: how it is best said."""
+
+    def add_section(self, data: Mapping[str, Any]) -> None:
+        """Add one file of the lexicon: concept → phrases, value → phrases, or a list of both."""
+        for key, content in data.items():
+            concept, _, form = key.partition("/")
+            self.concepts.setdefault(concept, set()).add(form)
+            if isinstance(content, str):
+                self._add_phrases(content, Sense(concept, None, form))
+            elif isinstance(content, list):
+                for entry in content:
+                    self._add_phrases(entry["say"], Sense(concept, entry["is"], form))
+            else:
+                for value, phrases in content.items():
+                    self._add_phrases(str(phrases), Sense(concept, value, form))
+
+    def _add_phrases(self, pattern: str, sense: Sense) -> None:
+        for words in expand(pattern, self._macros):
+            self.begins.setdefault(sense.concept, set()).add(words[0])
+            if GAP in words:
+                cut = words.index(GAP)
+                for half, halfsense in ((words[:cut], sense), (words[cut + 1 :], Sense(SECOND))):
+                    node = self._node(half)
+                    if node.split is None:
+                        node.split = {}
+                    senses = node.split.setdefault(words, [])
+                    if halfsense not in senses:
+                        senses.append(halfsense)
+            else:
+                self._add(words, sense)
+
+    def _node(self, words: Words) -> Node:
+        node = self._root
+        for word in words:
+            after = node.next.get(word)
+            if after is None:
+                after = node.next[word] = Node()
+                self.words.add(word)
+            node = after
+        return node
+
+    def _add(self, words: Words, sense: Sense) -> None:
+        node = self._node(words)
+        if not sense.form and not any(word.startswith("{") for word in words):
+            self.typical.setdefault((sense.concept, repr(sense.value)), words)
+        if node.senses is None:
+            node.senses = []
+        for other in node.senses:
+            if other.concept == sense.concept and other.form == sense.form:
+                if other.value != sense.value:
+                    self.collisions.append(
+                        f"{' '.join(words)!r} is both {other.value!r} and {sense.value!r} of {sense.concept}"
+                    )
+                return
+        node.senses.append(sense)
+
+    def knows(self, word: str) -> bool:
+        """Whether any phrase contains the word."""
+        return word in self.words
+
+    def senses_of(self, words: Words) -> tuple[Sense, ...]:
+        """The senses of exactly this phrase."""
+        node: Node | None = self._root
+        for word in words:
+            node = node.next.get(word) if node else None
+        return tuple(node.senses or ()) if node else ()
+
+    def matches(
+        self,
+        tokens: Sequence[Token],
+        at: int,
+        numbers: Mapping[int, Found],
+        ordinals: Mapping[int, int],
+    ) -> list[Match]:
+        """All phrases that start at token `at`; numbers and ordinals are given by their place."""
+        found: list[Match] = []
+        size = len(tokens)
+        open_paths: list[tuple[Node, int, tuple[Any, ...]]] = [(self._root, at, ())]
+        while open_paths:
+            node, here, slots = open_paths.pop()
+            if node.senses is not None:
+                senses = [_filled(sense, slots) for sense in node.senses] if slots else node.senses
+                found.append((here, senses, ()))
+            if node.split is not None:
+                found.extend((here, senses, whole) for whole, senses in node.split.items())
+            if here >= size or not node.next:
+                continue
+            if here in numbers and (after := node.next.get(NUMBER)) is not None:
+                number = numbers[here]
+                if isinstance(number.value, int) and number.value >= 0:
+                    open_paths.append((after, number.end, (*slots, number.value)))
+            if tokens[here].id and (after := node.next.get(ID)) is not None:
+                open_paths.append((after, here + 1, (*slots, tokens[here].text)))
+            if here in ordinals and (after := node.next.get(ORDINAL)) is not None:
+                open_paths.append((after, here + 1, (*slots, ordinals[here])))
+            if (after := node.next.get(tokens[here].text)) is not None:
+                open_paths.append((after, here + 1, slots))
+        return found
+
+    def plain_matches(
+        self,
+        tokens: Sequence[Token],
+        at: int,
+        numbers: Mapping[int, Found],
+        ordinals: Mapping[int, int],
+    ) -> list[tuple[int, Node]] | None:
+        """The ends of all phrases that start at token `at`, in the order of `matches`.
+
+        None where a number, an id or an ordinal may stand in one of them: that is for `matches`.
+        """
+        found: list[tuple[int, Node]] = []
+        node = self._root
+        for here in range(at, len(tokens)):
+            following = node.next
+            token = tokens[here]
+            if (
+                (here in numbers and NUMBER in following)
+                or (token.id and ID in following)
+                or (here in ordinals and ORDINAL in following)
+            ):
+                return None
+            after = following.get(token.text)
+            if after is None:
+                break
+            node = after
+            if node.senses is not None or node.split is not None:
+                found.append((here + 1, node))
+            if not node.next:
+                break
+        return found
+
+    def phrases(self) -> Iterator[tuple[Words, tuple[Sense, ...]]]:
+        """Every phrase with its senses."""
+        return self._below(self._root, ())
+
+    def phrases_of(self, concept: str) -> Iterator[tuple[Words, tuple[Sense, ...]]]:
+        """Every phrase that begins as one of a concept does: the tree of all takes a fifth of a second."""
+        for word in self.begins.get(concept, ()):
+            yield from self._below(self._root.next[word], (word,))
+
+    @staticmethod
+    def _below(node: Node, words: Words) -> Iterator[tuple[Words, tuple[Sense, ...]]]:
+        stack: list[tuple[Node, Words]] = [(node, words)]
+        while stack:
+            node, words = stack.pop()
+            if node.senses is not None:
+                yield words, tuple(node.senses)
+            stack.extend((after, (*words, word)) for word, after in node.next.items())
+
+
+def _filled(sense: Sense, slots: tuple[Any, ...]) -> Sense:
+    """The sense with `$1`, `$2` in its value replaced by the numbers said."""
+    return Sense(sense.concept, _substitute(sense.value, slots), sense.form)
+
+
+def _substitute(value: Any, slots: tuple[Any, ...]) -> Any:
+    if isinstance(value, str) and value.startswith("$"):
+        return slots[int(value[1:]) - 1]
+    if isinstance(value, dict):
+        return {key: _substitute(part, slots) for key, part in value.items()}
+    if isinstance(value, list):
+        return [_substitute(part, slots) for part in value]
+    return value

@@ -1,0 +1,103 @@
+"""Defects of a language's data, found before anyone speaks: at loading, and all by `Language.check()`.
+
+It looks for what makes a phrase useless or dangerous: one phrase with two values of one concept, a frame
+that nothing can reach, a concept no frame takes, an example saying that does not parse, a choice or
+question that offers nothing. It does not judge whether the words are good English.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from service.grammar.data import LanguageData
+from service.grammar.frames import Frame
+from service.grammar.lattice import GLUE, NAME, NUMBER, UNIT
+from service.grammar.lexicon import SECOND
+from service.grammar.noun_phrases import COLON, NOUN, QUANTITY
+from service.grammar.parse_types import Ambiguous, Parse, Understood
+from service.grammar.paths import ALLOWS, NEGATION, SEPARATOR, SPEAKER
+
+ENGINE_CONCEPTS = frozenset(
+    {GLUE, NAME, NUMBER, UNIT, SECOND, COLON, QUANTITY, ALLOWS, NEGATION, SEPARATOR, SPEAKER}
+    | {"interjection", "tag", "name_end", "name_tail", "quotes", "unsupported", "captures"}
+    | {"what_if", "if", "then_what", "what_if_tail", "teach", "means"}
+    | {"refers", "taught", "repeated", "repair", "contrast"}
+)
+"""Concepts the engine itself gives a use."""
+
+AMOUNT_FORMS = frozenset(
+    {
+        "counted",
+        "more",
+        "exact",
+        "nearest",
+        "fewer",
+        "all",
+        "any",
+        "any_one",
+        "none",
+        "those",
+        "that",
+        "the_one",
+        "the_many",
+    }
+    | {"the_counted", "bare_one", "bare_many", "more_bare", "more_bare_one", "fewer_bare", "post"}
+    | {"those_counted", "asked"}
+    | {"id", "last", "last_counted"}
+)
+DIMENSIONS = frozenset({"number", "length", "speed", "seconds", "fraction", "times", "real_times"})
+
+
+def flaws(data: LanguageData) -> list[str]:
+    """The defects that can be seen without reading a sentence; looked for whenever a language is loaded."""
+    empty = (defect for frame in data.frames for defect in _empty(frame))
+    return [*data.lexicon.collisions, *_unreachable(data), *_unused(data), *empty]
+
+
+def defects(data: LanguageData, parse: Callable[[str], Parse]) -> list[str]:
+    """Every defect found, as sentences; empty when the data are fit."""
+    return [*flaws(data), *(defect for frame in data.frames for defect in _sayings(frame, parse))]
+
+
+def _known(data: LanguageData, concept: str) -> bool:
+    name, _, form = concept.partition(".")
+    nouns = {f"{NOUN}{name}.one", f"{NOUN}{name}.many"}
+    amount = form in AMOUNT_FORMS and bool(nouns & data.lexicon.concepts.keys())
+    return amount or concept in data.lexicon.concepts or concept in DIMENSIONS or concept in ENGINE_CONCEPTS
+
+
+def _unreachable(data: LanguageData) -> Iterator[str]:
+    """Frames that need what no phrase means, and concepts taken that do not exist."""
+    for frame in data.frames:
+        for group in frame.needs:
+            if not any(_known(data, concept) for concept in group):
+                yield f"frame {frame.name} needs {' or '.join(sorted(group))}, which nothing says"
+        for concept in sorted(frame.accepted):
+            if not _known(data, concept):
+                yield f"frame {frame.name} takes {concept}, which nothing says"
+
+
+def _unused(data: LanguageData) -> Iterator[str]:
+    """Concepts that phrases have and no frame takes."""
+    taken = {concept for frame in data.frames for concept in frame.accepted}
+    names = {concept.partition(".")[0] for concept in taken}
+    for concept in data.lexicon.concepts:
+        noun = concept.startswith(NOUN) and concept.split(".")[1] in names
+        if not noun and concept not in taken and concept not in ENGINE_CONCEPTS:
+            yield f"nothing takes the concept {concept}"
+
+
+def _sayings(frame: Frame, parse: Callable[[str], Parse]) -> Iterator[str]:
+    """Example sayings that would not be understood: each may be offered to a person."""
+    for say in frame.says:
+        parsed = parse(say)
+        if not isinstance(parsed, Understood | Ambiguous):
+            yield f"frame {frame.name}: its saying {say!r} is not understood"
+
+
+def _empty(frame: Frame) -> Iterator[str]:
+    """Frames that do nothing, or ask without a choice."""
+    if not frame.actions and frame.ask is None and not (frame.leaves_out or frame.only_negated):
+        yield f"frame {frame.name} has neither actions nor a question"
+    if frame.ask is not None and len(frame.ask.choices) < 2:
+        yield f"frame {frame.name} asks, but offers fewer than two choices"

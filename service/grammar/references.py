@@ -1,0 +1,155 @@
+"""Words that mean something only after what was said before: "it", "those", "again", "the other lane".
+
+Each is given the edges of what it refers to; frames then treat "it" like "pothole-3". Where more than one
+thing could be meant nothing is guessed: the reference is handed back with its candidates, to be asked
+about. "That pothole" with no pothole spoken of is the nearest one, which is for its frame to say.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass, replace
+
+from service.actions import dump
+from service.grammar.fragments import REPEATED
+from service.grammar.lattice import Edge, Lattice
+from service.grammar.lexicon import Sense
+from service.grammar.noun_phrases import Amount
+from service.grammar.parse_types import Parse, Refused, Understood
+from service.grammar.tokens import Token
+from service.grammar.topic import Phrases, Topic
+from sim.actions import Where
+from sim.types import kind_of
+
+REFERS = "refers"
+"""Concept of words that refer; their value says how."""
+
+BY_ID = "thing.id"
+TAUGHT = "taught"
+MAX_CANDIDATES = 5
+
+_REFERRING = frozenset(
+    (REFERS, "thing.that", "thing.those", "thing.the_one", "thing.last", "thing.last_counted")
+)
+_OPPOSITE = {"left": "right", "right": "left"}
+
+
+@dataclass(frozen=True, slots=True)
+class Unclear:
+    """A reference to one of several things, or (no candidates) to nothing that was spoken of."""
+
+    start: int
+    end: int
+    candidates: tuple[str, ...] = ()
+    lane: bool = False
+
+
+def heard(parse: Callable[[str, Topic], Parse], text: str, topic: Topic) -> Parse:
+    """What a text means; a taught phrase counts only where the language has no meaning of its own for it.
+
+    So "carry on" stays what it is when "carry" was taught.
+    """
+    if not topic.phrases.by_first:
+        return parse(text, topic)
+    alone = parse(text, replace(topic, phrases=Phrases()))
+    if isinstance(alone, Refused) and alone.reason == "not_understood":
+        return parse(text, topic)
+    if isinstance(alone, Understood) and alone.corrections:
+        # A word that looked mistyped may be a taught one.
+        known = parse(text, topic)
+        return alone if isinstance(known, Refused) else known
+    return alone
+
+
+def add_known(lattice: Lattice, tokens: Sequence[Token], topic: Topic) -> None:
+    """Edges for ids, and for phrases that were taught."""
+    words = [token.text for token in tokens]
+    phrases = topic.phrases if topic.phrases.by_first else None
+    for at, token in enumerate(tokens):
+        if token.id:
+            lattice.edges[at].append(_things(at, at + 1, (token.text,)))
+        taught = None if phrases is None else phrases.at(words, at)
+        if taught is not None:
+            lattice.edges[at].append(Edge(at, taught[0], Sense(TAUGHT, taught[1])))
+
+
+def add_referents(lattice: Lattice, topic: Topic) -> list[Unclear]:
+    """Edges for all that words refer to; what stays unclear. After noun phrases were found."""
+    unclear: list[Unclear] = []
+    for edge in [edge for starting in lattice.edges for edge in starting if edge[2][0] in _REFERRING]:
+        found = _pronoun(edge, lattice, topic) if edge.sense.concept == REFERS else _pointed(edge, topic)
+        if isinstance(found, Unclear):
+            unclear.append(found)
+            if edge.sense.concept != REFERS and found.candidates:
+                lattice.edges[edge.start].remove(edge)
+        elif found is not None:
+            if edge.sense.concept != REFERS:
+                lattice.edges[edge.start].remove(edge)
+            lattice.edges[edge.start].append(found)
+    # Of "in the other lane" and "the other lane" the shorter first: what is put in its place keeps the "in".
+    return sorted(unclear, key=lambda each: (each.end, -each.start) if each.lane else (0, 0))
+
+
+def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear:
+    """What a word that stands for something stands for."""
+    start, end = edge.start, edge.end
+    match edge.sense.value:
+        case "one" if len(topic.things) == 1:
+            return _things(start, end, topic.things)
+        case "one":
+            return Unclear(start, end, topic.things[-MAX_CANDIDATES:])
+        case "all" if topic.things:
+            return _things(start, end, topic.things)
+        case "last" if topic.added:
+            return _things(start, end, topic.added[-1:])
+        case "again" if topic.undone:
+            return Edge(start, end, Sense(REPEATED, [{"do": "redo"}]))
+        case "again" if topic.actions:
+            return Edge(start, end, Sense(REPEATED, dump(topic.actions)))
+        case "there" if topic.where is not None:
+            said = {key: part for key, part in asdict(topic.where).items() if part is not None}
+            return Edge(start, end, Sense("place", said))
+        case "same_lane" | "other_lane" as which:
+            lane = _lane_before(lattice, start, topic.where)
+            if which == "other_lane":
+                lane = _OPPOSITE.get(str(lane))
+            if lane is not None:
+                return Edge(start, end, Sense("place", {"lane": lane}))
+            return Unclear(start, end, lane=True)
+        case _:
+            return Unclear(start, end)
+
+
+def _lane_before(lattice: Lattice, start: int, where: Where | None) -> str | int | None:
+    """The lane spoken of last: in this sentence, or before it."""
+    lane = where.lane if where is not None else None
+    for edge in lattice.between(0, start):
+        if (
+            edge.sense.concept == "place"
+            and isinstance(edge.sense.value, dict)
+            and "lane" in edge.sense.value
+        ):
+            lane = edge.sense.value["lane"]
+    return lane
+
+
+def _pointed(edge: Edge, topic: Topic) -> Edge | Unclear | None:
+    """What "that pothole", "those cars", "the last two cones" point at; None where at nothing said."""
+    amount: Amount = edge.sense.value
+    form = edge.sense.concept.partition(".")[2]
+    spoken_of = topic.added if form.startswith("last") else topic.things
+    ids = tuple(name for name in spoken_of if kind_of(name) == amount.of)
+    if form.startswith("last"):
+        count = int(amount.count or 1)
+        if len(ids) < count or count < 1:
+            return Unclear(edge.start, edge.end)
+        return _things(edge.start, edge.end, ids[-count:])
+    if not ids:
+        return None
+    if form == "those" or len(ids) == 1:
+        return _things(edge.start, edge.end, ids)
+    return Unclear(edge.start, edge.end, ids[-MAX_CANDIDATES:])
+
+
+def _things(start: int, end: int, ids: tuple[str, ...]) -> Edge:
+    return Edge(start, end, Sense(BY_ID, Amount(kind_of(ids[-1]), len(ids), ids)))

@@ -1,0 +1,221 @@
+"""Slips of the tongue put right in the same breath: "add two cars, no, three", "turn left, I mean right".
+
+What comes after the words that take something back stands in the place of the part of the same make before
+them: a number for a number, a lane for a lane, a whole request for the one before it. The sentence is read
+again with it there, so the engine learns nothing new. Where it fits in several places it is asked about;
+where in none, all is refused: what was taken back must never be done. Words that only may take back
+("sorry", "actually") do so where both parts are about the same; otherwise they are the fillers they were.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+
+from service.actions import Action
+from service.grammar.lattice import GLUE, NUMBER, Edge, Lattice
+from service.grammar.makes import REPAIR, SKIPPED, Make, ends_of_pieces, steps_of
+from service.grammar.parse_types import Choice, Understood
+from service.grammar.paths import SEPARATOR
+from service.grammar.tokens import Token
+from service.grammar.work_budget import Work
+
+ALWAYS = "always"
+"""Value of those that do wherever they stand: "I mean"."""
+
+PERHAPS = "perhaps"
+"""Value of those that are fillers elsewhere: "sorry"."""
+
+DROPPED = "dropped"
+"""That of words after which stands what shall not be: "instead of"."""
+
+NUMBERS = "numbers"
+"""That of words that take back only where a number follows: "no three"."""
+
+MAX_TRIED = 24
+"""Places a correction is tried in; a sentence has fewer."""
+
+_ALIKE = (
+    ("add", "remove", "set_count", "scenario"),
+    ("pause", "resume", "reset", "step", "rewind", "undo", "redo", "load"),
+    ("show", "hide"),
+    ("set", "adjust", "prefer"),
+    ("drive", "mode"),
+    ("evaluate", "find_worst"),
+)
+"""Actions that are about the same, so that one may be said instead of another."""
+
+Read = Callable[[str], object]
+
+
+class Repaired:
+    """A sentence in which something was taken back."""
+
+    def __init__(self, plain: str, tokens: Sequence[Token], lattice: Lattice, edge: Edge, work: Work) -> None:
+        """`edge`: the words that take back."""
+        self._work = work
+        self._plain = plain
+        self._tokens = tokens
+        self._lattice = lattice
+        self._edge = edge
+        self._end = self._before_separators(edge.start)
+        self._value = edge.sense.value
+        self._again = self._past_more(self._past_separators(edge.end))
+        cuts = (e.start for e in lattice.between(self._again + 1, lattice.size) if e.concept == SEPARATOR)
+        self._tail = min(cuts, default=lattice.size)
+
+    @classmethod
+    def found(cls, plain: str, tokens: Sequence[Token], lattice: Lattice, work: Work) -> Repaired | None:
+        """The first thing taken back with something in its place, if any."""
+        if REPAIR not in lattice.concepts:
+            return None
+        edges = sorted((e for e in lattice.all() if e.concept == REPAIR), key=lambda e: (e.start, -e.end))
+        for edge in edges:
+            one = cls(plain, tokens, lattice, edge, work)
+            if edge.sense.value == NUMBERS and not one._begins_with_number():
+                continue
+            if edge.sense.value == DROPPED and one._says_something(one._again, one._tail):
+                return one
+            if one._says_something(0, one._end) and one._says_something(one._again, one._tail):
+                return one
+        return None
+
+    @property
+    def phrase(self) -> str:
+        """What takes back, and what was said instead."""
+        return self._written(self._edge.start, self._tail).strip(" ,;.")
+
+    def readings(self, read: Read) -> list[Choice] | None:
+        """The sentences that may be meant; None where nothing was taken back after all."""
+        if self._value == DROPPED:
+            return self._without(read)
+        if (found := self._in_place(read)) or (found := self._instead_of_all(read)):
+            return found
+        return [] if self._value != PERHAPS or self._alike(read) is not False else None
+
+    def _without(self, read: Read) -> list[Choice]:
+        """That without what shall not be: "use Dijkstra instead of A*", "instead of A* use Dijkstra"."""
+        before = self._written(0, self._end)
+        last = self._lattice.size
+        ends = range(last, self._again, -1) if self._tail == last else (self._tail,)
+        said = ends_of_pieces(steps_of(self._lattice), self._again, self._work)
+        for end in ends:
+            if end not in said:
+                continue
+            text = f"{before} {self._written(end, self._lattice.size)}".strip(" ,;")
+            parsed = read(text)
+            if isinstance(parsed, Understood):
+                return [Choice(text, parsed.actions)]
+        return []
+
+    def _in_place(self, read: Read) -> list[Choice]:
+        """Those with a part of the same make replaced, in the last request before any other."""
+        steps = steps_of(self._lattice)
+        if self._tail not in ends_of_pieces(steps, self._again, self._work):
+            return []
+        make = Make(steps, self._again, self._tail, self._work)
+        start = self._last_part()
+        as_said = read(self._written(0, self._end))
+        for begin in dict.fromkeys((start, 0)):
+            found: list[Choice] = []
+            alike: list[Choice] = []
+            for at, end in self._places(begin, make):
+                text = self._with(at, end)
+                parsed = read(text)
+                same = isinstance(as_said, Understood) and isinstance(parsed, Understood)
+                if same and parsed.actions == as_said.actions:  # type: ignore[attr-defined]
+                    alike = [Choice(text, parsed.actions)]  # type: ignore[attr-defined]
+                    continue
+                if isinstance(parsed, Understood) and all(c.actions != parsed.actions for c in found):
+                    found.append(Choice(text, parsed.actions))
+            if found or alike:
+                return _as_many(found, as_said) or alike
+        return []
+
+    def _instead_of_all(self, read: Read) -> list[Choice]:
+        """That with the whole last request replaced, where both are about the same."""
+        if self._alike(read) is not True:
+            return []
+        text = self._with(self._last_part(), self._end)
+        parsed = read(text)
+        return [Choice(text, parsed.actions)] if isinstance(parsed, Understood) else []
+
+    def _alike(self, read: Read) -> bool | None:
+        """Whether both are requests about the same; None where one of them is none."""
+        before, after = (
+            read(self._written(*part)) for part in ((self._last_part(), self._end), (self._again, self._tail))
+        )
+        if not (isinstance(before, Understood) and isinstance(after, Understood)):
+            return None
+        return bool(_groups(before.actions) & _groups(after.actions))
+
+    def _places(self, begin: int, make: Make) -> Iterator[tuple[int, int]]:
+        """Stretches of the same make; a longer one from the same token has only fillers more."""
+        tried = 0
+        for at in range(begin, self._end):
+            if (end := make.first_like(at, self._end)) is not None:
+                tried += 1
+                if tried > MAX_TRIED:
+                    return
+                yield at, end
+
+    def _with(self, at: int, end: int) -> str:
+        """The whole text with what was said instead in the place of a stretch."""
+        tail = self._plain[self._tokens[self._tail].start :] if self._tail < len(self._tokens) else ""
+        before = self._plain[: self._tokens[at].start]
+        parts = (before, self._written(self._again, self._tail), self._written(end, self._end), tail)
+        return " ".join(part.strip() for part in parts if part.strip())
+
+    def _last_part(self) -> int:
+        """Where the last request before the correction begins."""
+        separators = (e for e in self._lattice.between(0, self._end) if e.concept == SEPARATOR)
+        return max((edge.end for edge in separators), default=0)
+
+    def _before_separators(self, end: int) -> int:
+        while end and any(e.end == end and e.concept == SEPARATOR for e in self._lattice.edges[end - 1]):
+            end -= 1
+        return end
+
+    def _past_separators(self, at: int) -> int:
+        while at < self._lattice.size and any(e.concept == SEPARATOR for e in self._lattice.edges[at]):
+            at = max(e.end for e in self._lattice.edges[at] if e.concept == SEPARATOR)
+        return at
+
+    def _past_more(self, at: int) -> int:
+        """Past more words of the kind, and fillers before a mark: ", sorry, I mean", ", no, sorry,"."""
+        while at < self._lattice.size:
+            here = [e for e in self._lattice.edges[at] if e.end < self._lattice.size]
+            more = [e for e in here if e.concept == REPAIR and e.sense.value not in (DROPPED, NUMBERS)]
+            if any(edge.sense.value == ALWAYS for edge in more) and self._value == PERHAPS:
+                self._value = ALWAYS
+            fillers = [e for e in here if e.concept == GLUE and self._past_separators(e.end) > e.end]
+            if not (more or fillers):
+                break
+            at = self._past_separators(max(edge.end for edge in (*more, *fillers)))
+        return at
+
+    def _begins_with_number(self) -> bool:
+        after = self._lattice.edges[self._again] if self._again < self._lattice.size else []
+        return any(edge.concept == NUMBER for edge in after)
+
+    def _says_something(self, start: int, end: int) -> bool:
+        return any(edge.concept not in SKIPPED for edge in self._lattice.between(start, end))
+
+    def _written(self, start: int, end: int) -> str:
+        return self._plain[self._tokens[start].start : self._tokens[end - 1].end] if start < end else ""
+
+
+def _as_many(found: list[Choice], as_said: object) -> list[Choice]:
+    """Those that are as many requests as were said before, if there are such; else all."""
+    many = len(as_said.actions) if isinstance(as_said, Understood) else 0
+    return [choice for choice in found if len(choice.actions) == many] or found
+
+
+def _groups(actions: Sequence[Action]) -> set[object]:
+    """What the actions are about."""
+    return {
+        (
+            next((group for group in _ALIKE if action.do in group), action.do),
+            getattr(action, "parameter", None),
+        )
+        for action in actions
+    }

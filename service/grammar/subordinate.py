@@ -1,0 +1,176 @@
+"""Sentences around other sentences: "what if …", "when I say …, I mean …"."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+from service.grammar.clauses import Clause, Divided
+from service.grammar.fragments import STOP, Fragment
+from service.grammar.frames import Filled, Frame
+from service.grammar.lattice import GLUE, NAME, Edge, Lattice
+from service.grammar.paths import SEPARATOR
+
+WHAT_IF = "what_if"
+IF = "if"
+THEN_WHAT = "then_what"
+TEACH = "teach"
+MEANS = "means"
+
+_OPENING = frozenset((WHAT_IF, IF, THEN_WHAT, TEACH))
+"""Where none of these is said, nothing is wrapped."""
+
+TEACHING = frozenset({"teach", "forget"})
+NO_CHANGE = TEACHING | {"ask"}
+"""Actions that cannot stand in a condition."""
+
+CONDITIONAL = frozenset({"cond", "past"})
+"""Forms in place inside a condition."""
+
+Divide = Callable[[int, int, frozenset[str]], Divided]
+"""Reads tokens `[start, end)` as clauses, with these forms in place."""
+
+_FRAME = Frame("wrapper", (), frozenset(), frozenset())
+
+
+def read_all(lattice: Lattice, start: int, end: int, divide: Divide) -> Divided | Fragment:
+    """The clauses of all sentences in `[start, end)`, or the part of a wrapped one that nothing fits."""
+    whole = Divided()
+    for first, last in _sentences(lattice, start, end):
+        result = _wrapped(lattice, first, last, divide)
+        if isinstance(result, Fragment):
+            return result
+        divided = Divided([result]) if result else divide(first, last, frozenset())
+        whole.clauses += divided.clauses
+        if divided.failed is not None:
+            whole.failed = divided.failed
+            break
+    return whole
+
+
+def _sentences(lattice: Lattice, start: int, end: int) -> list[tuple[int, int]]:
+    """Where the sentences of a text begin and end, if one of them is a what-if question; else all as one.
+
+    A phrase is taught to the end of the text, full stops and all.
+    """
+    if WHAT_IF not in lattice.concepts:
+        return [(start, end)]
+    stops = (e for e in lattice.between(start, end) if e.sense.concept == SEPARATOR and e.sense.value == STOP)
+    cuts = [start, *sorted(edge.end for edge in stops)]
+    parts = [(a, b) for a, b in zip(cuts, [*cuts[1:], end], strict=True) if a < b]
+    begun = [at for at in (_past_glue(lattice, *part) for part in parts) if at < end]
+    taught = any(_longest(lattice, at, TEACH) for at in begun)
+    asked = any(_longest(lattice, at, WHAT_IF) for at in begun)
+    return parts if asked and not taught else [(start, end)]
+
+
+def _wrapped(lattice: Lattice, start: int, end: int, divide: Divide) -> Clause | Fragment | None:
+    """The clause a wrapped sentence is, the part of it that nothing fits, or None when it is not wrapped."""
+    if lattice.concepts.isdisjoint(_OPENING):
+        return None
+    begin, start = start, _past_glue(lattice, start, end)
+    if start == end:
+        return None
+    if (taught := _longest(lattice, start, TEACH)) is not None:
+        return _taught(lattice, taught, end, divide)
+    failed: Fragment | None = None
+    for first, last in _conditions(lattice, start, end):
+        found = _inside(divide, first, last)
+        if isinstance(found, Fragment):
+            failed = failed or found
+        else:
+            question = {"do": "ask", "about": "what_if", "change": found}
+            return Clause(begin, end, Filled(_FRAME, []), [question])
+    return failed
+
+
+def _past_glue(lattice: Lattice, at: int, end: int) -> int:
+    """The first token from `at` that is neither glue nor a separator."""
+    while at < end:
+        if any(_longest(lattice, at, concept) for concept in (WHAT_IF, IF, TEACH)):
+            return at
+        passed = [edge.end for edge in lattice.edges[at] if edge.sense.concept in (GLUE, SEPARATOR)]
+        if not passed:
+            return at
+        at = max(passed)
+    return at
+
+
+def _longest(lattice: Lattice, at: int, concept: str) -> Edge | None:
+    """The longest edge with this concept that starts at a token."""
+    found = [edge for edge in lattice.edges[at] if edge.sense.concept == concept]
+    return max(found, key=lambda edge: edge.end, default=None)
+
+
+def _conditions(lattice: Lattice, start: int, end: int) -> Iterator[tuple[int, int]]:
+    """Where the condition of a what-if question may be, whichever end the question itself stands at."""
+    opened = sorted(
+        (e for e in lattice.edges[start] if e.sense.concept in (WHAT_IF, IF)), key=lambda e: -e.end
+    )
+    for edge in lattice.edges[start]:
+        if edge.sense.concept == THEN_WHAT:
+            at = _past_marks(lattice, edge.end, end)
+            opening = _longest(lattice, at, IF) if at < end else None
+            if opening is not None and opening.end < end:
+                yield opening.end, end
+    for edge in opened:
+        if edge.sense.concept == WHAT_IF and edge.end < end:
+            yield edge.end, end
+        for at in range(edge.end + 1, end):
+            asked = _longest(lattice, at, THEN_WHAT)
+            if asked is not None and _only_marks(lattice, asked.end, end):
+                yield edge.end, at
+
+
+def _only_marks(lattice: Lattice, at: int, end: int) -> bool:
+    return _past_marks(lattice, at, end) >= end
+
+
+def _past_marks(lattice: Lattice, at: int, end: int) -> int:
+    """The first token from `at` that is neither glue nor a separator."""
+    while at < end:
+        passed = [edge.end for edge in lattice.edges[at] if edge.sense.concept in (GLUE, SEPARATOR)]
+        if not passed:
+            return at
+        at = max(passed)
+    return at
+
+
+def _inside(divide: Divide, start: int, end: int) -> list[dict[str, Any]] | Fragment:
+    """The actions of a condition, or the part that nothing fits."""
+    divided = divide(start, end, CONDITIONAL)
+    return divided.failed or _actions(divided, start, end, NO_CHANGE)
+
+
+def _actions(
+    divided: Divided, start: int, end: int, never: frozenset[str]
+) -> list[dict[str, Any]] | Fragment:
+    """The actions of clauses; the whole as not fitting where there are none, or one of `never`."""
+    values = [value for clause in divided.clauses for value in clause.actions]
+    asks = any(clause.filled.frame.ask for clause in divided.clauses)
+    if asks or not values or any(value["do"] in never for value in values):
+        return Fragment("pause", start, max(end, start + 1))
+    return values
+
+
+def _taught(lattice: Lattice, opened: Edge, end: int, divide: Divide) -> Clause | Fragment | None:
+    """ "when I say <phrase>, I mean <actions>"."""
+    if opened.end >= end:
+        return None
+    name = _longest(lattice, opened.end, NAME)
+    if name is None:
+        return None
+    at = name.end
+    while at < end and _longest(lattice, at, MEANS) is None:
+        at += 1
+    means = _longest(lattice, at, MEANS) if at < end else None
+    if means is None or means.end >= end:
+        return None
+    meaning = read_all(lattice, means.end, end, divide)
+    if isinstance(meaning, Fragment) or meaning.failed is not None:
+        return meaning if isinstance(meaning, Fragment) else meaning.failed
+    found = _actions(meaning, means.end, end, TEACHING)
+    if isinstance(found, Fragment):
+        return found
+    taught = {"do": "teach", "phrase": str(name.sense.value), "meaning": found}
+    return Clause(0, lattice.size, Filled(_FRAME, []), [taught])

@@ -1,0 +1,1 @@
+"""WebSocket, server-sent events and the stream of frames."""

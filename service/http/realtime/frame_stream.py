@@ -1,0 +1,204 @@
+"""Pictures by stream: drawn beside the event loop, encoded once for all who watch the same view.
+
+A *reel* draws one view of one session for as long as somebody watches it, as often as the quickest of
+them asks; when nothing moves nothing is drawn or sent. Each watcher has room for one picture: the newest.
+A slow one therefore sees fewer, never old ones, and is waited for by nobody.
+
+A binary message is a header of 16 bytes, big-endian, then the picture's file:
+
+    2 bytes  `RT`
+    1 byte   version of this header, 1
+    1 byte   1 JPEG, 2 WebP
+    4 bytes  float: the phase, the share of the way from the tick before to this tick, 0 to 1
+    8 bytes  the tick
+
+Leaves out when a tick was: a reel sees it when it next looks, and glides from there.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Awaitable, Callable
+from dataclasses import dataclass
+from struct import Struct
+from typing import Final, Literal
+
+import structlog
+from anyio import CapacityLimiter, to_thread
+
+from service.sessions.scheduler.playback_speed import MAX
+from service.sessions.session import Session
+from sim.plan import Decision
+from sim.render import encode, render
+from sim.session.timeline import Timeline
+from sim.state import SimState
+
+_LOG = structlog.get_logger(__name__)
+
+HEADER: Final = Struct(">2sBBfQ")
+MAGIC: Final = b"RT"
+VERSION: Final = 1
+FORMS: Final = {"jpeg": 1, "webp": 2}
+AFTER_A_DEFECT_S: Final = 1.0
+"""A view that could not be drawn is tried again so much later."""
+
+Form = Literal["jpeg", "webp"]
+View = Literal["road", "schematic"]
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """What a watcher asks to see; those who ask for the same share a reel."""
+
+    view: View
+    form: Form
+    side: int
+
+
+class Slot:
+    """Room for one picture: the newest that has not been sent."""
+
+    def __init__(self, fps: int) -> None:
+        self.fps = fps
+        self._newest: bytes | None = None
+        self._ready = asyncio.Event()
+
+    def put(self, picture: bytes) -> None:
+        """Hand over a picture in place of the one before; never waits."""
+        self._newest = picture
+        self._ready.set()
+
+    async def next(self) -> bytes:
+        """The newest picture, once there is one that was not taken before."""
+        while self._newest is None:
+            self._ready.clear()
+            await self._ready.wait()
+        picture, self._newest = self._newest, None
+        return picture
+
+
+class Reel:
+    """One view of one session, drawn for all its watchers."""
+
+    def __init__(self, session: Session, wanted: Wanted, drawing: CapacityLimiter) -> None:
+        self.drawn = 0
+        self._session = session
+        self._wanted = wanted
+        self._drawing = drawing
+        self._slots: set[Slot] = set()
+        self._task: asyncio.Task[None] | None = None
+        self._newest: bytes | None = None
+        self._run: SimState | None = None
+        self._phase = 1.0
+        self._before: SimState | None = None
+        self._moved_at = 0.0
+        self._decided: tuple[SimState, Decision | None] | None = None
+
+    def __len__(self) -> int:
+        return len(self._slots)
+
+    def join(self, fps: int) -> Slot:
+        """A new watcher; it sees what there is at once, and then what changes."""
+        slot = Slot(fps)
+        if self._newest is not None:
+            slot.put(self._newest)
+        self._slots.add(slot)
+        if self._task is None:
+            self._task = asyncio.create_task(self._roll())
+        return slot
+
+    def leave(self, slot: Slot) -> None:
+        """It sees no more; without watchers nothing is drawn."""
+        self._slots.discard(slot)
+        if not self._slots and self._task is not None:
+            self._task.cancel()
+            self._task = None
+
+    async def look(self, now_s: float) -> None:
+        """Draw what is to be seen now, unless it was drawn already."""
+        run, before, phase = self._session.run, self._before, 1.0
+        last = self._run
+        if last is not None and last.world.tick != run.world.tick:
+            forward = run.world.tick > last.world.tick
+            before = self._session.timeline.at(run.world.tick - 1) if forward else None
+            self._moved_at = now_s
+        if before is not None and before.world.tick + 1 == run.world.tick:
+            lasts_s = self._lasts_s(run)
+            phase = min(1.0, (now_s - self._moved_at) / lasts_s) if lasts_s else 1.0
+        if run is last and phase == self._phase:
+            return
+        self._run, self._before, self._phase = run, before, phase
+        timeline = self._session.timeline.copy()
+        picture = await to_thread.run_sync(self._drawn, timeline, run, before, phase, limiter=self._drawing)
+        self.drawn += 1
+        header = HEADER.pack(MAGIC, VERSION, FORMS[self._wanted.form], phase, run.world.tick)
+        self._newest = header + picture
+        for slot in self._slots:
+            slot.put(self._newest)
+
+    async def _roll(self) -> None:
+        due_s = time.monotonic()
+        while True:
+            try:
+                await self.look(time.monotonic())
+            except Exception:
+                _LOG.exception("a view could not be drawn", session=self._session.id, wanted=self._wanted)
+                await asyncio.sleep(AFTER_A_DEFECT_S)
+            due_s = await _next_turn(due_s, max((slot.fps for slot in self._slots), default=1))
+
+    def _lasts_s(self, run: SimState) -> float:
+        pace = self._session.pace
+        return 0.0 if pace == MAX else run.config.step_seconds / float(pace)
+
+    def _drawn(self, timeline: Timeline, run: SimState, before: SimState | None, phase: float) -> bytes:
+        """In a thread; the one `look` under way waits for it."""
+        decision = None
+        if before is not None:
+            if self._decided is None or self._decided[0] is not before:
+                self._decided = before, timeline.decided(before)
+            decision = self._decided[1]
+        size = (self._wanted.side, self._wanted.side)
+        world = None if before is None else before.world
+        picture = render(self._wanted.view, run, before=world, decision=decision, phase=phase, size=size)
+        return encode(picture, self._wanted.form)
+
+
+class Reels:
+    """All reels that are watched."""
+
+    def __init__(self) -> None:
+        self._reels: dict[tuple[str, Wanted], Reel] = {}
+
+    def __len__(self) -> int:
+        return len(self._reels)
+
+    async def pass_on(
+        self,
+        session: Session,
+        wanted: Wanted,
+        fps: int,
+        drawing: CapacityLimiter,
+        send: Callable[[bytes], Awaitable[None]],
+    ) -> None:
+        """Send one watcher its pictures, at its pace, until this is cancelled or `send` raises."""
+        key = (session.id, wanted)
+        reel = self._reels.setdefault(key, Reel(session, wanted, drawing))
+        slot = reel.join(fps)
+        try:
+            due_s = time.monotonic()
+            while True:
+                await send(await slot.next())
+                due_s = await _next_turn(due_s, fps)
+        finally:
+            reel.leave(slot)
+            if not reel and self._reels.get(key) is reel:
+                del self._reels[key]
+
+
+async def _next_turn(due_s: float, fps: int) -> float:
+    """Wait for the next of `fps` turns a second; turns that were missed are not made up for."""
+    now_s, period_s = time.monotonic(), 1 / fps
+    due_s = max(due_s, now_s - period_s) + period_s
+    await asyncio.sleep(max(0.0, due_s - now_s))
+    return due_s

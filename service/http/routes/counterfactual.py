@@ -1,0 +1,145 @@
+"""`POST /sessions/{id}/counterfactual`: another run from a tick on, beside the real one, to be watched.
+
+Nothing is made and nothing stored: the session and its clock go on untouched. What is otherwise is a move
+that was not made, driven whatever it meets, or a change of the road. A fork does the same for keeps.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from fastapi import APIRouter, Body, Response
+from pydantic import Field
+
+from service.actions import Action
+from service.contract.counterfactual import Counterfactual
+from service.contract.encode.counterfactual import beside_json
+from service.contract.requests import MAX_ACTIONS, Sent, Strictly, Tick
+from service.http.deps import JSON_ONLY, TheSession
+from service.http.errors import documented, invalid
+from service.http.responses import StrictRoute, etag, json_response
+from service.problems import (
+    DoesNotFit,
+    FieldProblem,
+    Invalid,
+    Malformed,
+    NotAvailable,
+    NotJson,
+    NotRestorable,
+    TooLarge,
+    UnknownSession,
+)
+from service.refusals import refusals
+from service.sessions.availability import refusal
+from service.sessions.scheduler.offload import QUESTION_S, asks_others, off_loop
+from service.sessions.scheduler.playback_speed import sets_pace
+from sim.actions import (
+    Add,
+    Adjust,
+    Drive,
+    Prefer,
+    Remove,
+    Reset,
+    Scenario,
+    Set,
+    SetCount,
+    SetMode,
+    WorldAction,
+)
+from sim.explain import QuestionError
+from sim.explain.side_by_side import compare_change, compare_move
+from sim.session.errors import EditError
+from sim.types import Move
+
+router = APIRouter(tags=["time"], route_class=StrictRoute)
+
+MAX_TICKS = 500
+"""Ticks of each run that are told at most; how it ends is told of the whole."""
+
+_WORLD_ACTIONS = (Add, Remove, SetCount, Scenario, Reset, SetMode, Drive, Set, Adjust, Prefer)
+_EXAMPLES: dict[str, Any] = {
+    "move": {
+        "summary": "Another move than the one made",
+        "value": {"at_tick": 2, "move": "stay", "ticks": 40},
+    },
+    "change": {
+        "summary": "A change of the road, made now",
+        "value": {"actions": [{"do": "remove", "kind": "everything", "count": "all"}]},
+    },
+}
+_WORDS = {
+    "no_decision": "No decision was taken at tick {tick}: the result of an episode stood.",
+    "off_road": "That move leads off the road.",
+    "same_move": "That is the move that was made.",
+    "no_such_tick": "Tick {tick} has not come yet: it is tick {now}.",
+}
+
+
+class Otherwise(Sent):
+    """What is otherwise, and from when: a move or actions, one of the two."""
+
+    at_tick: Tick | None = Field(None, description="Default: now; of a move, the latest decision.")
+    move: Literal["forward", "left", "right", "forward_left", "forward_right", "stay"] | None = Field(
+        None, description="Driven whatever it meets; then the planner goes on."
+    )
+    actions: Strictly[list[Action]] | None = Field(
+        None, min_length=1, max_length=MAX_ACTIONS, description="Done there, together or not at all."
+    )
+    ticks: int = Field(120, ge=1, le=MAX_TICKS, description="How many ticks of each are told at most.")
+
+
+@router.post(
+    "/sessions/{session_id}/counterfactual",
+    response_model=Counterfactual,
+    summary="Watch what would have been",
+    dependencies=[JSON_ONLY],
+    responses=documented(
+        Malformed, UnknownSession, TooLarge, NotJson, Invalid, DoesNotFit, NotAvailable, NotRestorable
+    ),
+)
+async def counterfactual(
+    body: Annotated[Otherwise, Body(openapi_examples=_EXAMPLES)], session: TheSession
+) -> Response:
+    """Both runs from that tick on: where they begin, tick by tick what moved, and how each ends.
+
+    Both are as if nothing more had been said, so they differ in this and nothing else. No session is made.
+    """
+    if (body.move is None) == (body.actions is None):
+        raise invalid([FieldProblem("move", "say either a move or actions")])
+    timeline, standing = session.timeline.copy(), session.standing
+    if body.at_tick is not None:
+        tick = body.at_tick
+    else:
+        tick = timeline.tick if body.actions else max(0, timeline.tick - 1)
+    actions = _possible(body.actions or [])
+
+    def found() -> dict[str, Any]:
+        if body.move is not None:
+            told = compare_move(timeline, tick, Move(body.move))
+        else:
+            told = compare_change(timeline, tick, actions)
+        return beside_json(standing, told, body.ticks)
+
+    try:
+        value = await off_loop(asks_others(timeline), QUESTION_S, found)
+    except QuestionError as error:
+        field = "move" if error.code in ("off_road", "same_move") else "at_tick"
+        raise invalid([FieldProblem(field, _WORDS[error.code].format(**error.facts))]) from error
+    except EditError as error:
+        kind = NotAvailable if error.category == "not-available" else DoesNotFit
+        sentence = refusals().edit(error)
+        raise kind(sentence, errors=[FieldProblem(f"actions.{error.field}", sentence)]) from error
+    return json_response(value, headers=etag(standing.sequence))
+
+
+def _possible(actions: list[Action]) -> list[WorldAction]:
+    """Those, where all of them change the road. Raises `NotAvailable` or `Invalid`."""
+    changing: list[WorldAction] = []
+    for position, action in enumerate(actions):
+        sentence = refusal(action)
+        if sentence is not None:
+            raise NotAvailable(sentence, errors=[FieldProblem(f"actions.{position}", sentence)])
+        if not isinstance(action, _WORLD_ACTIONS) or sets_pace(action):
+            raise invalid([FieldProblem(f"actions.{position}", "changes nothing on the road")])
+        changing.append(action)
+    return changing

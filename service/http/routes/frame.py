@@ -1,0 +1,59 @@
+"""`/sessions/{id}/frame`: one picture of a session, drawn without a screen.
+
+Drawing takes milliseconds, so it is done beside the event loop, one picture at a time: the drawing
+library keeps what it has drawn once, and is not made for several threads.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from anyio import to_thread
+from fastapi import APIRouter, Query, Response
+
+from service.http.deps import Here, TheSession
+from service.http.errors import documented
+from service.http.responses import StrictRoute, etag
+from service.problems import Invalid, NotRestorable, UnknownSession
+from sim.plan import Decision
+from sim.render import encode, render
+from sim.state import SimState
+
+router = APIRouter(tags=["watching"], route_class=StrictRoute)
+
+View = Literal["road", "schematic"]
+Format = Literal["png", "jpeg", "webp"]
+
+_PICTURE: dict[int | str, dict[str, Any]] = {
+    200: {
+        "description": "A picture.",
+        "content": {
+            f"image/{form}": {"schema": {"type": "string", "format": "binary"}}
+            for form in ("png", "jpeg", "webp")
+        },
+    }
+}
+
+
+@router.get(
+    "/sessions/{session_id}/frame",
+    response_class=Response,
+    summary="One picture",
+    responses=_PICTURE | documented(UnknownSession, Invalid, NotRestorable),
+)
+async def frame(
+    session: TheSession,
+    here: Here,
+    view: Annotated[View, Query(description="The road as one sees it, or its plan.")] = "road",
+    form: Annotated[Format, Query(alias="format")] = "png",
+) -> Response:
+    """The road as it is now, with the move that led here."""
+    run, latest = session.run, session.latest_decision()
+    data = await to_thread.run_sync(_drawn, run, latest, view, form, limiter=here.drawing)
+    headers = {"Cache-Control": "no-store", **etag(session.sequence)}
+    return Response(data, headers=headers, media_type=f"image/{form}")
+
+
+def _drawn(run: SimState, latest: tuple[Decision, SimState] | None, view: View, form: Format) -> bytes:
+    decision, before = latest or (None, None)
+    return encode(render(view, run, decision=decision, before=before.world if before else None), form)

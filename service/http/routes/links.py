@@ -1,0 +1,122 @@
+"""`link`: a session at a tick as a piece of a URL, and what such a piece opens.
+
+A short way is carried whole (a recording, deflated), so the link works on any service that follows the
+same rules; a long one names the session, and works where that is kept.
+"""
+
+from __future__ import annotations
+
+import re
+import zlib
+from base64 import urlsafe_b64decode, urlsafe_b64encode
+from dataclasses import asdict, dataclass
+from typing import Annotated
+
+from anyio import to_thread
+from fastapi import APIRouter, Query, Response
+from pydantic import ValidationError
+
+from service.contract import answers as schemas
+from service.contract import requests as bodies
+from service.contract.encode.json import encoded
+from service.http.deps import TheSession
+from service.http.errors import documented, invalid
+from service.http.responses import StrictRoute, etag, json_response
+from service.problems import FieldProblem, Invalid, NotRestorable, UnknownSession
+from service.sessions.fork import way_to, written_out
+from service.sessions.persistence.recording import FORMAT, VERSION
+from sim.session.timeline import Timeline
+
+router = APIRouter(tags=["time"], route_class=StrictRoute)
+
+MOST_CARRIED = 2_000
+"""Characters of a link that carries its session; a longer one names it."""
+
+_CARRIES, _NAMES = "#/r/", "#/s/"
+_NAMED = re.compile(r"(?P<session>[A-Za-z0-9_-]{1,64})(/(?P<tick>[0-9]{1,15}))?")
+_RAW = -15
+"""Deflate without a header."""
+
+
+@dataclass(frozen=True, slots=True)
+class Named:
+    """A session that a link names, and the tick in it, if it says one."""
+
+    session: str
+    tick: int | None
+
+
+@router.get(
+    "/sessions/{session_id}/link",
+    response_model=schemas.Link,
+    summary="A link to a tick",
+    responses=documented(UnknownSession, Invalid, NotRestorable),
+)
+async def link(
+    session: TheSession,
+    tick: Annotated[int | None, Query(ge=0, le=2**53 - 1, description="Default: now.")] = None,
+) -> Response:
+    """Append it to the page's address, or send it as `link` to `POST /sessions`.
+
+    A short session is carried in it whole; a long one is named, which `carries` tells.
+    """
+    timeline = session.timeline.copy()
+    at = timeline.tick if tick is None else tick
+    if at > timeline.tick:
+        raise invalid([FieldProblem("tick", f"has not come yet: it is tick {timeline.tick}")])
+    carried = await to_thread.run_sync(_carried, timeline, at)
+    fits = len(carried) <= MOST_CARRIED
+    told = carried if fits else f"{_NAMES}{session.id}/{at}"
+    return json_response({"link": told, "tick": at, "carries": fits}, headers=etag(session.sequence))
+
+
+def opened(said: str, most_bytes: int) -> bodies.Recording | Named:
+    """What a link carries or names; a whole address will do. Raises `Invalid`."""
+    start = said.find("#")
+    fragment = said[start:] if start >= 0 else said
+    if fragment.startswith(_CARRIES):
+        return _read(fragment.removeprefix(_CARRIES), most_bytes)
+    named = _NAMED.fullmatch(fragment.removeprefix(_NAMES)) if fragment.startswith(_NAMES) else None
+    if named is None:
+        raise _bad("is no link of a session; it has to hold #/r/ or #/s/ and what follows")
+    return Named(named["session"], None if named["tick"] is None else int(named["tick"]))
+
+
+def _carried(timeline: Timeline, tick: int) -> str:
+    way = way_to(timeline, tick)
+    entries = [
+        {"sequence": each.sequence, "tick": each.tick, "text": None, "actions": each.actions}
+        for each in written_out(way)
+    ]
+    recording = {
+        "format": FORMAT,
+        "version": VERSION,
+        "rules": timeline.config.rules,
+        "name": None,
+        "config": asdict(timeline.config),
+        "entries": entries,
+        "tick": tick,
+        "digest": way.state.world.digest(),
+    }
+    deflate = zlib.compressobj(9, zlib.DEFLATED, _RAW)
+    packed = deflate.compress(encoded(recording)) + deflate.flush()
+    return _CARRIES + urlsafe_b64encode(packed).rstrip(b"=").decode()
+
+
+def _read(data: str, most_bytes: int) -> bodies.Recording:
+    inflate = zlib.decompressobj(_RAW)
+    try:
+        packed = urlsafe_b64decode(data.encode("ascii") + b"=" * (-len(data) % 4))
+        unpacked = inflate.decompress(packed, most_bytes)
+    except (ValueError, zlib.error) as error:
+        raise _bad("cannot be read: part of it is missing or was changed") from error
+    if not inflate.eof:
+        raise _bad("cannot be read: part of it is missing, or it holds more than is read here")
+    try:
+        return bodies.Recording.model_validate_json(unpacked)
+    except ValidationError as error:
+        raise _bad("does not hold a session") from error
+
+
+def _bad(message: str) -> Invalid:
+    return invalid([FieldProblem("link", message)])

@@ -1,0 +1,139 @@
+"""Taught phrases: "when I say rush hour, I mean heavy traffic and ten more cars".
+
+A phrase is kept with its owner and holds in every session of theirs. What it means is fixed when it
+is taught: actions, checked like any others. It never hides anything the language says by itself.
+There is one owner as long as the service does not tell its users apart.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from service import actions as contract
+from service.actions import Action, Forget, Pause, Teach
+from service.grammar.parse_types import Refused
+from service.grammar.sentences import Unsayable
+from service.grammar.topic import Phrases, Topic
+from service.interpreter.languages import Languages
+from service.problems import FieldProblem, NotAvailable, NotSaved, NotTeachable
+from service.resources import DEFAULT_LANGUAGE
+from service.sessions.availability import refusal
+from service.sessions.facts import Lesson
+from service.store import KeptAnswer, PhraseRecord, Store, StoreError
+from sim.actions import Where
+from sim.types import PLACEABLE, Kind
+
+OWNER = "everyone"
+MAX_PHRASES = 200
+MAX_WORDS = 8
+
+AMID_TALK = Topic(
+    things=tuple(f"{kind}-1" for kind in PLACEABLE),
+    added=tuple(f"{kind}-{number}" for kind in PLACEABLE for number in range(1, 11)),
+    actions=(Pause(),),
+    kind=Kind.POTHOLE.value,
+    where=Where(lane="left"),
+)
+"""A talk in which "again", "two more" or "remove them" mean something: they cannot be taught either."""
+
+
+class Phrasebook:
+    """The phrases of the service's owner, in every language."""
+
+    def __init__(self, store: Store, languages: Languages) -> None:
+        self._store = store
+        self._languages = languages
+        self._kept: dict[tuple[str, str], PhraseRecord] = {}
+        self._ready: dict[str, Phrases] = {}
+
+    async def open(self) -> None:
+        """Read what was taught before. Raises `StoreError`."""
+        self._kept = {(each.language, each.key): each for each in await self._store.phrases(OWNER)}
+        self._ready.clear()
+
+    def phrases(self, code: str = DEFAULT_LANGUAGE) -> Phrases:
+        """The phrases of a language, ready to be found in sentences."""
+        if code not in self._ready:
+            taught = {each.phrase: contract.load(each.meaning) for each in self.listed(code)}
+            self._ready[code] = self._languages[code].phrases(taught)
+        return self._ready[code]
+
+    def listed(self, code: str = DEFAULT_LANGUAGE) -> list[PhraseRecord]:
+        """What was taught in a language, in the order of the alphabet."""
+        return sorted((each for each in self._kept.values() if each.language == code), key=lambda e: e.key)
+
+    async def learn(
+        self,
+        action: Teach | Forget,
+        code: str,
+        *,
+        dry_run: bool,
+        answer: Callable[[Lesson], KeptAnswer] | None = None,
+    ) -> Lesson:
+        """Teach or forget, and keep an `answer` with it.
+
+        Raises `NotTeachable`, `NotAvailable` or `NotSaved`; nothing is then changed.
+        """
+        key = " ".join(self._languages[code].words_of(action.phrase))
+        before = self._kept.get((code, key))
+        told = None if before is None else self.told(contract.load(before.meaning), code)
+        if isinstance(action, Forget):
+            if before is None:
+                raise _not_teachable(f"No phrase “{action.phrase}” was ever taught.")
+            lesson = Lesson(action.phrase, told or "", taught=False, before=told)
+            if not dry_run:
+                await self._forget(before, None if answer is None else answer(lesson))
+            return lesson
+        self._check(action, code, key, new=before is None)
+        record = PhraseRecord(
+            owner=OWNER, language=code, key=key, phrase=action.phrase, meaning=contract.dump(action.meaning)
+        )
+        lesson = Lesson(action.phrase, self.told(action.meaning, code), taught=True, before=told)
+        if not dry_run:
+            await self._teach(record, None if answer is None else answer(lesson))
+        return lesson
+
+    def told(self, actions: tuple[Action, ...], code: str) -> str:
+        """The actions as a sentence, or by their names where the language has none."""
+        try:
+            return self._languages[code].sentence(actions)
+        except Unsayable:
+            return ", ".join(action.do for action in actions)
+
+    def _check(self, action: Teach, code: str, key: str, *, new: bool) -> None:
+        words = key.split()
+        if not any(word.isalpha() for word in words):
+            raise _not_teachable("A phrase needs a word in it.")
+        if len(words) > MAX_WORDS:
+            raise _not_teachable(f"A phrase may have at most {MAX_WORDS} words.")
+        if new and len(self._kept) >= MAX_PHRASES:
+            raise _not_teachable(f"{MAX_PHRASES} phrases are taught, which is the limit: forget one first.")
+        others = {each.phrase: contract.load(each.meaning) for each in self.listed(code) if each.key != key}
+        amid = replace(AMID_TALK, phrases=self._languages[code].phrases(others))
+        alone = self._languages[code].parse(action.phrase, amid)
+        if not isinstance(alone, Refused) or alone.reason != "not_understood":
+            raise _not_teachable(f"“{action.phrase}” means something already, and that stays.")
+        for meant in action.meaning:
+            if (sentence := refusal(meant, code)) is not None:
+                raise NotAvailable(sentence, errors=[FieldProblem("meaning", sentence)])
+
+    async def _teach(self, record: PhraseRecord, answer: KeptAnswer | None) -> None:
+        try:
+            await self._store.teach(record, answer)
+        except StoreError as error:
+            raise NotSaved from error
+        self._kept[record.language, record.key] = record
+        self._ready.pop(record.language, None)
+
+    async def _forget(self, record: PhraseRecord, answer: KeptAnswer | None) -> None:
+        try:
+            await self._store.forget(record.owner, record.language, record.key, answer)
+        except StoreError as error:
+            raise NotSaved from error
+        self._kept.pop((record.language, record.key), None)
+        self._ready.pop(record.language, None)
+
+
+def _not_teachable(sentence: str) -> NotTeachable:
+    return NotTeachable(sentence, errors=[FieldProblem("phrase", sentence)])

@@ -1,0 +1,144 @@
+"""What can be said: every intent with examples, and how a sentence that was begun could go on.
+
+Made from the language's own data, so it cannot say what the grammar does not understand.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property, partial
+
+from anyio import from_thread, to_thread
+
+from service.actions import Action, Ask
+from service.grammar import Language as Grammar
+from service.grammar.completion import Completer
+from service.grammar.corpus import sentences
+from service.grammar.parse_types import Understood
+from service.grammar.topic import Topic
+from service.resources import DEFAULT_LANGUAGE
+from service.sessions.availability import refusal
+from service.sessions.scheduler.playback_speed import Pace, PaceError, pace_after, sets_pace
+from service.sessions.session import Session
+from sim.actions import Adjust, Set
+from sim.config import Config
+from sim.session.errors import EditError
+from sim.session.settings import change_setting
+
+MOST_AT_ONCE = 40
+"""Characters of the longest prefix that is completed where it came in: each completion is read as a whole."""
+
+EXAMPLES = 6
+"""How many examples an intent is shown with."""
+
+
+@dataclass(frozen=True, slots=True)
+class Example:
+    """A sentence and what it means."""
+
+    text: str
+    actions: tuple[Action, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Intent:
+    """One kind of thing that can be said."""
+
+    name: str
+    available: bool
+    why_not: str | None
+    examples: tuple[Example, ...]
+
+
+class Guide:
+    """The guide to one language."""
+
+    def __init__(self, grammar: Grammar, language: str = DEFAULT_LANGUAGE) -> None:
+        """`language`: its code; what is not available is said in it."""
+        self._grammar = grammar
+        self._language = language
+
+    @cached_property
+    def intents(self) -> tuple[Intent, ...]:
+        """Every intent that has an example, those that work first. Takes a tenth of a second, once."""
+        by_name: dict[str, list[Example]] = {}
+        for text in self._sayings:
+            parsed = self._grammar.parse(text)
+            if isinstance(parsed, Understood) and len({_name(action) for action in parsed.actions}) == 1:
+                by_name.setdefault(_name(parsed.actions[0]), []).append(Example(text, parsed.actions))
+        found = [_intent(name, examples, self._language) for name, examples in by_name.items()]
+        return tuple(sorted(found, key=lambda intent: not intent.available))
+
+    def completions(self, prefix: str, session: Session | None, topic: Topic, taught: list[str]) -> list[str]:
+        """Whole sentences that begin with `prefix` and would work, in the session if one is given."""
+        extra = [*taught, *self._by_id(topic)]
+        return self._completer.complete(prefix, topic, extra=extra, possible=partial(_possible, session))
+
+    async def completed(
+        self, prefix: str, session: Session | None, topic: Topic, taught: list[str]
+    ) -> list[str]:
+        """`completions`; those of a longer prefix are looked for in a thread, and the session asked here."""
+        if len(prefix) <= MOST_AT_ONCE:
+            return self.completions(prefix, session, topic, taught)
+        extra = [*taught, *self._by_id(topic)]
+
+        def possible(actions: tuple[Action, ...]) -> bool:
+            return from_thread.run_sync(_possible, session, actions)
+
+        def complete() -> list[str]:
+            return self._completer.complete(prefix, topic, extra=extra, possible=possible)
+
+        return await to_thread.run_sync(complete)
+
+    def _by_id(self, topic: Topic) -> Iterator[str]:
+        """What may be said of the things that were spoken of."""
+        for typical in self._grammar.ways_to_say("v.remove")[:1]:
+            for name in reversed(topic.things):
+                yield f"{typical} {name}"
+
+    @cached_property
+    def _sayings(self) -> tuple[str, ...]:
+        grammar = self._grammar
+        said = [say for frame in grammar.data.frames for say in frame.says]
+        made = sentences(grammar.sentences) if grammar.data.sentences else ()
+        return tuple(dict.fromkeys([*said, *made]))
+
+    @cached_property
+    def _completer(self) -> Completer:
+        grammar = self._grammar
+        made = list(sentences(grammar.sentences)) if grammar.data.sentences else []
+        return Completer(grammar, [*made, *self._sayings])
+
+
+def _possible(session: Session | None, actions: tuple[Action, ...]) -> bool:
+    """Whether actions would work now, in the session if one is given."""
+    if session is not None:
+        return session.possible(actions) and _settable(actions, session.run.config, session.pace)
+    return all(refusal(action) is None for action in actions)
+
+
+def _name(action: Action) -> str:
+    return f"ask {action.about}" if isinstance(action, Ask) else action.do
+
+
+def _settable(actions: tuple[Action, ...], config: Config, pace: Pace) -> bool:
+    """Whether settings can be set so, one after the other; cheap, where a new road would not be."""
+    try:
+        for action in actions:
+            if isinstance(action, Set | Adjust):
+                if sets_pace(action):
+                    pace = pace_after(pace, action)
+                else:
+                    config = change_setting(config, action)
+    except (EditError, PaceError):
+        return False
+    return True
+
+
+def _intent(name: str, examples: list[Example], language: str) -> Intent:
+    working = [each for each in examples if all(refusal(action) is None for action in each.actions)]
+    shown = (working or examples)[:EXAMPLES]
+    reasons = [] if working else [refusal(action, language) for action in examples[0].actions]
+    why_not = next(filter(None, reasons), None)
+    return Intent(name, bool(working), why_not, tuple(shown))

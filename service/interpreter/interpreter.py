@@ -1,0 +1,245 @@
+"""From what was said to what is done: grammar first, then (if there is one) a language model, then refusal.
+
+A model is asked only where the grammar refuses. What it makes of a sentence is an interpretation: a
+question of it is answered and marked, a change is offered as a choice to be said, and nothing is done
+before that is said.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from anyio import to_thread
+
+from service import actions as contract
+from service.actions import Action, Advise, Ask, Forget, Hide, Pause, Redo, Resume, Show, Step, Teach, Undo
+from service.grammar.parse_types import Ambiguous as AmbiguousParse
+from service.grammar.parse_types import Correction, Parse, Refused, Understood
+from service.grammar.references import heard
+from service.grammar.sentences import Unsayable
+from service.grammar.topic import ALONE, Topic
+from service.interpreter.aliases import Phrasebook
+from service.interpreter.languages import Languages
+from service.interpreter.preview import Preview, preview
+from service.llm.protocol import LanguageModel
+from service.problems import Ambiguous, FieldProblem, Invalid, NotAQuestion, NotUnderstood
+from service.resources import DEFAULT_LANGUAGE
+from service.server_timing import part
+from service.sessions.facts import Lesson
+from service.sessions.narrator_protocol import Words
+from service.sessions.preconditions import ANY_TERMS, Terms
+from service.sessions.session import Session
+from service.sessions.utterance import Outcome, Utterance
+from sim.actions import Add, Adjust, Drive, Prefer, Remove, Scenario, Set, SetCount, SetMode
+from sim.config import Config
+from sim.session.config_to_actions import UndescribableError, config_to_actions
+
+HARMLESS = (Ask, Advise, Show, Hide)
+"""Actions that change no session: an interpretation that is only these needs no confirmation."""
+
+UNASKED = (
+    *(*HARMLESS, Add, Remove, SetCount, Set, Adjust, Prefer, SetMode, Drive),
+    *(Pause, Resume, Step, Undo, Redo),
+)
+"""What may be done unconfirmed of what a model made out, where the settings allow that at all: all of it
+stays in the session and can be taken back or done again. Never names, phrases, or time itself."""
+
+MOST_SUGGESTED = 3
+
+MOST_AT_ONCE = 120
+"""Characters of the longest text that is read where it came in. Longer ones may take some 20 ms and more, in
+which ticks would wait, so a thread reads them."""
+
+Source = Literal["grammar", "llm", "typed"]
+
+
+@dataclass(frozen=True, slots=True)
+class Heard:
+    """What was understood, and by whom."""
+
+    text: str
+    actions: tuple[Action, ...]
+    corrections: tuple[Correction, ...] = ()
+    source: Source = "grammar"
+    language: str = DEFAULT_LANGUAGE
+    supposes: str | None = None
+
+    @property
+    def utterance(self) -> Utterance:
+        """Ready to be done."""
+        return Utterance(actions=self.actions, text=self.text, supposes=self.supposes, language=self.language)
+
+
+class Listener:
+    """Understands and does what is said to sessions."""
+
+    def __init__(
+        self,
+        languages: Languages,
+        phrasebook: Phrasebook,
+        words: Words,
+        *,
+        most_chars: int,
+        model: LanguageModel | None = None,
+        confirm: bool = True,
+        rephrase: bool = False,
+    ) -> None:
+        """`confirm`: whether a change that a model made out is asked about before it is done."""
+        self.languages = languages
+        self.phrasebook = phrasebook
+        self._words = words
+        self._most_chars = most_chars
+        self._model = model
+        self._confirm = confirm
+        self._rephrase = rephrase
+
+    def topic(self, session: Session | None, code: str = DEFAULT_LANGUAGE) -> Topic:
+        """What a sentence may refer to: what the session was told, and what was taught."""
+        phrases = self.phrasebook.phrases(code)
+        if session is None:
+            return Topic(phrases=phrases)
+        return session.conversation.topic(session.run.world, phrases, session.history.saved)
+
+    def sentence(self, config: Config) -> str | None:
+        """The sentence that makes such a road; None where nothing that can be said does."""
+        try:
+            return self.languages[DEFAULT_LANGUAGE].sentence(config_to_actions(config) or (Scenario(),))
+        except (UndescribableError, Unsayable):
+            return None
+
+    async def foresee(self, text: str, session: Session, code: str = DEFAULT_LANGUAGE) -> Preview | None:
+        """What a sentence would do now; None for one that is empty, or too long to be heard."""
+        if not text.strip() or len(text) > self._most_chars:
+            return None
+        return preview(await self._read(text, session, code), session, code)
+
+    async def _read(self, text: str, session: Session | None, code: str) -> Parse:
+        parse, topic = self.languages[code].parse, self.topic(session, code)
+        if len(text) <= MOST_AT_ONCE:
+            return heard(parse, text, topic)
+        return await to_thread.run_sync(heard, parse, text, topic)
+
+    async def hear(
+        self, text: str, session: Session | None = None, code: str = DEFAULT_LANGUAGE, field: str = "text"
+    ) -> Heard:
+        """What a sentence means. Raises `Invalid`, `NotUnderstood` or `Ambiguous`, naming `field`."""
+        if len(text) > self._most_chars:
+            message = f"has {len(text)} characters; at most {self._most_chars} are read"
+            raise Invalid("The text is too long.", errors=[FieldProblem(field, message)])
+        with part("parse"):
+            parse = await self._read(text, session, code)
+        match parse:
+            case Understood():
+                return Heard(text, parse.actions, parse.corrections, language=code, supposes=parse.supposes)
+            case AmbiguousParse():
+                choices = [(choice.text, choice.actions) for choice in parse.choices]
+                raise _asked(parse.question, choices, "grammar")
+            case Refused():
+                refusal = self._refusal(parse, session, field, code)
+                if self._model is None or parse.reason != "not_understood":
+                    raise refusal
+                return await self._interpreted(self._model, text, refusal, code)
+
+    async def hear_question(self, text: str, session: Session | None, code: str = DEFAULT_LANGUAGE) -> Heard:
+        """What a question means. Raises also `NotAQuestion` where something else was said."""
+        found = await self.hear(text, session, code, "question")
+        if not all(isinstance(action, Ask | Advise) for action in found.actions):
+            raise NotAQuestion(
+                "This is understood, but it is not a question. Send it to `commands` to have it done."
+            )
+        return found
+
+    async def do(
+        self,
+        session: Session,
+        utterance: Utterance,
+        *,
+        dry_run: bool = False,
+        code: str = DEFAULT_LANGUAGE,
+        terms: Terms = ANY_TERMS,
+    ) -> Outcome:
+        """Do an utterance, all or nothing; a taught phrase is kept with its owner. Raises a problem."""
+        if not any(isinstance(action, Teach | Forget) for action in utterance.actions):
+            outcome = await session.change(utterance, dry_run=dry_run, terms=terms)
+            # An answer that is kept is kept as it was made: in our own words.
+            return outcome if terms.answer else await self._reworded(outcome)
+        if len(utterance.actions) > 1:
+            sentence = "A phrase is taught or forgotten by itself, with nothing else in the same breath."
+            raise Invalid(sentence, errors=[FieldProblem("actions", sentence)])
+        (action,) = utterance.actions
+        assert isinstance(action, Teach | Forget)
+        terms.check(session.sequence)
+        made: list[Outcome] = []
+
+        def outcome_of(lesson: Lesson) -> Outcome:
+            if not made:
+                reply = self._words.lesson(lesson)
+                made.append(
+                    Outcome(
+                        utterance=utterance,
+                        facts=(),
+                        reply=reply,
+                        answer=None,
+                        sequence=session.sequence,
+                        changes=(),
+                    )
+                )
+            return made[0]
+
+        answer = terms.answer
+        kept = None if answer is None else lambda lesson: answer(outcome_of(lesson))
+        lesson = await self.phrasebook.learn(action, code, dry_run=dry_run, answer=kept)
+        outcome = outcome_of(lesson)
+        if not dry_run:
+            session.tell("taught" if lesson.taught else "forgotten", utterance.text, outcome.reply)
+        return outcome
+
+    async def _reworded(self, outcome: Outcome) -> Outcome:
+        """The answer in a model's words, where one may reword and its words are true to the facts."""
+        if self._model is None or not self._rephrase or outcome.answer is None:
+            return outcome
+        text = outcome.answer["text"]
+        other = await self._model.rephrase(text, outcome.answer)
+        answer = {**outcome.answer, "text": other}
+        return replace(outcome, answer=answer, reply=outcome.reply.replace(text, other))
+
+    def _refusal(self, parse: Refused, session: Session | None, field: str, code: str) -> NotUnderstood:
+        suggestions = [say for say in parse.suggestions if self._would_work(say, session, code)]
+        return NotUnderstood(
+            parse.message,
+            errors=[FieldProblem(field, parse.message)],
+            reason=parse.reason,
+            unparsed=parse.unparsed,
+            understood=parse.understood,
+            suggestions=tuple(suggestions[:MOST_SUGGESTED]),
+        )
+
+    def _would_work(self, say: str, session: Session | None, code: str) -> bool:
+        if session is None:
+            return True
+        parse = self.languages[code].parse(say, ALONE)
+        return not isinstance(parse, Understood) or session.possible(parse.actions)
+
+    async def _interpreted(self, model: LanguageModel, text: str, refusal: NotUnderstood, code: str) -> Heard:
+        """What a model makes of a sentence the grammar refused. Raises the refusal, or asks."""
+        reading = await model.interpret(text)
+        if not reading.actions:
+            refusal.detail = f"{refusal.detail} {reading.told}".strip()
+            raise refusal
+        at_once = HARMLESS if self._confirm else UNASKED
+        if all(isinstance(action, at_once) for action in reading.actions):
+            return Heard(text, reading.actions, source="llm", language=code)
+        try:
+            said = self.languages[DEFAULT_LANGUAGE].sentence(reading.actions)
+        except Unsayable:
+            refusal.detail += " A language model read it as something that has no sentence to confirm it by."
+            raise refusal from None
+        raise _asked(
+            "A language model read this as follows. Is that what you mean?", [(said, reading.actions)], "llm"
+        )
+
+
+def _asked(question: str, choices: list[tuple[str, tuple[Action, ...]]], source: Source) -> Ambiguous:
+    told = [{"text": text, "actions": contract.dump(actions)} for text, actions in choices]
+    return Ambiguous(question, choices=told, source=source)

@@ -1,0 +1,70 @@
+"""The languages the service understands: every folder of `prompts/language` that holds one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Protocol
+
+from service.actions import Action
+from service.grammar import Language as Grammar
+from service.grammar.parse_types import Parse
+from service.grammar.topic import ALONE, Phrases, Topic
+from service.interpreter.guide import Guide
+from service.problems import FieldProblem, Invalid
+from service.refusals import refusals
+from service.resources import DEFAULT_LANGUAGE, prompts_folder
+from service.sessions.availability import refusal
+
+
+class Language(Protocol):
+    """What is needed of a language."""
+
+    def parse(self, text: str, topic: Topic = ALONE) -> Parse:
+        """What a sentence means; never raises for anything said."""
+
+    def sentence(self, actions: Sequence[Action]) -> str:
+        """One sentence that means exactly these actions. Raises `Unsayable`."""
+
+    def phrases(self, taught: Mapping[str, Sequence[Action]]) -> Phrases:
+        """Taught phrases, ready to be found."""
+
+    def words_of(self, text: str) -> tuple[str, ...]:
+        """The words of a text, as they are compared."""
+
+
+class Languages:
+    """Languages by their code; each is read once, at the start."""
+
+    def __init__(self, by_code: Mapping[str, Language]) -> None:
+        self._by_code = dict(by_code)
+        self._guides: dict[str, Guide] = {}
+
+    def guide(self, code: str) -> Guide | None:
+        """The guide to a language; None where it is not made of data. Raises `Invalid` for no language."""
+        language = self[code]
+        if code not in self._guides and isinstance(language, Grammar):
+            self._guides[code] = Guide(language, code)
+        return self._guides.get(code)
+
+    @classmethod
+    def load(cls) -> Languages:
+        """All there are. Raises `LanguageDataError`, naming every defect, when one is unfit."""
+        codes = sorted(path.name for path in (prompts_folder() / "language").iterdir() if path.is_dir())
+        loaded = {code: Grammar.load(code, offered=lambda action: refusal(action) is None) for code in codes}
+        for code, grammar in loaded.items():
+            refusals(code)  # read at the start as well
+            grammar.suggestions.nearest("", frozenset())  # ready before anyone is refused
+        return cls(loaded)
+
+    @property
+    def codes(self) -> tuple[str, ...]:
+        """The codes, the default first."""
+        return tuple(sorted(self._by_code, key=lambda code: (code != DEFAULT_LANGUAGE, code)))
+
+    def __getitem__(self, code: str) -> Language:
+        """Raises `Invalid` for a language that is not spoken here."""
+        try:
+            return self._by_code[code]
+        except KeyError:
+            sentence = f"There is no language {code!r} here; there are: {', '.join(self.codes)}."
+            raise Invalid(sentence, errors=[FieldProblem("language", sentence)]) from None

@@ -1,0 +1,65 @@
+"""What a sentence would do if it were sent now: for whoever is still typing it.
+
+Read by the grammar alone, tried on a copy, and thrown away: no model is asked, no question answered
+and no long work begun. What chance decides (where a pothole falls) may fall otherwise when it is
+sent, so only figures are told.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from service.actions import Action, Advise, Ask, Forget, Teach
+from service.grammar.parse_types import Ambiguous, Parse, Refused, Understood
+from service.problems import ProblemError
+from service.resources import DEFAULT_LANGUAGE
+from service.sessions.facts import changes_of
+from service.sessions.session import Session
+from service.sessions.transaction import Draft
+from sim.session.edits import Change
+
+MOST_TICKS = 64
+"""More ticks than this are not run for a preview."""
+
+Standing = Literal["does", "asks", "ambiguous", "not_understood", "refused"]
+
+
+@dataclass(frozen=True, slots=True)
+class Preview:
+    """How a sentence stands: what it would change, or why it would not be done.
+
+    `actions` is what it means; `detail` the sentence it would be refused or asked about with.
+    """
+
+    standing: Standing
+    actions: tuple[Action, ...] = ()
+    changes: tuple[Change, ...] = ()
+    detail: str | None = None
+    unparsed: tuple[str, ...] = ()
+
+
+def preview(parse: Parse, session: Session, language: str = DEFAULT_LANGUAGE) -> Preview:
+    """What a parsed sentence would do to a session, which stays as it is; refused in a language."""
+    match parse:
+        case Refused():
+            standing: Standing = "not_understood" if parse.reason == "not_understood" else "refused"
+            return Preview(standing, detail=parse.message, unparsed=parse.unparsed)
+        case Ambiguous():
+            return Preview("ambiguous", detail=parse.question)
+        case Understood():
+            return _try(parse.actions, session, language)
+
+
+def _try(actions: tuple[Action, ...], session: Session, language: str) -> Preview:
+    doing = tuple(action for action in actions if not isinstance(action, Ask | Advise))
+    if not doing:
+        return Preview("asks", actions)
+    draft = Draft(session.timeline, session.paused, session.history, session.pace, language)
+    long = draft.asks_others(doing) or draft.work_ticks(doing) > MOST_TICKS
+    if isinstance(doing[0], Teach | Forget) or long:
+        return Preview("does", actions)
+    try:
+        return Preview("does", actions, changes_of(draft.perform(session.sequence + 1, doing)))
+    except ProblemError as problem:
+        return Preview("refused", actions, detail=problem.detail)

@@ -1,0 +1,108 @@
+"""What a model answered → actions of the contract, or why it is not fit.
+
+Everything here is suspicion: an answer is data from elsewhere, and whoever said the sentence may have
+tried to have the model say something. What passes is validated as any other action; what a session
+can do of it is the session's to say.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from math import isfinite
+from typing import Any, Final
+
+from pydantic import ValidationError
+from pydantic_core import from_json
+
+from service.actions import Action, Ask, load
+from service.llm.failures import ModelFailure
+from service.llm.schema import FORBIDDEN, WORDS
+from sim.actions import Add, Drive, Remove, Set, SetMode
+
+MAX_ACTIONS: Final = 8
+"""Actions in one answer, those inside others counted."""
+
+_FENCED = re.compile(r"```[a-zA-Z]*\n?(.*?)```", re.DOTALL)
+
+
+def read(answer: str, said: str) -> tuple[Action, ...]:
+    """The actions in an answer to what was said. Raises `ModelFailure`."""
+    try:
+        values = from_json(_object_in(answer), allow_inf_nan=False)
+    except ValueError as error:
+        raise ModelFailure("unreadable", again=True) from error
+    if not isinstance(values, dict) or set(values) != {"actions"} or not isinstance(values["actions"], list):
+        raise ModelFailure("no_action", again=True)
+    _check_names(values["actions"])
+    try:
+        actions = load(values["actions"])
+    except ValidationError as error:
+        raise ModelFailure("no_action", again=True) from error
+    for action in actions:
+        _check(action, said)
+    if not actions:
+        raise ModelFailure("nothing")
+    return actions
+
+
+def _object_in(answer: str) -> str:
+    """The JSON of an answer, out of its fence and of the words around it."""
+    fenced = _FENCED.findall(answer)
+    inside = fenced[0] if len(fenced) == 1 else answer
+    return str(inside[inside.find("{") : inside.rfind("}") + 1])
+
+
+def _check_names(values: list[Any]) -> None:
+    """Before anything is made of them: how many there are, and whether each may be."""
+    if any(isinstance(value, float) and not isfinite(value) for value in _inside(values)):
+        raise ModelFailure("no_action", again=True)
+    names = [value["do"] for value in _inside(values) if isinstance(value, dict) and "do" in value]
+    if max(len(values), len(names)) > MAX_ACTIONS:
+        raise ModelFailure("too_many", most=MAX_ACTIONS)
+    for name in names:
+        if isinstance(name, str) and name in FORBIDDEN:
+            raise ModelFailure("forbidden", name=name)
+
+
+def _inside(value: Any) -> Iterator[Any]:
+    """All values in a value, itself included; without recursion, since it can be as deep as it likes."""
+    way = [value]
+    while way:
+        here = way.pop()
+        yield here
+        if isinstance(here, dict):
+            way.extend(here.values())
+        elif isinstance(here, list):
+            way.extend(here)
+
+
+def _check(action: Action, said: str) -> None:
+    """The few fields that take any text: only the contract's words, and ids that were said."""
+    match action:
+        case Set(parameter=parameter, value=value):
+            words = WORDS.get(parameter)
+            fits = isinstance(value, str) if words else not isinstance(value, str)
+            if not fits or (words and value not in words):
+                raise ModelFailure("no_action", again=True)
+        case Add(where=where) | Remove(where=where):
+            if where is not None and where.id is not None and not _was_said(where.id, said):
+                raise ModelFailure("not_said")
+        case Drive(ego=str(ego)) | SetMode(ego=str(ego)):
+            if not _was_said(ego, said):
+                raise ModelFailure("not_said")
+        case Ask(change=tuple(change)):
+            for inner in change:
+                if isinstance(inner, Ask):
+                    raise ModelFailure("no_action", again=True)
+                _check(inner, said)
+        case _:
+            pass
+
+
+def _was_said(thing: str, said: str) -> bool:
+    """Whether an id is among the words of a sentence, written "pothole-3" or "pothole 3"."""
+    kind, mark, number = thing.rpartition("-")
+    if not (mark and kind.isalpha() and number.isdecimal()):
+        return False
+    return re.search(rf"\b{kind}[\s-]*{number}\b", said, re.IGNORECASE) is not None

@@ -1,5 +1,0 @@
-"""Facts → words. Nothing is said here that is not in the facts; the sayings are data (`prompts/sayings`)."""
-
-from service.narrate.narrator import Narrator
-
-__all__ = ["Narrator"]

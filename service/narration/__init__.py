@@ -1,0 +1,5 @@
+"""Facts → words. Nothing is said here that is not in the facts; the sayings are data (`prompts/sayings`)."""
+
+from service.narration.narrator import Narrator
+
+__all__ = ["Narrator"]

@@ -1,0 +1,149 @@
+"""Advice in words: what to do, what else there is, and how sure that is."""
+
+from __future__ import annotations
+
+from service.contract.encode.advice import advice_json
+from service.narration.question_handler import Json
+from service.narration.sayings import Sayings
+from service.sessions.facts import Advised
+from sim.hazard_advice import Advice, Choice, Ending
+from sim.types import MOVERS, Kind
+
+CLOSE = (0.4, 0.6)
+"""Between these chances it can go either way, and nothing is said of how it probably ends."""
+SURE = 0.8
+"""From here on one is sure of it; below, cases are counted."""
+MOVING = (*MOVERS, Kind.AV)
+"""What may not stay where it is."""
+
+
+class Advices:
+    """Advice in one language."""
+
+    def __init__(self, sayings: Sayings) -> None:
+        """`sayings`: the language's."""
+        self._sayings = sayings
+
+    def answer(self, advised: Advised) -> Json:
+        """The `Answer` of the interface: the advice's facts as JSON values, and in words."""
+        advice = advised.advice
+        return {
+            "question": self.question(advice),
+            "about": "advice",
+            "tick": advised.tick,
+            "text": self.text(advice),
+            "causes": [],
+            "alternatives": [],
+            "verified": None,
+            "counterfactual": None,
+            "evidence": None,
+            **advice_json(advice),
+        }
+
+    def question(self, advice: Advice) -> str:
+        """The question, said back."""
+        return self._say(
+            "question",
+            hazard=self._say("hazards", advice.hazard, "a"),
+            distance=_metres(advice.distance_m),
+            speed=self._speed(advice),
+        )
+
+    def text(self, advice: Advice) -> str:
+        """Two or three sentences."""
+        figures, brake = advice.figures, advice.prospect(Choice.BRAKE)
+        stopping, distance = _apart(figures.stopping_m, advice.distance_m)
+        steering, distance_steered = _apart(figures.steering_m, advice.distance_m)
+        by_steering = advice.choice is Choice.STEER
+        parts = {
+            "it": self._say("hazards", advice.hazard, "the"),
+            "speed": self._speed(advice),
+            "distance": distance_steered if by_steering else distance,
+            "stopping": stopping,
+            "steering": steering,
+            "met": f"{max(1, round(brake.meets_kmh))} km/h",
+            "time": f"{figures.time_s:.2g} s",
+            "reaction": f"{figures.reaction_s:g} s",
+        }
+        told = [
+            self._say(self._key(advice), **parts),
+            self._say("else", self._other(advice), **parts),
+            self._sure(advice),
+        ]
+        return " ".join(sentence for sentence in told if sentence)
+
+    def _key(self, advice: Advice) -> str:
+        chosen = advice.chosen
+        if chosen.choice is Choice.KEEP:
+            return "keep_on" if chosen.chance >= SURE else "keep_late"
+        if chosen.choice is Choice.BRAKE and _late(advice):
+            return "brake_late"
+        if CLOSE[0] < chosen.chance < CLOSE[1]:
+            return f"{chosen.choice}_close"
+        if chosen.choice is Choice.BRAKE and chosen.ending is Ending.STOPS and chosen.chance < SURE:
+            return "brake_likely"
+        return f"steer_{_steered(advice)}" if chosen.choice is Choice.STEER else f"brake_{chosen.ending}"
+
+    def _other(self, advice: Advice) -> str:
+        """What else could be done; braking and steering are told of each other."""
+        chosen = advice.chosen
+        match chosen.choice:
+            case Choice.KEEP:
+                return "nothing" if chosen.chance >= SURE else "too_late"
+            case Choice.STEER:
+                return f"steer_brake_{advice.prospect(Choice.BRAKE).ending}"
+            case Choice.BRAKE if _late(advice):
+                return "too_late"
+            case Choice.BRAKE if chosen.ending is Ending.STOPS and chosen.chance >= SURE:
+                return "nothing"
+            case Choice.BRAKE:
+                return f"brake_steer_{_steered(advice)}"
+
+    def _sure(self, advice: Advice) -> str:
+        stays = ""
+        if advice.hazard in MOVING:
+            stays = self._say("while", it=self._say("hazards", advice.hazard, "the"))
+        percent = round(100 * advice.confidence)
+        if percent == 100:
+            key = "very_sure"
+        elif percent == 0:
+            key = "no_chance"
+        else:
+            key = "sure" if advice.confidence >= SURE else "chance"
+        return self._say(key, percent=percent, **{"while": stays})
+
+    def _speed(self, advice: Advice) -> str:
+        return self._say("weather", advice.weather, speed=_kmh(advice.speed_kmh))
+
+    def _say(self, *keys: str, **parts: object) -> str:
+        return self._sayings.say("advice", *keys, **parts)
+
+
+def _late(advice: Advice) -> bool:
+    """Whether all is over before a driver has reacted."""
+    return advice.figures.time_s <= advice.figures.reaction_s
+
+
+def _steered(advice: Advice) -> str:
+    """Whether steering gets clear, when everything is in the middle of its range."""
+    return "clears" if advice.prospect(Choice.STEER).ending is Ending.CLEARS else "misses"
+
+
+def _kmh(speed: float) -> str:
+    return f"{_plain(speed)} km/h"
+
+
+def _metres(distance: float) -> str:
+    return f"{_plain(distance)} m"
+
+
+def _plain(value: float) -> str:
+    """One decimal below ten, if it says anything; none above."""
+    return f"{value:.0f}" if value >= 10 else f"{round(value, 1):g}"
+
+
+def _apart(needed: float, there: float) -> tuple[str, str]:
+    """Two distances in metres that do not read the same unless they nearly are."""
+    if _plain(needed) != _plain(there):
+        return _metres(needed), _metres(there)
+    return f"{round(needed, 1):g} m", f"{round(there, 1):g} m"

@@ -1,0 +1,43 @@
+"""Answers to questions: each kind of question has one that knows it."""
+
+from __future__ import annotations
+
+from service.narration.advice import Advices
+from service.narration.confidence import Confidences
+from service.narration.maintenance import Maintenance
+from service.narration.metrics import Figures
+from service.narration.next import Next
+from service.narration.question_handler import Answerer, Json
+from service.narration.sayings import Sayings
+from service.narration.scene import Scenes
+from service.narration.status import Help, Status
+from service.narration.what_if import WhatIfs
+from service.narration.why import Whys
+from service.sessions.facts import Advised, Answerable
+
+
+class Answers:
+    """Answers in one language."""
+
+    def __init__(self, sayings: Sayings) -> None:
+        """`sayings`: the language's."""
+        self._advices = Advices(sayings)
+        whys = Whys(sayings)
+        self._by_question: dict[str, Answerer] = {
+            "why": whys,
+            "why_not": whys,
+            "status": Status(sayings),
+            "help": Help(sayings),
+            "scene": Scenes(sayings),
+            "confidence": Confidences(sayings),
+            "maintenance": Maintenance(sayings),
+            "what_if": WhatIfs(sayings),
+            "next": Next(sayings),
+            "metrics": Figures(sayings),
+        }
+
+    def answer(self, asked: Answerable) -> Json:
+        """The `Answer` of the interface."""
+        if isinstance(asked, Advised):
+            return self._advices.answer(asked)
+        return self._by_question[asked.ask.about].answer(asked)

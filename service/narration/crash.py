@@ -1,0 +1,147 @@
+"""Answers to why there was a crash: what happened, what it hung on, and what would have saved it."""
+
+from __future__ import annotations
+
+from service.contract.encode.explanation import crash_json
+from service.narration.explanation import called
+from service.narration.naming import Naming
+from service.narration.question_handler import Json, not_so, plain
+from service.narration.sayings import Sayings
+from service.sessions.facts import Asked
+from sim.explain import QuestionError
+from sim.explain.crash import Crash, why_crashed
+from sim.plan import Decision
+from sim.types import Move, kind_of
+
+MOST_TOLD = 3
+"""How many of the things it hung on are told; the facts have all."""
+
+_ITS_OWN = ("no_crash", "no_crash_lately", "no_crash_then")
+
+
+class Crashes:
+    """Answers to "why did you crash?"."""
+
+    def __init__(self, sayings: Sayings) -> None:
+        """`sayings`: the language's."""
+        self._sayings = sayings
+
+    def answer(self, asked: Asked) -> Json:
+        """See `Answerer.answer`. Where there was no crash, that is the answer."""
+        tick = asked.ask.tick
+        try:
+            crash = why_crashed(asked.timeline, tick)
+        except QuestionError as error:
+            told = plain(self._sayings, asked.ask, asked.timeline.state, self._not_so(error))
+        else:
+            told = plain(self._sayings, asked.ask, asked.timeline.state, self.text(crash)) | crash_json(crash)
+        return told | {"question": self._say("question" if tick is None else "question_at", tick=tick)}
+
+    def text(self, crash: Crash) -> str:
+        """A crash in a few sentences."""
+        decision = crash.explanation.decision
+        naming = Naming(self._sayings, crash.explanation.moment, as_seen=False)
+        parts = [
+            self._happened(crash, decision, naming),
+            *self._not_as_seen(crash, naming),
+            self._by_whom(decision),
+            self._otherwise(crash, decision, naming),
+            self._flips(crash, naming),
+            self._saving(crash),
+        ]
+        return " ".join(part for part in parts if part)
+
+    def _happened(self, crash: Crash, decision: Decision, naming: Naming) -> str:
+        cause = crash.cause
+        ids = [name for name in cause.ids if name != decision.av]
+        stood = decision.move is Move.STAY
+        if cause.how == "swap":
+            key = "swap"
+        elif cause.how == "cross":
+            key = "cross"
+        elif kind_of(ids[0]).fixed:
+            key = "into"
+        else:
+            key = "came" if stood else "met"
+        did = self._sayings.move(decision.move, "did")
+        return self._say(key, tick=crash.end, did=did, who=naming.things(ids))
+
+    def _not_as_seen(self, crash: Crash, naming: Naming) -> list[str]:
+        """What was there and not detected, and what was detected and not there."""
+        hit = [name for name in crash.missed if name in crash.cause.ids]
+        others = [name for name in crash.missed if name not in hit]
+        told = [self._say("missed", "one" if len(hit) == 1 else "many")] if hit else []
+        if others:
+            key = "missed_others" if hit else "missed_besides"
+            told.append(self._say(key, who=naming.things(others)))
+        seen = Naming(self._sayings, crash.explanation.moment)
+        imagined = seen.imagined([cause.id for cause in crash.explanation.causes])
+        phrases = dict.fromkeys(self._sayings.imagined(name, where) for name, where in imagined.items())
+        return told + [self._say("imagined", told=phrase) for phrase in phrases]
+
+    def _by_whom(self, decision: Decision) -> str:
+        if decision.fault is not None:
+            return self._say("fault", planner=decision.planner, fault=decision.fault)
+        if decision.held_back and decision.asked is not None:
+            return self._say("held_back", asked=self._sayings.move(decision.asked, "do"))
+        return "" if decision.asked is None else self._say("by_hand")
+
+    def _otherwise(self, crash: Crash, decision: Decision, naming: Naming) -> str:
+        """What the other moves of the last tick would have met, or that some would have met nothing."""
+        others = [
+            option for option in crash.met if option.move is not decision.move and option.cell is not None
+        ]
+        free = [self._sayings.move(move, "place") for move in crash.free if move is not decision.move]
+        if free:
+            places = self._sayings.joined(free)
+            return _capital(self._say("free", "one" if len(free) == 1 else "many", places=places))
+        return self._say("all_met", reasons=self._sayings.all_met(others, "then", naming))
+
+    def _flips(self, crash: Crash, naming: Naming) -> str:
+        """How it goes without what it hung on."""
+        flips = crash.explanation.counterfactuals
+        if not flips:
+            return ""
+        told = [
+            self._say(
+                "without",
+                who=self._sayings.joined([called(name, self._sayings, naming) for name in flip.removed]),
+                do=self._sayings.move(flip.move, "do"),
+            )
+            for flip in flips[:MOST_TOLD]
+        ]
+        if len(flips) > MOST_TOLD:
+            more = len(flips) - MOST_TOLD
+            told.append(self._say("and_more", "one" if more == 1 else "many", count=more))
+        alone = all(len(flip.removed) == 1 for flip in flips)
+        return self._say("run_again" if alone else "run_again_all", flips=self._sayings.listed(told))
+
+    def _saving(self, crash: Crash) -> str:
+        if not crash.certain:
+            return self._say("chance")
+        saving = crash.saving
+        if saving is None:
+            if crash.whole:
+                return self._say("never")
+            return self._say("not_since", ticks=crash.looked_back) if crash.looked_back > 1 else ""
+        doing = self._sayings.move(saving.instead, "doing")
+        if saving.tick == crash.explanation.decision.tick:
+            return self._say("saved_last", doing=doing, ticks=saving.ticks)
+        did = self._sayings.move(saving.made, "did")
+        return self._say("saved", tick=saving.tick, did=did, doing=doing, ticks=saving.ticks)
+
+    def _not_so(self, error: QuestionError) -> str:
+        if error.code not in _ITS_OWN:
+            return not_so(self._sayings, error.code, error.facts)
+        if error.code == "no_crash":
+            episodes = error.facts["episodes"]
+            form = "none" if episodes == 0 else "one" if episodes == 1 else "many"
+            return self._say("no_crash", form, episodes=episodes)
+        return self._say(error.code, **error.facts)
+
+    def _say(self, *keys: str, **parts: object) -> str:
+        return self._sayings.say("crash", *keys, **parts)
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]

@@ -1,0 +1,121 @@
+"""Answers to "how is it going?" and "how many crashes so far?"."""
+
+from __future__ import annotations
+
+from service.contract.encode.forecast import figures_json
+from service.narration.question_handler import Json, plain
+from service.narration.sayings import Sayings
+from service.sessions.facts import Asked
+from sim.metrics import Metrics
+from sim.state import SimState
+from sim.statistics import wilson
+
+ENOUGH = 5
+"""Episodes from which on a rate is told, with its interval."""
+
+
+class Figures:
+    """Answers made from what the session has counted."""
+
+    def __init__(self, sayings: Sayings) -> None:
+        """`sayings`: the language's."""
+        self._sayings = sayings
+
+    def answer(self, asked: Asked) -> Json:
+        """See `Answerer.answer`."""
+        run = asked.timeline.state
+        metrics = run.metrics
+        interval = wilson(metrics.successes, metrics.episodes) if metrics.episodes >= ENOUGH else None
+        text = self._text(asked.ask.metric, run, interval)
+        return plain(self._sayings, asked.ask, run, text) | figures_json(run, interval)
+
+    def _text(self, metric: str | None, run: SimState, interval: tuple[float, float] | None) -> str:
+        metrics = run.metrics
+        if not metrics.steps:
+            return self._say("nothing")
+        match metric:
+            case "crashes":
+                return self._counted("crashes", metrics.crashes, metrics)
+            case "successes":
+                return self._counted("arrivals", metrics.successes, metrics)
+            case "success_rate":
+                return self._rate(metrics, interval)
+            case "steps":
+                return self._steps(run)
+            case "moves":
+                return self._moves(metrics)
+            case "distance":
+                return self._distance(metrics)
+            case _:
+                return self._all(run, interval)
+
+    def _all(self, run: SimState, interval: tuple[float, float] | None) -> str:
+        metrics = run.metrics
+        if not metrics.episodes:
+            return " ".join([self._say("no_episode"), self._moves(metrics), self._distance(metrics)])
+        counts = [
+            self._many("arrivals", metrics.successes),
+            self._many("crashes", metrics.crashes),
+            self._many("stuck", metrics.stuck),
+        ]
+        counted = self._sayings.joined([count for count in counts if count])
+        told = [self._say("all", counts=_capital(counted), episodes=self._many("episodes", metrics.episodes))]
+        if interval is not None:
+            told.append(self._say("rate", **_shares(metrics, interval)))
+        return " ".join([*told, self._moves(metrics), self._distance(metrics)])
+
+    def _counted(self, key: str, count: int, metrics: Metrics) -> str:
+        if not metrics.episodes:
+            return self._say("no_figure")
+        episodes = self._many("episodes", metrics.episodes)
+        return self._say("all", counts=_capital(self._many(key, count)), episodes=episodes)
+
+    def _rate(self, metrics: Metrics, interval: tuple[float, float] | None) -> str:
+        if not metrics.episodes:
+            return self._say("no_figure")
+        episodes = self._many("episodes", metrics.episodes)
+        if interval is None:
+            return self._say("too_few", hits=metrics.successes, episodes=episodes)
+        shares = _shares(metrics, interval)
+        return self._say("rate_of", hits=metrics.successes, episodes=episodes, **shares)
+
+    def _steps(self, run: SimState) -> str:
+        steps = run.metrics.steps
+        seconds = f"{round(steps * run.config.step_seconds, 1):.10g}"
+        return self._say("steps", "one" if steps == 1 else "many", count=steps, seconds=seconds)
+
+    def _moves(self, metrics: Metrics) -> str:
+        counts = {kind: getattr(metrics, kind) for kind in ("forward", "lateral", "diagonal", "stay")}
+        parts = [
+            self._say("part", share=round(100 * count / metrics.steps), kind=self._say("kinds", kind))
+            for kind, count in counts.items()
+            if count
+        ]
+        return self._say(
+            "moves", moves=self._many("moves_made", metrics.steps), parts=self._sayings.joined(parts)
+        )
+
+    def _distance(self, metrics: Metrics) -> str:
+        metres = metrics.distance_m
+        if metres < 1000:
+            return self._say("distance", distance=self._say("metres", count=round(metres)))
+        return self._say("distance", distance=self._say("kilometres", count=f"{metres / 1000:.1f}"))
+
+    def _many(self, key: str, count: int) -> str:
+        forms = self._sayings.words("metrics", key)
+        form = "none" if count == 0 and "none" in forms else "one" if count == 1 else "many"
+        return self._say(key, form, count=count)
+
+    def _say(self, *keys: str, **parts: object) -> str:
+        return self._sayings.say("metrics", *keys, **parts)
+
+
+def _shares(metrics: Metrics, interval: tuple[float, float]) -> dict[str, object]:
+    low, high = interval
+    share = round(100 * metrics.successes / metrics.episodes)
+    # Outwards, so that the interval told is never narrower than the one computed.
+    return {"share": share, "low": int(100 * low), "high": min(100, int(100 * high) + 1)}
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]

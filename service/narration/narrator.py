@@ -1,0 +1,222 @@
+"""One door to all that is said: decisions, events, replies, answers."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+from service.narration.answers import Answers
+from service.narration.episode_end import Ends
+from service.narration.naming import Naming
+from service.narration.outlook import outlook
+from service.narration.replies import Replies
+from service.narration.sayings import Sayings
+from service.sessions.facts import Answerable, Fact, Lesson
+from sim.decide import sense
+from sim.events import Event, EventType
+from sim.forecast import Forecast
+from sim.perceive import sensor_named
+from sim.plan import Decision, Measure, Option
+from sim.state import SimState
+from sim.types import Move
+
+REMEMBERED = 4_096
+"""So many sentences are kept for being said again."""
+
+ENDS = (EventType.ARRIVED, EventType.CRASHED, EventType.STUCK)
+
+
+class Narrator:
+    """Words for facts, in one language."""
+
+    def __init__(self, sayings: Sayings) -> None:
+        """`sayings`: the language's."""
+        self._sayings = sayings
+        self._replies = Replies(sayings)
+        self._answers = Answers(sayings)
+        self._ends = Ends(sayings)
+        self._first_choice = self._say("first_choice")
+        self._told: dict[Hashable, str] = {}
+        """Sentences said before, by all they are made of: the same few are said again and again."""
+
+    @classmethod
+    def load(cls, code: str = "en", folder: Path | None = None) -> Narrator:
+        """A narrator of the language `code`."""
+        return cls(Sayings.load(code, folder))
+
+    def decision(self, decision: Decision, run: SimState, forecast: Forecast | None = None) -> str:
+        """What the vehicle does at a tick and why, in one line.
+
+        `forecast`: what it was decided by, where that is known already.
+        """
+        if decision.fault is not None:
+            return self._say("fault", planner=decision.planner, fault=decision.fault)
+        asked, first = decision.asked, decision.options[0]
+        ranked = decision.measure is Measure.RANK
+        if first.move is decision.move is Move.FORWARD and ranked and asked is None:
+            return self._straight_on(first, run)  # said most, by far
+        naming = Naming(self._sayings, run)
+        if asked is not None:
+            return self._asked(decision, asked, naming)
+        if decision.measure is Measure.OWN:
+            return self._own(decision, naming)
+        if not ranked:
+            return self._weighed(decision, run, naming)
+        chosen = decision.chosen
+        if first.reason.blocks and decision.move is not Move.STAY:
+            return self._other(decision.move, first, naming)
+        ahead = outlook(self._sayings, decision, run, forecast)
+        if ahead is not None and not chosen.reason.blocks:
+            return self._say("other", move=self._named(decision.move), reason=ahead.reason("now"))
+        if decision.move is not Move.STAY:
+            return self._other(decision.move, first, naming)
+        if chosen.verdict == "free":
+            return self._say("no_way")
+        return self._say("no_safe_way", reason=self._sayings.met(chosen, "now", naming))
+
+    def _other(self, move: Move, met: Option, naming: Naming) -> str:
+        """Another move than the first, for what that would have met."""
+        things = naming.kinds_and_places(met.causes)
+        key = (move, met.move, met.reason, things)
+        told = None if things is None else self._told.get(key)
+        if told is None:
+            told = self._say("other", move=self._named(move), reason=self._sayings.met(met, "now", naming))
+            self._remember(None if things is None else key, told)
+        return told
+
+    def _straight_on(self, chosen: Option, run: SimState) -> str:
+        """Straight on, in a word; in a few more where something is passed closely, or the goal is near."""
+        if chosen.cell is not None and chosen.cell[1] == 0:
+            return self._say("into_the_goal")
+        world = run.world
+        faithful = sensor_named(run.config.sensor).faithful
+        movers = world.movers if faithful else sense(run)[0].movers
+        passed = [movers[cell] for cell in _beside(world.road.columns, world.avs[0]) if cell in movers]
+        if passed:
+            return self._passing(passed, Naming(self._sayings, run))
+        return self._first_choice
+
+    def _passing(self, passed: list[str], naming: Naming) -> str:
+        """Straight on, closely past these."""
+        things = naming.kinds_and_places(passed)
+        key = ("passing", things)
+        told = None if things is None else self._told.get(key)
+        if told is None:
+            told = self._say("passing", who=naming.things(passed))
+            self._remember(None if things is None else key, told)
+        return told
+
+    def _remember(self, key: Hashable | None, told: str) -> None:
+        """Keep a sentence for being said again, where all is known that it is made of."""
+        if key is not None:
+            if len(self._told) >= REMEMBERED:
+                self._told.clear()
+            self._told[key] = told
+
+    def lesson(self, lesson: Lesson) -> str:
+        """The reply to a phrase that was taught or forgotten."""
+        return self._replies.lesson(lesson)
+
+    def event(self, event: Event, run: SimState) -> str:
+        """One line of the log."""
+        if event.type in ENDS:
+            return self._ends.text(run)
+        if event.type is EventType.NO_WAY:
+            return self._no_way(event)
+        ticks = run.world.episode_tick
+        reason = ""
+        if event.type is EventType.HELD_BACK and event.move is not None:
+            how = event.how or "free"
+            reason = self._sayings.in_the_way(how, event.move, event.ids, "then", Naming(self._sayings, run))
+        return self._sayings.say(
+            "log",
+            "events",
+            event.type,
+            episode=event.episode,
+            ticks=ticks,
+            seconds=f"{ticks * run.config.step_seconds:g}",
+            who=self._sayings.joined(event.ids),
+            where="" if event.cell is None else self._sayings.where(event.cell),
+            move="" if event.move is None else self._sayings.move(event.move, "name"),
+            reason=reason,
+            planner=run.config.planner,
+            fault=event.how or "",
+        )
+
+    def _no_way(self, event: Event) -> str:
+        if not event.ids:
+            return self._sayings.say("log", "no_way", event.how or "plain")
+        form = "one" if len(event.ids) == 1 else "many"
+        return self._sayings.say("log", "no_way", "without", form, who=self._sayings.joined(event.ids))
+
+    def planner(self, name: str) -> str:
+        """A planner as people know it."""
+        return self._sayings.planner(name)
+
+    def silent(self, planner: str, fault: str) -> str:
+        """What is said when a planner did not answer in time and a person is to drive."""
+        return self._sayings.say("log", "events", "planner_silent", planner=planner, fault=fault)
+
+    def done(self, facts: tuple[Fact, ...]) -> str:
+        """The reply: what was done, in a sentence for each fact."""
+        return self._replies.done(facts)
+
+    def answer(self, asked: Answerable) -> dict[str, Any]:
+        """The answer to a question, as JSON values."""
+        return self._answers.answer(asked)
+
+    def _weighed(self, decision: Decision, run: SimState, naming: Naming) -> str:
+        """The move of a planner that knows what each costs in all, against going straight on."""
+        name = self._named(decision.move)
+        straight, chosen = decision.option(Move.FORWARD), decision.chosen
+        if chosen.cost is None:
+            if chosen.reason.blocks:
+                return self._say("no_safe_way", reason=self._sayings.met(chosen, "now", naming))
+            known = "unknown" if run.config.reacting else "proved"
+            told = "waits" if decision.move is Move.STAY else "moves"
+            return self._sayings.say("log", "decisions", "no_way_on", known, told, move=name)
+        if decision.move is Move.FORWARD:
+            return self._say("first_choice")
+        if straight.cost is None:
+            if straight.dead_end:
+                return self._say("leads_nowhere", move=name)
+            return self._say("other", move=name, reason=self._sayings.met(straight, "now", naming))
+        more = straight.cost - chosen.cost
+        return self._say(f"saves_{decision.measure}", move=name, more=f"{more:g}")
+
+    def _own(self, decision: Decision, naming: Naming) -> str:
+        """The move of another package's planner, with what is so, and without a reason: none is known."""
+        name, straight = self._named(decision.move), decision.option(Move.FORWARD)
+        if decision.chosen.reason.blocks:
+            reason = self._sayings.met(decision.chosen, "now", naming)
+            return self._say("own_though", move=name, planner=decision.planner, reason=reason)
+        if decision.move is Move.FORWARD:
+            return self._say("first_choice")
+        if straight.reason.blocks:
+            reason = self._sayings.met(straight, "now", naming)
+            return self._say("own_past", move=name, planner=decision.planner, reason=reason)
+        return self._say("own", move=name, planner=decision.planner)
+
+    def _asked(self, decision: Decision, asked: Move, naming: Naming) -> str:
+        if decision.held_back:
+            reason = self._sayings.met(decision.option(asked), "now", naming)
+            return self._say("held_back", move=self._sayings.move(asked, "name"), reason=reason)
+        return self._say("asked", move=self._named(decision.move))
+
+    def _named(self, move: Move) -> str:
+        """A move at the beginning of a sentence."""
+        return self._sayings.move(move, "name").capitalize()
+
+    def _say(self, key: str, **parts: object) -> str:
+        return self._sayings.say("log", "decisions", key, **parts)
+
+
+@lru_cache(maxsize=4_096)
+def _beside(columns: int, av: int) -> tuple[int, ...]:
+    """The cells ahead on either side of a vehicle's own lane."""
+    ahead, column = av - columns, av % columns
+    sides = [ahead - 1] if column else []
+    sides += [ahead + 1] if column < columns - 1 else []
+    return tuple(cell for cell in sides if cell >= 0)

@@ -1,0 +1,105 @@
+"""Answers to "what will you do next?": the coming moves, put together where they are alike."""
+
+from __future__ import annotations
+
+from itertools import groupby
+
+from service.contract.encode.forecast import way_json
+from service.narration.naming import Naming
+from service.narration.question_handler import Json, plain
+from service.narration.sayings import Sayings
+from service.sessions.facts import Asked
+from sim.episode_record import DetourReason
+from sim.explain.episode_rollout import Detour, RouteAhead, route_ahead
+from sim.state import SimState
+from sim.types import Move, Outcome
+
+
+class Next:
+    """Answers to "what will you do next?"."""
+
+    def __init__(self, sayings: Sayings) -> None:
+        """`sayings`: the language's."""
+        self._sayings = sayings
+
+    def answer(self, asked: Asked) -> Json:
+        """See `Answerer.answer`."""
+        run = asked.timeline.state
+        way = route_ahead(run)
+        return plain(self._sayings, asked.ask, run, self._text(way)) | way_json(way)
+
+    def _text(self, way: RouteAhead) -> str:
+        run = way.state
+        if run.world.outcome is not Outcome.RUNNING:
+            return self._ended(run)
+        if not way.decisions:
+            return self._say("silent", planner=run.config.planner)
+        told = self._say("let" if way.offered else "next", way=self._way(way))
+        more = way.chance and way.outcome is Outcome.RUNNING
+        return f"{told} {self._say('chance')}" if more else told
+
+    def _way(self, way: RouteAhead) -> str:
+        detours = {detour.tick: detour for detour in way.detours}
+        asked = len(way.state.queue)
+        steps = [
+            (decision.move, detours.get(decision.tick), place >= asked)
+            for place, decision in enumerate(way.decisions)
+        ]
+        alike = groupby(steps, key=lambda step: (step[0], step[1] and (step[1].sake, step[1].ids), step[2]))
+        naming = Naming(self._sayings, way.state, as_seen=False)
+        rows = _rows_to_go(way)
+        told = []
+        named: tuple[str, ...] = ()
+        done = 0
+        for (move, _, silent), group in alike:
+            members = list(group)
+            start, done = done, done + len(members)
+            detour = members[0][1]
+            if detour is not None and detour.sake is DetourReason.YOU and silent:
+                told.append(self._say("waits"))
+                continue
+            if detour is not None and detour.ids and detour.ids == named:
+                detour = None  # they have been spoken of
+            metres = (rows[start] - rows[done]) * way.state.config.cell_m
+            told.append(self._move(move, len(members), metres, detour, naming))
+            named = named if detour is None else detour.ids
+        said = self._say("then").join(told)
+        if way.outcome is Outcome.SUCCESS:
+            return self._say("arrives", way=said)
+        if way.outcome is Outcome.CRASH:
+            a = "" if way.cause is None else self._sayings.say("words", "a", way.cause.kind)
+            return self._say("crashes", way=said, a=a)
+        if way.outcome is Outcome.STUCK:
+            ticks = way.state.world.episode_tick + len(way.decisions)
+            return self._say("stuck_again" if ticks <= way.state.config.max_ticks else "stuck", way=said)
+        return said
+
+    def _move(self, move: Move, count: int, metres: float, detour: Detour | None, naming: Naming) -> str:
+        """`metres`: how far the moves lead along the road."""
+        form = "one" if count == 1 else "many"
+        said = self._say("moves", move, form, count=count, metres=f"{metres:g}")
+        if detour is None:
+            return said
+        key = "stays" if move is Move.STAY and detour.ids else detour.sake
+        return self._say("sakes", key, move=said, who=naming.things(detour.ids))
+
+    def _ended(self, run: SimState) -> str:
+        world = run.world
+        stood = 0 if world.ended is None else world.tick - world.ended
+        seconds = max(1, run.config.reset_delay_ticks - stood) * run.config.step_seconds
+        outcome = self._sayings.say("answers", "outcomes", world.outcome)
+        return self._say("ended", outcome=outcome, seconds=f"{seconds:g}")
+
+    def _say(self, *keys: str, **parts: object) -> str:
+        return self._sayings.say("next", *keys, **parts)
+
+
+def _rows_to_go(way: RouteAhead) -> list[int]:
+    """The row that the vehicle is in before the first of the moves, and after each of them."""
+    world = way.state.world
+    dynamics = way.state.config.ego_dynamics(world.road)
+    cells = [world.av]
+    for decision in way.decisions:
+        end = dynamics.target(cells[-1], decision.move)
+        cells.append(cells[-1] if end is None else end)
+    return [cell // world.road.columns for cell in cells]

@@ -1,0 +1,64 @@
+"""What every answer has, and the seam to those who know one kind of question. A leaf of words."""
+
+from __future__ import annotations
+
+from typing import Any, Protocol
+
+from service.actions import Ask
+from service.narration.sayings import Sayings
+from service.sessions.facts import Asked
+from sim.state import SimState
+from sim.types import Move, Outcome
+
+Json = dict[str, Any]
+
+
+class Answerer(Protocol):
+    """Knows one kind of question."""
+
+    def answer(self, asked: Asked) -> Json:
+        """The `Answer` of the interface: facts as JSON values, and `text` made from nothing else."""
+
+
+def plain(sayings: Sayings, ask: Ask, run: SimState, text: str) -> Json:
+    """What every answer has, without causes or proofs."""
+    return {
+        "question": question(sayings, ask),
+        "about": ask.about,
+        "tick": run.world.tick,
+        "text": text,
+        "causes": [],
+        "alternatives": [],
+        "verified": None,
+        "counterfactual": None,
+        "evidence": None,
+    }
+
+
+def question(sayings: Sayings, ask: Ask) -> str:
+    """The question, said back."""
+    key = str(ask.about)
+    if key == "why" and ask.move is None:
+        key = "why_any"
+    if key in ("scene", "metrics") and (ask.kind or ask.metric):
+        key += "_one"
+    if ask.tick is not None:
+        key += "_at"
+    do = "" if ask.move is None else sayings.move(ask.move, "do")
+    things = "" if ask.kind is None else sayings.things(ask.kind, 2)
+    metric = "" if ask.metric is None else sayings.say("answers", "metric_names", ask.metric)
+    return sayings.say("answers", "questions", key, do=do, tick=ask.tick, things=things, metric=metric)
+
+
+def not_so(sayings: Sayings, code: str, facts: dict[str, object]) -> str:
+    """The sentence about a question whose premise is not so."""
+    parts = dict(facts)
+    if isinstance(move := parts.get("move"), Move):
+        parts["do"], parts["did"] = sayings.move(move, "do"), sayings.move(move, "did")
+    if isinstance(made := parts.get("made"), Move):
+        parts["did"] = sayings.move(made, "did")
+    if isinstance(wanted := parts.get("asked"), Move):
+        parts["asked"] = sayings.move(wanted, "do")
+    if isinstance(outcome := parts.get("outcome"), Outcome):
+        parts["outcome"] = sayings.say("answers", "outcomes", outcome)
+    return sayings.say("answers", code, **parts)

@@ -1,0 +1,175 @@
+"""Answers to "what do you see?" and "are there potholes ahead?": the nearest and what is in the way."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+from service.contract.encode.scene import misperception_json, scene_json
+from service.narration.naming import Naming
+from service.narration.question_handler import Json, plain
+from service.narration.sayings import Sayings
+from service.sessions.facts import Asked
+from sim.decide import sense
+from sim.explain.misperception import Misperception, misperception
+from sim.explain.scene import Detection, Scene, describe_percept
+from sim.state import SimState
+from sim.types import PLACEABLE, Kind, Outcome
+
+MAX_TOLD: Final = 3
+"""Things of a kind told one by one; the structured part has them all."""
+MAX_MET: Final = 2
+"""Things told that would be met straight on."""
+
+
+class Scenes:
+    """Answers to questions about what is seen."""
+
+    def __init__(self, sayings: Sayings) -> None:
+        """`sayings`: the language's."""
+        self._sayings = sayings
+
+    def answer(self, asked: Asked) -> Json:
+        """See `Answerer.answer`."""
+        run = asked.timeline.state
+        kind = None if asked.ask.kind is None else Kind(asked.ask.kind)
+        scene = describe_percept(sense(run)[0], run.config)
+        wrong = misperception(run).of(kind)
+        text = " ".join([self.text(scene, run, kind), *self._not_as_seen(wrong, run)])
+        found = scene_json(scene, kind, run.config.cell_m, run.config.step_seconds)
+        return plain(self._sayings, asked.ask, run, text) | found | misperception_json(wrong)
+
+    def _not_as_seen(self, wrong: Misperception, run: SimState) -> list[str]:
+        """What is seen and not there, and what is there and not seen: a few are told."""
+        told = []
+        for key, things, as_seen in (("phantoms", wrong.phantoms, True), ("missed", wrong.missed, False)):
+            if things:
+                naming = Naming(self._sayings, run, as_seen=as_seen)
+                shown = [naming.thing(thing.id) for thing in things[:MAX_TOLD]]
+                if len(things) > MAX_TOLD:
+                    shown.append(self._sayings.say("scene", "more", count=len(things) - MAX_TOLD))
+                form = ("one" if len(things) == 1 else "many",) if key == "phantoms" else ()
+                told.append(self._sayings.say("scene", key, *form, things=self._sayings.joined(shown)))
+        return told
+
+    def text(self, scene: Scene, run: SimState, kind: Kind | None) -> str:
+        """What is seen, or what of one kind. `run`: the moment the scene is of."""
+        told = _Told(self._sayings, run, scene)
+        return told.everything() if kind is None else told.kind(kind)
+
+
+class _Told:
+    """One scene in words."""
+
+    def __init__(self, sayings: Sayings, run: SimState, scene: Scene) -> None:
+        self._sayings = sayings
+        self._naming = Naming(sayings, run)
+        self._run = run
+        self._scene = scene
+
+    def everything(self) -> str:
+        """Counts by kind, what is met straight on, and the nearest of the rest."""
+        outcome = self._run.world.outcome
+        if outcome is not Outcome.RUNNING:
+            word = self._sayings.say("answers", "outcomes", outcome)
+            return f"{self._say('ended', outcome=word)} {self._counts()}"
+        told = [self._counts(), self._way()]
+        others = [thing for thing in self._scene.seen if thing.ticks is None and thing.rows >= 0]
+        if others and len(self._scene.seen) > 1:
+            told.append(self._say("nearest", thing=self._near(others[0])))
+        return " ".join(told)
+
+    def kind(self, kind: Kind) -> str:
+        """Yes or no first; then those ahead, the nearest first, and how many there are besides."""
+        things, noun = self._scene.of(kind), self._noun(kind, 2)
+        if not things:
+            return self._say("none", things=noun)
+        ahead = sorted((thing for thing in things if thing.rows > 0), key=lambda thing: thing.rows)
+        rest = len(things) - len(ahead)
+        if not ahead:
+            return self._say("none_ahead", things=noun, count=self._count(rest))
+        told = [self._ahead(ahead, rest), *self._met(ahead)]
+        if rest:
+            told.append(self._say("rest", "one" if rest == 1 else "many", count=self._count(rest)))
+        return " ".join(told)
+
+    def _ahead(self, ahead: Sequence[Detection], rest: int) -> str:
+        """Those ahead; `rest`: how many there are besides."""
+        if len(ahead) == 1:
+            return self._say("single_ahead", one=self._one(ahead[0]))
+        shown = ahead if len(ahead) <= MAX_TOLD + 1 else ahead[:MAX_TOLD]
+        parts = [self._one(thing) for thing in shown]
+        if len(shown) < len(ahead):
+            parts.append(self._say("more", count=self._count(len(ahead) - len(shown))))
+        key, listed = "found_ahead" if rest else "found", self._sayings.joined(parts)
+        return self._say(key, count=self._count(len(ahead)), listed=listed)
+
+    def _counts(self) -> str:
+        seen = self._scene.seen
+        if not seen:
+            return self._say("nothing")
+        if len(seen) == 1:
+            return self._say("single", thing=self._near(seen[0]))
+        counts = {kind: len(self._scene.of(kind)) for kind in PLACEABLE}
+        parts = [
+            self._say("counted", count=self._count(count), things=self._noun(kind, count))
+            for kind, count in counts.items()
+            if count
+        ]
+        ahead = sum(thing.rows > 0 for thing in seen)
+        key = "all_ahead" if ahead == len(seen) else "part_ahead" if ahead else "all_passed"
+        are = self._say("are", "one" if ahead == 1 else "many")
+        return self._say(key, things=self._sayings.joined(parts), count=self._count(ahead), are=are)
+
+    def _way(self) -> str:
+        """What is met straight on."""
+        scene = self._scene
+        threats = [self._threat(thing) for thing in scene.threats[:MAX_MET]]
+        if threats:
+            return self._say("threats", threats=self._sayings.joined(threats))
+        key = "clear_to_goal" if scene.reach == scene.cell[1] else "clear"
+        return self._say(key, metres=f"{scene.reach * self._run.config.cell_m:g}")
+
+    def _threat(self, thing: Detection) -> str:
+        key = "threat_moving" if thing.walks else "threat"
+        noun, place = self._say("a", thing.kind), self._naming.place(thing.cell)
+        place = self._sure(thing, place, "place_sure")
+        return self._say(key, thing=noun, place=place, seconds=self._seconds(thing))
+
+    def _met(self, ahead: Sequence[Detection]) -> list[str]:
+        """The first of a kind that is met straight on."""
+        threats = [thing for thing in ahead if thing.ticks is not None]
+        if not threats or self._run.world.outcome is not Outcome.RUNNING:
+            return []
+        first = min(threats, key=lambda thing: thing.ticks or 0)
+        key = "met_it" if len(ahead) == 1 else "met_moving" if first.walks else "met"
+        return [self._say(key, place=self._naming.place(first.cell), seconds=self._seconds(first))]
+
+    def _near(self, thing: Detection) -> str:
+        noun, place = self._say("a", thing.kind), self._naming.place(thing.cell)
+        return self._sure(thing, self._say("near", thing=noun, place=place))
+
+    def _one(self, thing: Detection) -> str:
+        return self._sure(
+            thing, self._say("held" if thing.held else "one", place=self._naming.place(thing.cell))
+        )
+
+    def _sure(self, thing: Detection, told: str, key: str = "sure") -> str:
+        """With how sure the sensors are, where they are not; never all of it, nor none."""
+        if thing.likelihood == 1.0:
+            return told
+        return self._say(key, told=told, percent=min(99, max(1, round(100 * thing.likelihood))))
+
+    def _seconds(self, thing: Detection) -> str:
+        return f"{(thing.ticks or 0) * self._run.config.step_seconds:g}"
+
+    def _noun(self, kind: Kind, count: int) -> str:
+        one, many = self._sayings.words("scene", "nouns", kind)
+        return str(one if count == 1 else many)
+
+    def _count(self, count: int) -> str:
+        words = self._sayings.words("scene", "counts")
+        return str(words[count]) if count < len(words) else str(count)
+
+    def _say(self, *keys: str, **parts: object) -> str:
+        return self._sayings.say("scene", *keys, **parts)

@@ -1,0 +1,57 @@
+"""Where the vehicle is, and what can be said: answers that need nothing run again."""
+
+from __future__ import annotations
+
+from service.narration.question_handler import Json, plain
+from service.narration.sayings import Sayings
+from service.sessions.facts import Asked
+from sim.state import SimState
+from sim.types import Mode, Outcome
+
+
+class Status:
+    """Answers to "where are you?"."""
+
+    def __init__(self, sayings: Sayings) -> None:
+        """`sayings`: the language's."""
+        self._sayings = sayings
+
+    def answer(self, asked: Asked) -> Json:
+        """See `Answerer.answer`."""
+        run = asked.timeline.state
+        return plain(self._sayings, asked.ask, run, self._status(run))
+
+    def _status(self, run: SimState) -> str:
+        world = run.world
+        if world.outcome is not Outcome.RUNNING:
+            outcome = self._sayings.say("answers", "outcomes", world.outcome)
+            return self._say("status_ended", episode=world.episode, outcome=outcome, tick=world.tick)
+        column, row = world.road.cell(world.av)
+        rows = self._sayings.say("answers", "rows", "one" if row == 1 else "many", count=row)
+        told = self._say(
+            "status",
+            lane=column + 1,
+            row=row,
+            rows=rows,
+            metres=f"{row * run.config.cell_m:g}",
+            tick=world.tick,
+            episode=world.episode,
+        )
+        return f"{told} {self._say('status_manual')}" if run.mode is Mode.MANUAL else told
+
+    def _say(self, key: str, **parts: object) -> str:
+        return self._sayings.say("answers", key, **parts)
+
+
+class Help:
+    """Answers to "what can I say?"."""
+
+    def __init__(self, sayings: Sayings) -> None:
+        """`sayings`: the language's."""
+        self._sayings = sayings
+
+    def answer(self, asked: Asked) -> Json:
+        """See `Answerer.answer`."""
+        examples = self._sayings.joined([f"“{example}”" for example in self._sayings.examples()])
+        text = self._sayings.say("answers", "help", examples=examples)
+        return plain(self._sayings, asked.ask, asked.timeline.state, text)

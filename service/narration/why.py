@@ -1,0 +1,43 @@
+"""Answers to why and why not: the explanation's facts as JSON values, and in words."""
+
+from __future__ import annotations
+
+from service.contract.encode.explanation import explanation_json
+from service.narration.crash import Crashes
+from service.narration.explanation import Explained
+from service.narration.question_handler import Json, not_so, plain
+from service.narration.sayings import Sayings
+from service.sessions.facts import Asked
+from sim.explain import QuestionError, why, why_not
+from sim.explain.crash import led_to_crash
+
+
+class Whys:
+    """Answers to "why did you …?" and "why didn't you …?"."""
+
+    def __init__(self, sayings: Sayings) -> None:
+        """`sayings`: the language's."""
+        self._sayings = sayings
+        self._explained = Explained(sayings)
+        self._crashes = Crashes(sayings)
+
+    def answer(self, asked: Asked) -> Json:
+        """See `Answerer.answer`. A question about what is not so is answered too, without causes.
+
+        "Why did you do that?" of what ended in a crash is about the crash.
+        """
+        ask, timeline = asked.ask, asked.timeline
+        if ask.about == "why" and ask.move is None and self._about_a_crash(asked):
+            return self._crashes.answer(asked)
+        try:
+            if ask.move is not None and ask.about == "why_not":
+                explanation = why_not(timeline, ask.move, ask.tick)
+            else:
+                explanation = why(timeline, ask.tick, ask.move)
+        except QuestionError as error:
+            return plain(self._sayings, ask, timeline.state, not_so(self._sayings, error.code, error.facts))
+        text = self._explained.text(explanation)
+        return plain(self._sayings, ask, timeline.state, text) | explanation_json(explanation)
+
+    def _about_a_crash(self, asked: Asked) -> bool:
+        return asked.supposes == "crash" or led_to_crash(asked.timeline, asked.ask.tick)

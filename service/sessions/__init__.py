@@ -1,0 +1,1 @@
+"""Live sessions: a timeline each, their scheduler and their persistence."""

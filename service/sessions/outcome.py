@@ -1,0 +1,80 @@
+"""What an utterance came to, in words and for keeping; and whether making it takes long."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+from service import actions as contract
+from service.sessions.facts import Answerable, Asked, Fact, asked_about, changes_of
+from service.sessions.narrator_protocol import Words
+from service.sessions.transaction import Draft
+from service.sessions.utterance import Notice, Outcome, Utterance
+from service.store import EntryRecord
+from sim.plan import traits_of
+from sim.state import SimState
+
+LONG_QUESTIONS = frozenset(("what_if", "why_not", "confidence"))
+"""Questions for which whole episodes are run, with whatever planner."""
+
+
+def outcome_of(
+    words: Words,
+    before: SimState,
+    utterance: Utterance,
+    facts: tuple[Fact, ...],
+    sequence: int,
+    notice: Notice | None = None,
+) -> Outcome:
+    """The outcome of an utterance that was said in a state; `notice` is told after what was done."""
+    if utterance.supposes is not None:
+        facts = tuple(
+            replace(fact, supposes=utterance.supposes) if isinstance(fact, Asked) else fact for fact in facts
+        )
+    answers = [words.answer(fact) for fact in facts if isinstance(fact, Answerable)]
+    done = reply(words, facts, answers)
+    return Outcome(
+        utterance=utterance,
+        facts=facts,
+        reply=done if notice is None else f"{done} {notice.text}".strip(),
+        done=done,
+        notice=notice,
+        answer=answers[-1] if answers else None,
+        sequence=sequence,
+        changes=changes_of(facts),
+        before=before,
+    )
+
+
+def entry_of(outcome: Outcome, tick: int, draft: Draft) -> EntryRecord:
+    """What is kept of an outcome, said at a tick, that led to a draft's state."""
+    return EntryRecord(
+        sequence=outcome.sequence,
+        tick=tick,
+        text=outcome.utterance.text,
+        actions=contract.dump(outcome.utterance.actions),
+        digest=draft.timeline.state.world.digest(),
+        names={
+            moment.name: moment.tick
+            for moment in draft.history.saved.values()
+            if moment.sequence == outcome.sequence
+        },
+    )
+
+
+def reply(words: Words, facts: tuple[Fact, ...], answers: Sequence[dict[str, Any]]) -> str:
+    """What is said of facts: what was done, then the answers."""
+    done = tuple(fact for fact in facts if not isinstance(fact, Answerable))
+    said = [words.done(done)] if done else []
+    return " ".join([*said, *(answer["text"] for answer in answers)])
+
+
+def long_to_answer(planner: str, facts: tuple[Fact, ...]) -> bool:
+    """Whether a question has a slow planner run many times, or whole episodes."""
+    asked = {fact.ask.about for fact in facts if isinstance(fact, Asked)}
+    if not asked:
+        return False
+    earlier = {timeline.config.planner for timeline in asked_about(facts)}
+    slow = any(not traits_of(each).quick for each in {planner, *earlier})
+    return slow or bool(LONG_QUESTIONS & asked)

@@ -1,0 +1,1 @@
+"""How sessions are stored and come back: log, replay, snapshots, recordings."""

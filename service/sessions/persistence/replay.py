@@ -1,0 +1,225 @@
+"""A kept session done again: what was said at its ticks, through the same draft as when it was said.
+
+The log of a session keeps its latest lines only, so only those are put into words. Whatever else there is
+ends as it would have without a restart: the state, what can be undone, names, what "it" is. Leaves out what
+was said to nobody's lasting effect: questions, and lines that no entry made.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import islice, takewhile
+from typing import TYPE_CHECKING
+
+from pydantic import ValidationError
+
+from service import actions as contract
+from service.actions import Action
+from service.problems import Invalid, ProblemError, RecordingMismatch
+from service.sessions.facts import Answerable, happened_in
+from service.sessions.fork import Way
+from service.sessions.log import Log
+from service.sessions.narrator_protocol import Words
+from service.sessions.outcome import reply
+from service.sessions.transaction import Draft, not_answered, ticks_to_run
+from service.sessions.utterance import Outcome, Utterance
+from service.store import Branch, EntryRecord
+from sim.events import Event
+from sim.session.errors import EditError
+from sim.session.timeline import PlannerSilentError, Timeline
+from sim.state import SimState, StepResult
+
+if TYPE_CHECKING:
+    from service.sessions.session import Session
+
+
+class ReplayError(Exception):
+    """What was kept cannot be done again; `position` is that of the entry, or after the last of them.
+
+    `differs`: it can, but leads elsewhere than it once did.
+    """
+
+    def __init__(self, position: int, reason: Exception) -> None:
+        super().__init__(str(reason))
+        self.position = position
+        self.differs = isinstance(reason, RecordingMismatch)
+
+
+@dataclass(frozen=True, slots=True)
+class _Line:
+    """A line of the log that an entry made."""
+
+    tick: int
+    text: str
+
+
+def replay(
+    session: Session,
+    words: Words,
+    entries: Sequence[EntryRecord],
+    tick: int,
+    *,
+    most: int | None = None,
+    first: int | None = None,
+) -> None:
+    """Do again what was done, and run on to `tick`; the session then stands paused.
+
+    It stands where it began, or with `first` where the entries before that have led to. It is one that nobody
+    else has yet; in any thread. Raises `ReplayError`, also where more than `most` ticks would have to be run:
+    with going back, they may be more than where it ends.
+    """
+    Replay(session, words, session.log).all(entries, tick, most, first)
+    session.paused = True
+
+
+def repeat(session: Session, words: Words, entry: EntryRecord) -> None:
+    """Do one kept utterance again. Raises `ProblemError`, or pydantic's `ValidationError`."""
+    again = Replay(session, words, session.log)
+    again.one(entry, contract.load(entry.actions))
+    again.tell()
+
+
+class Replay:
+    """Does again what was done to a session that nobody else has yet; in any thread."""
+
+    def __init__(self, session: Session, words: Words, log: Log) -> None:
+        self._session = session
+        self._words = words
+        self._log = log
+        self._lines: deque[_Line | tuple[Event, SimState]] = deque(maxlen=log.kept)
+        self._written = 0
+
+    def all(self, entries: Sequence[EntryRecord], tick: int, most: int | None, first: int | None) -> None:
+        """See `replay`."""
+        ticks, session = 0, self._session
+        actions = _loaded(entries[first or 0 :])
+        branch = session.record.branch
+        if first is None:
+            first = 0 if branch is None else self._common(branch, entries, actions)
+        for position, entry in enumerate(entries[first:], start=first):
+            try:
+                said = next(actions)
+                ticks += max(0, entry.tick - session.timeline.tick) + ticks_to_run(said)
+                if most is not None and ticks > most:
+                    raise Invalid(f"More than {most} ticks would have to be run.")
+                self.one(entry, said, held=len(entries) - position <= self._log.kept)
+            except (ProblemError, ValidationError) as error:
+                raise ReplayError(position, error) from error
+        try:
+            self.run_to(tick)
+        except ProblemError as error:
+            raise ReplayError(len(entries), error) from error
+        self.tell()
+
+    def _common(
+        self, branch: Branch, entries: Sequence[EntryRecord], actions: Iterator[tuple[Action, ...]]
+    ) -> int:
+        """Do what a fork has from its parent, and answer how many entries that is.
+
+        It is there from the beginning, so no line tells of it.
+        """
+        timeline, common = self._session.timeline, 0
+        for entry in takewhile(lambda each: each.sequence <= branch.sequence, entries):
+            try:
+                said = next(actions)
+                while timeline.tick < entry.tick:
+                    _went_on(timeline)
+                timeline.apply(entry.sequence, said)  # type: ignore[arg-type]  # nothing else comes along
+                self._check(entry)
+            except (ProblemError, EditError, ValidationError) as error:
+                raise ReplayError(common, error) from error
+            common += 1
+        try:
+            while timeline.tick < branch.tick:
+                _went_on(timeline)
+        except ProblemError as error:
+            raise ReplayError(common, error) from error
+        self._session.mixed.update(each["sequence"] for each in branch.instead)
+        self._session.begin_with(Way(timeline, branch, common))
+        return common
+
+    def one(self, entry: EntryRecord, said: tuple[Action, ...], *, held: bool = True) -> None:
+        """Do one kept utterance; `held`: the log will still hold a line of it. Raises `ProblemError`."""
+        session = self._session
+        if entry.tick < session.timeline.tick or entry.sequence != session.sequence + 1:
+            raise Invalid(f"Entry {entry.sequence} at tick {entry.tick} is out of order.")
+        self.run_to(entry.tick)
+        if entry.paused is not None:
+            session.paused = entry.paused
+        draft = Draft(session.timeline, session.paused, session.history, session.pace)
+        facts = draft.perform(entry.sequence, said)
+        before = session.run
+        session.footing.owe(draft.timeline.worked, 1)
+        session.adopt(draft, entry.sequence, said)
+        session.footing.kept(entry)
+        self._check(entry)
+        answers = [self._words.answer(fact) for fact in facts if isinstance(fact, Answerable)]
+        session.conversation.note(
+            Outcome(
+                utterance=Utterance(actions=said, text=entry.text),
+                facts=facts,
+                reply="",
+                answer=answers[-1] if answers else None,
+                sequence=entry.sequence,
+                changes=(),
+                before=before,
+            )
+        )
+        text = reply(self._words, facts, answers) if held else ""
+        self._add(_Line(entry.tick, text))
+        for run, part in happened_in(facts):
+            for event in part.events:
+                self._add((event, run))
+
+    def run_to(self, tick: int) -> None:
+        """Let time pass. Raises `ProblemError` where a planner does not answer in time."""
+        timeline = self._session.timeline
+        while timeline.tick < tick:
+            done = _went_on(timeline)
+            for event in done.events:
+                self._add((event, done.state))
+
+    def tell(self) -> None:
+        """Write the lines that the log still holds."""
+        self._log.skip(self._written - len(self._lines))
+        for line in self._lines:
+            if isinstance(line, _Line):
+                self._log.add(line.tick, "changed", line.text)
+            else:
+                event, run = line
+                text = self._words.event(event, run)
+                self._log.add(event.tick, event.type, text, event.ids, event.cell)
+        self._lines.clear()
+        self._written = 0
+
+    def _add(self, line: _Line | tuple[Event, SimState]) -> None:
+        self._lines.append(line)
+        self._written += 1
+
+    def _check(self, entry: EntryRecord) -> None:
+        if entry.digest is None:
+            return
+        found = self._session.run.world.digest()
+        if found != entry.digest:
+            told = f"Entry {entry.sequence} ends in {found}, not in {entry.digest} as it once did."
+            raise RecordingMismatch(told)
+
+
+def _went_on(timeline: Timeline) -> StepResult:
+    try:
+        return timeline.advance()
+    except PlannerSilentError as silence:
+        raise not_answered(silence) from silence
+
+
+def _loaded(entries: Sequence[EntryRecord]) -> Iterator[tuple[Action, ...]]:
+    """The actions of each entry, checked in one go; where one is bad, it raises at that one."""
+    try:
+        actions = iter(contract.load([action for entry in entries for action in entry.actions]))
+    except ValidationError:
+        yield from (contract.load(entry.actions) for entry in entries)
+        return
+    for entry in entries:
+        yield tuple(islice(actions, len(entry.actions)))

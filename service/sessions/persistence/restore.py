@@ -1,0 +1,58 @@
+"""A kept session made live again: from its snapshot if there is one that fits, else all of its log."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import structlog
+
+from service.sessions.persistence.replay import ReplayError, replay
+from service.sessions.persistence.snapshots import UnfitError, opened
+from service.sessions.session import Session, Surroundings
+from service.store import EntryRecord, SessionRecord, SnapshotRecord
+from sim.session.saved_config import saved_config
+from sim.session.timeline import Timeline
+
+_LOG = structlog.get_logger(__name__)
+
+LONG_ENTRIES = 1_000
+"""A log of so many changes may take seconds to be done again, which whoever runs the service is told."""
+
+
+def woken(
+    record: SessionRecord,
+    entries: Sequence[EntryRecord],
+    snapshot: SnapshotRecord | None,
+    around: Surroundings,
+) -> tuple[Session, UnfitError | None]:
+    """The session, paused, and why its snapshot was not used if it was not; in any thread.
+
+    Raises `ReplayError` where the log cannot be done again, `ConfigError` or `TypeError` for a configuration
+    that cannot be, `NewerRulesError` for one of rules that are not known here.
+    """
+    unfit: UnfitError | None = None
+    if snapshot is not None:
+        try:
+            return _from(snapshot, record, entries, around), None
+        except UnfitError as error:
+            unfit = error
+        except ReplayError as error:
+            unfit = UnfitError(f"what follows it cannot be done: {error}")
+    if len(entries) >= LONG_ENTRIES:
+        why = str(unfit) if unfit is not None else "there is no snapshot of it"
+        said = "a session is done again from all of its log; whoever asked for it waits, nobody else"
+        _LOG.info(said, session=record.id, entries=len(entries), reason=why)
+    session = Session(record, Timeline(saved_config(record.config)), around)
+    replay(session, around.words, entries, record.tick)
+    return session, unfit
+
+
+def _from(
+    snapshot: SnapshotRecord, record: SessionRecord, entries: Sequence[EntryRecord], around: Surroundings
+) -> Session:
+    frozen, position = opened(snapshot, record, entries, around.settings.log_events)
+    session = Session(record, frozen.timeline, around)
+    frozen.give(session)
+    session.footing.seen = frozen.timeline.worked
+    replay(session, around.words, entries, record.tick, first=position)
+    return session

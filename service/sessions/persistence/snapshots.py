@@ -1,0 +1,175 @@
+"""What a session's log comes to, kept so that coming back takes less than doing it all again.
+
+Only ever a shortcut: a snapshot is used where everything about it fits, and ignored otherwise. It must be
+whole (a checksum), of this session, of this very program (`version`: the sources of the rules and of
+sessions are part of it), made of the log as it is in the store now (the trail), lead to the world that the
+log itself names, and stand no later than what is still to be done. What follows it in the log is
+done again, and checked, like in any replay.
+"""
+
+from __future__ import annotations
+
+import struct
+import zlib
+from collections.abc import Iterable, Sequence
+from functools import cache
+from hashlib import blake2b
+from importlib.metadata import PackageNotFoundError
+from itertools import takewhile
+from pathlib import Path
+from typing import Any
+
+import orjson
+from pydantic import ValidationError
+
+from service.sessions.persistence.log_position import Footing
+from service.sessions.persistence.snapshot_codec import Frozen, read, written
+from service.store import EntryRecord, SessionRecord, SnapshotRecord
+from service.version import VERSION
+from sim.plan.safe_planning import is_foreign
+from sim.planner_names import installed
+from sim.session.saved_config import saved_config
+from sim.session.serialization import BeliefError
+
+FORMAT = 2
+"""Of the JSON values."""
+
+MOST_BYTES = 4_000_000
+"""Of one snapshot; where it would be more, fewer states on the way are in it."""
+
+MOST_PLAIN_BYTES = 200_000_000
+
+_MOST_THINNED = 64
+
+_UNREADABLE = (
+    ValueError,
+    TypeError,
+    LookupError,
+    AttributeError,
+    ArithmeticError,
+    ValidationError,
+    zlib.error,
+    struct.error,
+)
+
+_ROOT = Path(__file__).parents[3]
+_SOURCES = ("sim/**/*.py", "service/sessions/**/*.py", "service/actions.py")
+
+
+class UnfitError(Exception):
+    """A snapshot that is not used; the message says why."""
+
+
+class TooLargeError(Exception):
+    """A session that no snapshot is made of."""
+
+
+@cache
+def version() -> str:
+    """Of the form, and of the program: worlds of other rules are other worlds."""
+    digest = blake2b(VERSION.encode(), digest_size=16)
+    for pattern in _SOURCES:
+        for path in sorted(_ROOT.glob(pattern)):
+            digest.update(path.relative_to(_ROOT).as_posix().encode() + b"\0" + path.read_bytes())
+    return f"{FORMAT}.{digest.hexdigest()}"
+
+
+def sealed(frozen: Frozen, lines: int) -> SnapshotRecord:
+    """A snapshot of a session whose log holds so many lines. Raises `TooLargeError`; in any thread."""
+    thinned = 1
+    while True:
+        try:
+            values, planners = written(frozen, thinned)
+        except BeliefError as error:
+            raise TooLargeError(str(error)) from error
+        values |= {"session": frozen.session, "tick": frozen.timeline.tick, "held": lines}
+        values["planners"] = _foreign(planners)
+        try:
+            body = zlib.compress(orjson.dumps(values), 1)
+        except TypeError as error:  # half a character
+            raise TooLargeError(str(error)) from error
+        if len(body) <= MOST_BYTES:
+            break
+        thinned *= 4
+        if thinned > _MOST_THINNED:
+            raise TooLargeError(f"{len(body)} bytes")
+    parts = (frozen.session, frozen.sequence, frozen.timeline.tick, version())
+    return SnapshotRecord(
+        session=frozen.session,
+        sequence=frozen.sequence,
+        tick=frozen.timeline.tick,
+        version=version(),
+        checksum=_checksum(parts, body),
+        body=body,
+    )
+
+
+def opened(
+    snapshot: SnapshotRecord, record: SessionRecord, entries: Sequence[EntryRecord], lines: int
+) -> tuple[Frozen, int]:
+    """What a session with this log was, and how many entries that is. Raises `UnfitError`; in any thread."""
+    if snapshot.session != record.id or snapshot.version != version():
+        raise UnfitError("it is of another session, or made by another version")
+    parts = (snapshot.session, snapshot.sequence, snapshot.tick, snapshot.version)
+    try:
+        if snapshot.checksum != _checksum(parts, snapshot.body):
+            raise UnfitError("it is damaged")
+        unpacking = zlib.decompressobj()
+        values = orjson.loads(unpacking.decompress(snapshot.body, MOST_PLAIN_BYTES))
+        if (values["session"], values["sequence"], values["tick"]) != parts[:3] or values["held"] != lines:
+            raise UnfitError("it is of another session or moment, or of a log of another length")
+        if values["planners"] != _foreign(values["planners"]):
+            raise UnfitError("a planner of another package is another now")
+        position = _position(snapshot, record, entries, values["trail"])
+        frozen = read(values, record.id)
+        _check(frozen, snapshot, record, entries[position - 1] if position else None)
+    except _UNREADABLE as error:
+        raise UnfitError(f"it cannot be read: {error!r}") from error
+    return frozen, position
+
+
+def _position(
+    snapshot: SnapshotRecord, record: SessionRecord, entries: Sequence[EntryRecord], trail: str
+) -> int:
+    """How many of the entries it is made of."""
+    shared = 0 if record.branch is None else record.branch.sequence
+    footing, position = Footing(record), 0
+    for entry in takewhile(lambda each: each.sequence <= snapshot.sequence, entries):
+        position += 1
+        if entry.sequence > shared:
+            footing.kept(entry)
+    if footing.trail.hex() != trail:
+        raise UnfitError("it is made of another log")
+    until = entries[position].tick if position < len(entries) else record.tick
+    if snapshot.tick > until:
+        raise UnfitError(f"it stands at tick {snapshot.tick}, beyond tick {until}")
+    return position
+
+
+def _check(frozen: Frozen, snapshot: SnapshotRecord, record: SessionRecord, last: EntryRecord | None) -> None:
+    """Raise `UnfitError` where it does not end where the log does, as far as the log tells."""
+    config = saved_config(record.config)
+    if frozen.timeline.tick != snapshot.tick or frozen.timeline.config != config:
+        raise UnfitError("it is of another moment, or another road")
+    shared = 0 if record.branch is None else record.branch.sequence
+    if last is None or last.sequence <= shared or last.digest is None:
+        return
+    if frozen.timeline.at(frozen.changed_at).world.digest() != last.digest:
+        raise UnfitError("it ends in another world")
+
+
+def _foreign(planners: Iterable[str]) -> dict[str, str]:
+    """Those of other packages, each with the version of its package."""
+    return {name: _version_of(name) for name in sorted(planners) if is_foreign(name)}
+
+
+def _version_of(planner: str) -> str:
+    point = installed().get(planner)
+    try:
+        return "" if point is None or point.dist is None else f"{point.dist.name} {point.dist.version}"
+    except PackageNotFoundError:
+        return ""
+
+
+def _checksum(parts: tuple[Any, ...], body: bytes) -> str:
+    return blake2b(orjson.dumps(parts) + body, digest_size=16).hexdigest()

@@ -1,0 +1,122 @@
+"""Whether a session's vehicle can still arrive: found out once for each road and each change of it.
+
+What takes longer than a fraction of a millisecond is done in a thread. A road that begins with a tick is
+told of when it is found out, if it is still the road then; a change waits for it, since its reply tells.
+Nothing of this is kept: it follows from the state, and would make every replay look at every road again. So
+lines about it are passing ones (`service.sessions.log`).
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Hashable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+from anyio import to_thread
+
+from service.sessions.bookmarks import Went
+from service.sessions.facts import Fact, Undone
+from sim.events import Event, EventType
+from sim.oracle.outlook import OPEN, Outlook, outlook, quickly_open
+from sim.state import SimState
+from sim.types import Outcome
+
+_WORKER = ThreadPoolExecutor(max_workers=1, thread_name_prefix="outlook")
+
+
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """What was found out about a road; None where nothing was."""
+
+    road: Hashable
+    episode: tuple[int, int]
+    found: Outlook | None
+
+
+class Outlooks:
+    """What is known of one session's road. All methods are for the event loop's thread."""
+
+    def __init__(self, present: Callable[[], SimState], tell: Callable[[Event], None]) -> None:
+        """`present`: the state now; `tell`: given what is found out about a road that began by itself."""
+        self._present = present
+        self._tell = tell
+        self._seen: Seen | None = None
+        self._looking: asyncio.Future[Outlook | None] | None = None
+        self._waiting: SimState | None = None
+
+    def begun(self, run: SimState) -> None:
+        """A road has begun with a tick; needs a running loop."""
+        if quickly_open(run):
+            self._seen = _seen(run, OPEN)
+        elif self._looking is None:
+            self._look(run)
+        else:
+            self._waiting = run  # in place of another that waited, which is gone by now
+
+    async def settled(self) -> None:
+        """Wait until nothing is being found out."""
+        while self._looking is not None:
+            await asyncio.wait([self._looking])
+            await asyncio.sleep(0)
+
+    async def after(self, run: SimState, facts: Sequence[Fact]) -> Seen | None:
+        """What is to be known once a change has led here; None where it changes no road."""
+        back = any(isinstance(fact, Undone | Went) for fact in facts)
+        if not back and _road(run) == _road(self._present()):
+            return None
+        if run.world.outcome is not Outcome.RUNNING:
+            return None
+        if quickly_open(run):
+            return _seen(run, OPEN)
+        return _seen(run, await to_thread.run_sync(outlook, run))
+
+    def notice(self, seen: Seen, run: SimState) -> Event | None:
+        """What is to be told of this, beside what is known; `run` is the state it was found in."""
+        before, found = self._seen, seen.found
+        if found is None:
+            return None
+        was = before.found if before is not None and before.episode == seen.episode else None
+        closed = was is not None and not was.open
+        world = run.world
+        if found.open:
+            return Event(world.tick, EventType.WAY_OPEN, world.episode) if closed else None
+        if closed and was == found:
+            return None
+        how = "late" if found.late else None
+        return Event(world.tick, EventType.NO_WAY, world.episode, found.ids, how=how)
+
+    def know(self, seen: Seen) -> None:
+        """This holds from now on."""
+        self._seen = seen
+
+    def _look(self, run: SimState) -> None:
+        looking = asyncio.get_running_loop().run_in_executor(_WORKER, outlook, run)
+        self._looking = looking
+        looking.add_done_callback(lambda done: self._looked(run, done))
+
+    def _looked(self, run: SimState, done: asyncio.Future[Outlook | None]) -> None:
+        self._looking = None
+        waiting, self._waiting = self._waiting, None
+        if waiting is not None:
+            self._look(waiting)
+        if done.cancelled():
+            return
+        seen, now = _seen(run, done.result()), self._present()
+        if seen.road == _road(now) and now.world.outcome is Outcome.RUNNING:
+            event = self.notice(seen, now)
+            self.know(seen)
+            if event is not None:
+                self._tell(event)
+
+
+def _seen(run: SimState, found: Outlook | None) -> Seen:
+    return Seen(_road(run), (run.world.episode, run.world.episode_start), found)
+
+
+def _road(run: SimState) -> Hashable:
+    """Equal for states of one road between two changes that matter to the way."""
+    world, config = run.world, run.config
+    drawn = (world.episode, world.episode_start, run.edits, world.fixed)
+    movers = config.behaviour, config.courtesy, config.attentive
+    return *drawn, *movers, config.collision, config.dynamics

@@ -1,0 +1,1 @@
+"""When sessions tick: the clock, its batches, playback speed, eviction and work beside the event loop."""

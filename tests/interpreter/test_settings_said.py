@@ -1,0 +1,72 @@
+"""Planners, preferences and settings, said in sentences to the service."""
+
+from __future__ import annotations
+
+from collections.abc import AsyncIterator
+
+import httpx
+import pytest
+
+from service.app import create_app
+from service.settings import Settings
+from service.store import MemoryStore
+from tests.support.fakes import HandClock
+from tests.support.service import Service
+
+
+@pytest.fixture
+async def talking(settings: Settings) -> AsyncIterator[Service]:
+    """The service with the real language."""
+    clock, store = HandClock(), MemoryStore()
+    app = create_app(settings, store=store, clock=clock)
+    async with (
+        app.router.lifespan_context(app),
+        httpx.AsyncClient(transport=httpx.ASGITransport(app), base_url="http://service") as client,
+    ):
+        yield Service(app, client, clock, store)
+
+
+@pytest.mark.parametrize(
+    ("text", "reply"),
+    [
+        ("use A*", "The planner: Rules → A*."),
+        ("switch to dijkstra", "The planner: Rules → Dijkstra."),
+        ("heavy traffic", "Traffic: not set → heavy."),
+        ("set the spawn probability to 0.4", "It shows from the next road on."),
+        ("raise the safety buffer by one", "The safety buffer: 1 → 2."),
+        ("steer clear of potholes", "From now on I keep away from potholes. But the planner rules weighs"),
+        ("set rows to 40", "The number of rows: 30 → 40. A new road"),
+    ],
+)
+async def test_what_is_set_is_said(talking: Service, text: str, reply: str) -> None:
+    path = await talking.session(paused=True)
+    before = await talking.state(path)
+    answer = await talking.say(path, text)
+    assert answer.status_code == 200, answer.text
+    assert reply in answer.json()["reply"]
+    undone = await talking.say(path, "undo that")
+    assert undone.status_code == 200, undone.text
+    assert (await talking.state(path))["digest"] == before["digest"]
+
+
+@pytest.mark.parametrize("text", ["make it rain", "use the learned planner", "set courtesy to 300 %"])
+async def test_what_cannot_be_set_changes_nothing(talking: Service, text: str) -> None:
+    path = await talking.session(paused=True)
+    before = (await talking.client.get(path)).json()
+    answer = await talking.say(path, text)
+    assert answer.status_code == 422, answer.text
+    assert (await talking.client.get(path)).json()["config"] == before["config"]
+
+
+@pytest.mark.parametrize("planner", ["astar", "dijkstra", "bfs"])
+async def test_a_weighing_planner_says_what_its_moves_cost(talking: Service, planner: str) -> None:
+    path = await talking.session(paused=True, planner=planner, seed=3, config={"potholes": 40})
+    assert (await talking.act(path, {"do": "step", "ticks": 12})).status_code == 200
+    for tick in range(12):
+        answer = await talking.say(path, f"why did you do that at tick {tick}?")
+        assert answer.status_code == 200, answer.text
+        said = answer.json()["answers"][0] if "answers" in answer.json() else answer.json()["answer"]
+        assert "the goal" in said["text"]
+        assert "first choice" not in said["text"]
+        not_left = await talking.say(path, f"why not left at tick {tick}?")
+        assert not_left.status_code == 200, not_left.text

@@ -1,0 +1,142 @@
+"""What sensors got wrong is said with hindsight, and only there."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+
+from service.actions import Ask
+from service.narration import Narrator
+from service.sessions.facts import Asked
+from sim.actions import Add, Where
+from sim.config import Config
+from sim.session.timeline import Timeline
+from sim.types import Kind, Move, Outcome, kind_of
+from tests.narration.test_narrator import looks_like_sentences
+from tests.sim.perceive.rides import SENSORS, rides
+from tests.sim.perceive.sensors import NAMES, Missing, Phantom, registered
+
+NARRATOR = Narrator.load()
+AHEAD = (4, 3)
+"""The cell before that in which the vehicle begins."""
+
+
+@pytest.fixture(autouse=True, scope="module")
+def sensors() -> Iterator[None]:
+    """All of them can be named in a configuration."""
+    with registered(*SENSORS, Phantom(AHEAD, name="ghost"), Missing(frozenset({"pothole-1"}), "blind")):
+        yield
+
+
+def beginning(sensor: str, *, pothole: bool = False, planner: str = "rules") -> Timeline:
+    """A timeline on a road with nothing, or with nothing but a pothole right ahead."""
+    timeline = Timeline(Config(columns=8, rows=5, vehicles=0, potholes=0, planner=planner, sensor=sensor))
+    if pothole:
+        timeline.apply(1, [Add(kind="pothole", count=1, where=Where(cell=AHEAD))])
+    return timeline
+
+
+def driven(sensor: str, *, pothole: bool = False, planner: str = "rules") -> Timeline:
+    """The same with one decision taken."""
+    timeline = beginning(sensor, pothole=pothole, planner=planner)
+    timeline.advance()
+    return timeline
+
+
+def answer(timeline: Timeline, **ask: object) -> dict[str, object]:
+    return NARRATOR.answer(Asked(Ask(**ask), timeline))  # type: ignore[arg-type]
+
+
+def test_what_was_imagined_is_said_not_to_have_been_there() -> None:
+    timeline = driven("ghost")
+    told = answer(timeline, about="why")
+    assert told["text"] == (
+        "At tick 0 I moved diagonally left rather than going forward, "
+        "because I saw a pothole right ahead, which was not there. Run again without seeing it, I go forward."
+    )
+    (cause,) = told["causes"]  # type: ignore[misc]
+    assert (cause["id"], cause["real"]) == ("pothole-p1", False)
+    assert told["verified"] == {"necessary": True, "sufficient": True, "minimal": True}
+    assert told["counterfactual"] == {
+        "at_tick": 0,
+        "change": [],
+        "decision": "forward",
+        "undetected": ("pothole-p1",),
+    }
+    told = answer(timeline, about="why_not", move=Move.FORWARD)
+    assert told["text"] == (
+        "At tick 0 I did not go forward, because I saw a pothole right ahead, which was not there. "
+        "That way I arrive in 4 ticks, as I do now. "
+        "Run again without seeing the pothole right ahead, I go forward."
+    )
+
+
+def test_a_planner_that_weighs_costs_says_so_too() -> None:
+    told = answer(driven("ghost", planner="dijkstra"), about="why")
+    assert "I saw a pothole right ahead, which was not there." in str(told["text"])
+
+
+def test_a_crash_with_what_was_not_detected_is_told_so() -> None:
+    timeline = driven("blind", pothole=True)
+    assert timeline.state.world.outcome is Outcome.CRASH
+    told = answer(timeline, about="why")
+    assert str(told["text"]).startswith(
+        "I crashed at tick 1: I went forward, into the pothole right ahead. "
+        "It was there, but I did not detect it. "
+    )
+    assert told["evidence"]["crash"]["missed"] == ("pothole-1",)  # type: ignore[index]
+    assert told["evidence"]["crash"]["ids"] == ("pothole-1",)  # type: ignore[index]
+
+
+def test_what_is_seen_is_told_with_what_is_not_there_and_what_is_missed() -> None:
+    told = answer(beginning("ghost"), about="scene")
+    assert str(told["text"]).endswith("In truth the pothole right ahead is not there.")
+    assert told["phantoms"] == ["pothole-p1"]
+    assert "missed" not in told
+    told = answer(beginning("blind", pothole=True), about="scene")
+    assert told["text"] == (
+        "I see nothing on the road. Straight on, the 20 m to the goal are clear. "
+        "I do not detect the pothole right ahead."
+    )
+    assert told["missed"] == ["pothole-1"]
+
+
+@pytest.mark.parametrize("sensor", NAMES)
+def test_whatever_the_sensor_answers_are_sentences(sensor: str) -> None:
+    """And each cause that was not there is told, or is one of more than are told."""
+    imagined = 0
+    for timeline in rides(sensor, 25, seed=7):
+        asked = [{"about": "why"}, *({"about": "why_not", "move": move} for move in Move)]
+        for ask in [*asked, *({"about": about} for about in ("scene", "next", "confidence"))]:
+            told = answer(timeline, **ask)
+            text = str(told["text"])
+            assert looks_like_sentences(text), text
+            for cause in told.get("causes", ()):  # type: ignore[attr-defined]
+                if cause.get("real", True) is False:
+                    imagined += 1
+                    assert f"I saw {_a(cause['id'])} " in text
+                    assert "which was not there" in text
+        for tick in range(timeline.tick):
+            decision = timeline.decision(tick)
+            if decision is not None:
+                assert looks_like_sentences(NARRATOR.decision(decision, timeline.at(tick)))
+        while timeline.state.world.outcome is Outcome.RUNNING:
+            timeline.advance()
+        if timeline.state.world.outcome is Outcome.CRASH:
+            assert looks_like_sentences(str(answer(timeline, about="why")["text"]))
+    assert imagined or sensor in ("missing", "dropping")
+
+
+def _a(name: str) -> str:
+    return {Kind.VEHICLE: "a car"}.get(kind_of(name), f"a {kind_of(name)}")
+
+
+@pytest.mark.parametrize("about", ["why", "why_not", "scene"])
+def test_with_perfect_sight_nothing_is_said_of_it(about: str) -> None:
+    for timeline in rides("perfect", 25, seed=8):
+        ask = {"about": about, **({"move": Move.STAY} if about == "why_not" else {})}
+        told = repr(answer(timeline, **ask))
+        assert not any(
+            word in told for word in ("'real': False", "undetected", "missed", "phantom", "was not there")
+        )

@@ -1,0 +1,139 @@
+"""What is said holds to the facts and reads like sentences."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from service.actions import Ask
+from service.narration import Narrator
+from service.sessions.facts import Asked
+from sim.actions import Add, Drive, Prefer, Remove, Reset, Scenario, SetCount, SetMode, Where, WorldAction
+from sim.config import Config
+from sim.session.timeline import Timeline
+from sim.state import SimState
+from sim.transition import step
+from sim.types import Mode, Move
+from tests.sim.explain.moments import moments
+from tests.support.roads import road, run_on
+
+NARRATOR = Narrator.load()
+ID = re.compile(r"\b(?:pothole|barrier|vehicle|pedestrian)-\d+\b")
+
+
+def looks_like_sentences(text: str) -> bool:
+    return bool(re.fullmatch(r"[A-Z].*[.]", text)) and not re.search(r"[{}]|  |\.\.|None|nan", text)
+
+
+def ids_in(value: object) -> set[str]:
+    return set(ID.findall(repr(value)))
+
+
+def answer(timeline: Timeline, **ask: object) -> dict[str, object]:
+    return NARRATOR.answer(Asked(Ask(**ask), timeline))  # type: ignore[arg-type]
+
+
+def replied(run: SimState, action: WorldAction) -> str:
+    timeline = Timeline(run.config)
+    timeline.state = run
+    return NARRATOR.done(tuple(timeline.apply(1, [action])))
+
+
+def test_answers_name_only_what_is_in_their_facts() -> None:
+    for timeline in moments(150, seed=4):
+        for ask in (Ask(about="why"), *(Ask(about="why_not", move=move) for move in Move)):
+            told = NARRATOR.answer(Asked(ask, timeline))
+            text = told.pop("text")
+            assert looks_like_sentences(text), text
+            assert ids_in(text) <= ids_in(told)
+
+
+def test_wishes_of_one_utterance_are_told_once() -> None:
+    timeline = Timeline(Config(seed=1, planner="astar"))
+    wishes = [Prefer(preference="avoid_potholes"), Prefer(preference="smooth_ride")]
+    told = NARRATOR.done(tuple(timeline.apply(1, wishes)))
+    assert told == "From now on I keep away from potholes and drive smoothly."
+
+
+def test_a_why_names_its_causes_and_the_flip() -> None:
+    timeline = Timeline(run_on(road("........", "........", "...o....", "...A....")).config)
+    timeline.state = run_on(road("........", "........", "...o....", "...A...."))
+    timeline.advance()
+    told = answer(timeline, about="why")
+    assert told["text"] == (
+        "At tick 0 I moved left rather than going forward, because there was a pothole in the cell ahead. "
+        "Run again without it, I go forward."
+    )
+    assert told["counterfactual"] == {
+        "at_tick": 0,
+        "change": [{"do": "remove", "kind": "pothole", "count": 1, "where": {"id": "pothole-1"}}],
+        "decision": "forward",
+    }
+    assert told["verified"] == {"necessary": True, "sufficient": True, "minimal": True}
+
+
+@pytest.mark.parametrize(
+    ("ask", "words"),
+    [
+        ({"about": "why", "tick": 999}, "There is no tick 999 yet: this is tick 3."),
+        ({"about": "why", "tick": 3}, "The decision of tick 3 has not been taken yet"),
+        ({"about": "why", "move": Move.STAY}, "I did not stay in the last 3 ticks."),
+        ({"about": "why_not", "move": Move.FORWARD}, "But I did: at tick 2 I went forward."),
+        ({"about": "status"}, "I am in lane 5 of row 26, 26 rows from the goal (130 m); tick 3, episode 1."),
+    ],
+)
+def test_questions_about_what_is_not_so_are_answered_exactly(ask: dict[str, object], words: str) -> None:
+    timeline = Timeline(Config(vehicles=0, potholes=0))
+    for _ in range(3):
+        timeline.advance()
+    assert words in str(answer(timeline, **ask)["text"])
+
+
+OPEN = run_on(road("........", "...o....", "......>.", ".o......", "...A...."))
+
+
+@pytest.mark.parametrize(
+    ("action", "words"),
+    [
+        (Add(kind="pothole", count=5), "Added 5 potholes: potholes 2 → 7."),
+        (
+            Add(kind="barrier", count=1, where=Where(cell=(0, 2))),
+            "Added barrier-1 at lane 1, row 2: barriers 0 → 1.",
+        ),
+        (Remove(kind="pothole", count="all"), "Removed 2 potholes: potholes 2 → 0."),
+        (Remove(kind="barrier", count="all"), "There were no barriers to remove."),
+        (SetCount(kind="pothole", count=1), "There is exactly 1 pothole now: potholes 2 → 1."),
+        (SetCount(kind="vehicle", count=1), "There is 1 car already."),
+        (Scenario(road="highway", potholes=2, vehicles=0), "A new highway: 2 potholes."),
+        (Scenario(potholes=0, vehicles=0), "A new road with nothing on it."),
+        (Scenario(layout="crossing", potholes=2, vehicles=0), "A new road: crossing traffic, 2 potholes."),
+        (
+            Scenario(layout="crossing", road="city", pedestrians=0, barriers=0, potholes=0, vehicles=0),
+            "A new city road: crossing traffic.",
+        ),
+        (Reset(), "Back at the start of this road."),
+        (SetMode(mode=Mode.AUTO), "That is how it is already."),
+        (Drive(move=Move.LEFT), "Next I move left, then I drive on by myself."),
+    ],
+)
+def test_a_reply_says_what_was_done(action: WorldAction, words: str) -> None:
+    assert replied(OPEN, action) == words
+
+
+def test_every_decision_and_event_reads_like_a_sentence() -> None:
+    run = SimState.start(Config(seed=9, potholes=30, pedestrians=3))
+    for _ in range(600):
+        moved = step(run)
+        if moved.decision is not None:
+            assert looks_like_sentences(NARRATOR.decision(moved.decision, run))
+        for event in moved.events:
+            assert looks_like_sentences(NARRATOR.event(event, moved.state)), event
+        run = moved.state
+
+
+def test_things_taken_away_one_after_another_are_told_at_once() -> None:
+    timeline = Timeline(Config(seed=4, barriers=3))
+    ids = [name for name in timeline.state.world.hazards.values() if name.startswith("barrier-")]
+    removals = [Remove(kind="barrier", count=1, where=Where(id=name)) for name in ids]
+    assert NARRATOR.done(tuple(timeline.apply(1, removals))) == "Removed 3 barriers: barriers 3 → 0."

@@ -1,0 +1,378 @@
+"""By a snapshot a session comes back as by its whole log; and a bad snapshot is no matter."""
+
+from __future__ import annotations
+
+import asyncio
+import zlib
+from copy import deepcopy
+from dataclasses import replace
+from typing import Any
+
+import orjson
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from service.problems import NotRestorable, ProblemError
+from service.sessions.fork import way_of
+from service.sessions.persistence import snapshots as module
+from service.sessions.persistence.snapshots import UnfitError, opened
+from service.sessions.session import Session
+from service.store import MemoryStore, SnapshotRecord
+from sim.config import Config
+from tests.sessions.persistence.test_replay import TALK, whole
+from tests.sessions.test_bookmarks import load, save
+from tests.sessions.test_rewind import rewind
+from tests.support.sessions import ADD, ADD_CARS, PAUSE, REDO, RESUME, UNDO, Service, do
+
+ASK = {"do": "ask", "about": "why"}
+AFTERWARDS = ([UNDO], [UNDO], [REDO], [ADD], [load("a")], [UNDO, ADD], [rewind(2)], [UNDO], [PAUSE], [RESUME])
+
+Said = list[tuple[int, list[dict[str, object]]]]
+
+
+def all_of(session: Session) -> dict[str, Any]:
+    """Whatever a user could see of it, now or later."""
+    footing = session.footing
+    steps = (*session.history.done, *session.history.undone)
+    jumps = [(each.jump.before, each.jump.after) for each in steps if each.jump is not None]
+    return {
+        **whole(session),
+        "paused": (session.paused, footing.paused, footing.tick, footing.trail),
+        "ground": (session.history.ground, session.history.ground_steps, session.history.ground_paused),
+        "past": list(session.timeline.between(0, session.timeline.tick)),
+        "moments": [
+            (name, each.timeline.state, list(each.timeline.entries))
+            for name, each in session.history.saved.items()
+        ],
+        "jumps": [(one.state, other.state, [*one.entries], [*other.entries]) for one, other in jumps],
+        "standing": session.standing,
+        "state": session.state(),
+        "talk": session.conversation.values(),
+        "first line": session.log.first_kept,
+    }
+
+
+async def said(session: Session, actions: list[dict[str, object]]) -> str:
+    try:
+        return await do(session, *actions)
+    except ProblemError as problem:
+        return problem.detail
+
+
+async def back(store: MemoryStore, session: str, *, short: bool, **given: int) -> Session:
+    """The session in a service of its own, of a copy of the store."""
+    copied = deepcopy(store)
+    if not short:
+        copied._snapshots.clear()
+    service = Service(copied, **given)
+    found = await service.manager.get(session)
+    fates = service.manager.keeper.fates
+    assert (fates["used"], fates["unfit"]) == ((1, 0) if short else (0, 0))
+    return found
+
+
+async def compared(store: MemoryStore, session: str, **given: int) -> None:
+    short = await back(store, session, short=True, **given)
+    long = await back(store, session, short=False, **given)
+    assert all_of(short) == all_of(long)
+    for actions in AFTERWARDS:
+        assert await said(short, actions) == await said(long, actions)
+        assert all_of(short) == all_of(long)
+    ways = [way_of(each.id, each.mixed, each.timeline, each.timeline.tick // 2) for each in (short, long)]
+    assert ways[0].branch == ways[1].branch, "what a fork and a link are made of"
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    talk=TALK,
+    kept=st.sampled_from([10, 400]),
+    ends=st.sets(st.integers(0, 12), max_size=3),
+    asked=st.sets(st.integers(0, 12), max_size=3),
+    snapshot_at=st.integers(0, 12),
+    fork_at=st.none() | st.integers(0, 12),
+    running=st.booleans(),
+)
+def test_by_a_snapshot_it_is_what_it_is_by_its_log(
+    talk: Said,
+    kept: int,
+    ends: set[int],
+    asked: set[int],
+    snapshot_at: int,
+    fork_at: int | None,
+    running: bool,
+) -> None:
+    """Whatever was said, asked, forked and ended meanwhile, and wherever the snapshot was taken."""
+
+    async def one() -> None:
+        given = {"log_events": kept, "snapshot_work": 10**6}
+        service = Service(**given)
+        session = await service.session(paused=not running)
+        for number, (ticks, actions) in enumerate(talk):
+            service.clock.tick(ticks)
+            await said(session, actions)
+            if number in asked:
+                await said(session, [ASK])
+                session.tell("taught", None, "Something was taught.")
+            if number == fork_at:
+                session = await service.manager.fork(session, session.timeline.tick * 2 // 3, paused=True)
+            if number == snapshot_at:
+                service.manager.keeper._take(session)
+                await service.manager.keeper.settled()
+            if number in ends:
+                service = Service(service.store, **given)  # as after a kill
+                session = await service.manager.get(session.id)
+        if await service.store.snapshot(session.id) is None:
+            service.manager.keeper._take(session)
+            await service.manager.keeper.settled()
+            # It is taken where the clock stands; a service that ends stores that.
+            await service.store.save_ticks({session.id: session.timeline.tick})
+        record = await service.store.snapshot(session.id)
+        assert record is not None
+        entries = await service.store.entries(session.id)
+        later = [each.tick for each in entries if each.sequence > record.sequence]
+        until = later[0] if later else (await service.store.get(session.id)).tick
+        if record.tick <= until:
+            await compared(service.store, session.id, **given)
+        else:  # the clock had run on, and was killed
+            service = Service(service.store, **given)
+            await service.manager.get(session.id)
+            assert service.manager.keeper.fates == {"unfit": 1}
+
+    asyncio.run(one())
+
+
+async def talked(**given: int) -> tuple[Service, Session]:
+    service = Service(snapshot_work=10**6, **given)
+    session = await service.session(paused=True)
+    for actions in ([ADD], [{"do": "step", "ticks": 9}, ADD_CARS], [save("a")], [rewind(4)], [ADD], [UNDO]):
+        await do(session, *actions)
+    service.manager.keeper._take(session)
+    await service.manager.keeper.settled()
+    await do(session, {"do": "step", "ticks": 5}, ADD)
+    await do(session, load("a"))
+    return service, session
+
+
+async def test_what_follows_a_snapshot_is_done_again() -> None:
+    service, session = await talked()
+    record = await service.store.snapshot(session.id)
+    assert record is not None
+    assert (record.sequence, session.sequence) == (6, 8)
+    await compared(service.store, session.id)
+
+
+async def used_or_not(store: MemoryStore, session: str) -> tuple[bool, Session]:
+    service = Service(deepcopy(store), snapshot_work=10**6)
+    found = await service.manager.get(session)
+    return service.manager.keeper.fates["used"] == 1, found
+
+
+async def test_a_bit_that_is_another_makes_it_none() -> None:
+    service, session = await talked()
+    good = await service.store.snapshot(session.id)
+    assert good is not None
+    other = all_of(await back(service.store, session.id, short=False))
+    assert await used_or_not(service.store, session.id)
+    for place in range(0, len(good.body), max(1, len(good.body) // 60)):
+        body = bytearray(good.body)
+        body[place] ^= 1 << place % 8
+        await service.store.keep_snapshot(replace(good, body=bytes(body)))
+        used, found = await used_or_not(service.store, session.id)
+        assert not used
+        assert all_of(found) == other
+    for body in (b"", good.body[:-1], good.body + b"\0", zlib.compress(b"{}"), zlib.compress(b"[[[")):
+        await service.store.keep_snapshot(replace(good, body=body))
+        assert not (await used_or_not(service.store, session.id))[0]
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"sequence": 5},
+        {"sequence": 7},
+        {"tick": 4},
+        {"tick": 6},
+        {"version": "0.old"},
+        {"checksum": "0" * 32},
+    ],
+    ids=str,
+)
+async def test_a_field_that_is_another_makes_it_none(change: dict[str, Any]) -> None:
+    service, session = await talked()
+    good = await service.store.snapshot(session.id)
+    assert good is not None
+    other = all_of(await back(service.store, session.id, short=False))
+    bad = replace(good, **change)
+    for record in (bad, bad if "checksum" in change else sealed_again(bad)):
+        await service.store.keep_snapshot(record)
+        used, found = await used_or_not(service.store, session.id)
+        assert not used
+        assert all_of(found) == other
+
+
+def sealed_again(record: SnapshotRecord) -> SnapshotRecord:
+    parts = (record.session, record.sequence, record.tick, record.version)
+    return replace(record, checksum=module._checksum(parts, record.body))
+
+
+def values_of(record: SnapshotRecord) -> dict[str, Any]:
+    return orjson.loads(zlib.decompress(record.body))  # type: ignore[no-any-return]
+
+
+def changed(record: SnapshotRecord, path: list[Any], value: object) -> SnapshotRecord:
+    """The record with a value in it changed, and a checksum that says it is whole."""
+    values = values_of(record)
+    place = values
+    for key in path[:-1]:
+        place = place[key]
+    place[path[-1]] = value
+    return sealed_again(replace(record, body=zlib.compress(orjson.dumps(values))))
+
+
+@pytest.mark.parametrize(
+    ("path", "value"),
+    [
+        (["session"], "another"),
+        (["trail"], "00" * 16),
+        (["trail"], "no digest"),
+        (["held"], 399),
+        (["planners"], {"nobody": "1"}),
+        (["states", "worlds", 0, 9], "0"),
+        (["states", "worlds", 0, 9], "not a board"),
+        (["states", "worlds", 0, 2], -1),
+        (["states", "worlds", 0, 5], "nowhere"),
+        (["states", "digest"], "0" * 32),
+        (["states", "configs", 0], {}),
+        (["states", "configs", 0, "planner"], "unheard of"),
+        (["states", "runs"], []),
+        (["states"], None),
+        (["timelines", 0, 2], 99),
+        (["entries", 3], [{"do": "undo", "ticks": 5}]),
+        (["logs"], []),
+        (["snapshots"], [[10**6, 0]]),
+        (["done"], None),
+        (["conversation", "where"], {"cell": 5}),
+        (["timeline"], 99),
+    ],
+    ids=str,
+)
+async def test_a_value_that_cannot_be_makes_it_none_though_its_checksum_is_right(
+    path: list[Any], value: object
+) -> None:
+    service, session = await talked()
+    good = await service.store.snapshot(session.id)
+    assert good is not None
+    other = all_of(await back(service.store, session.id, short=False))
+    await service.store.keep_snapshot(changed(good, path, value))
+    used, found = await used_or_not(service.store, session.id)
+    assert not used
+    assert all_of(found) == other
+
+
+async def test_another_world_than_the_log_names_makes_it_none() -> None:
+    """Whole in itself, and wrong: the present is where a moment stands that was saved elsewhere."""
+    service, session = await talked()
+    good = await service.store.snapshot(session.id)
+    record = await service.store.get(session.id)
+    assert good is not None
+    assert record is not None
+    values = values_of(good)
+    (_, _, elsewhere), *_ = values["saved"]
+    wrong = changed(good, ["timelines", 0, 1], values["timelines"][elsewhere][1])
+    ends = replace(wrong, tick=9)
+    wrong = sealed_again(changed(ends, ["tick"], 9))
+    entries = list(await service.store.entries(session.id))
+    with pytest.raises(UnfitError, match=r"another world|beyond"):
+        opened(wrong, record, entries, 400)
+    entries[5] = replace(entries[5], digest="0" * 32)
+    with pytest.raises(UnfitError, match="another log"):
+        opened(good, record, entries, 400)
+
+
+async def test_the_row_of_another_session_is_none_of_its_own() -> None:
+    """Also where that one had the same said to it."""
+    service, session = await talked()
+    other = await service.session(paused=True)
+    good = await service.store.snapshot(session.id)
+    assert good is not None
+    for actions in ([ADD], [{"do": "step", "ticks": 9}, ADD_CARS], [save("a")], [rewind(4)], [ADD], [UNDO]):
+        await do(other, *actions)
+    for record in (replace(good, session=other.id), sealed_again(replace(good, session=other.id))):
+        service.store._snapshots[other.id] = record
+        assert not (await used_or_not(service.store, other.id))[0]
+    service.store._snapshots[other.id] = good
+    assert not (await used_or_not(service.store, other.id))[0]
+
+
+async def test_of_a_log_that_went_another_way_it_is_none() -> None:
+    service, session = await talked()
+    log = service.store._entries[session.id]
+    log[5] = replace(log[5], text="another")
+    assert not (await used_or_not(service.store, session.id))[0]
+    for number in (5, 6, 7, 8):
+        del log[number]
+    assert not (await used_or_not(service.store, session.id))[0]
+
+
+async def test_damage_in_the_log_is_told_as_without_a_snapshot() -> None:
+    service, session = await talked()
+    log = service.store._entries[session.id]
+    log[2] = replace(log[2], digest="0" * 32)
+    with pytest.raises(NotRestorable, match="entry 2"):
+        await Service(service.store).manager.get(session.id)
+
+
+async def test_another_program_makes_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    service, session = await talked()
+    assert (await used_or_not(service.store, session.id))[0]
+    monkeypatch.setattr(module, "version", lambda: "1.another")
+    again = Service(service.store, snapshot_work=1)
+    await again.manager.get(session.id)
+    await again.manager.keeper.settled()
+    assert again.manager.keeper.fates == {"unfit": 1, "kept": 1}
+    assert (await used_or_not(service.store, session.id))[0]
+
+
+async def test_a_log_of_another_length_is_written_anew() -> None:
+    service, session = await talked()
+    again = Service(deepcopy(service.store), log_events=20)
+    await again.manager.get(session.id)
+    assert again.manager.keeper.fates["unfit"] == 1
+
+
+async def test_the_sources_of_the_rules_make_the_version() -> None:
+    found = module.version()
+    assert found.startswith(f"{module.FORMAT}.")
+    sources = [path for pattern in module._SOURCES for path in module._ROOT.glob(pattern)]
+    assert {"world.py", "snapshot_codec.py", "actions.py"} <= {path.name for path in sources}
+
+
+async def test_states_on_the_way_are_fewer_where_there_would_be_too_many(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("sim.session.timeline.SNAPSHOT_TICKS", 8)
+    service = Service(snapshot_work=10**6)
+    session = await service.session(Config(seed=5, potholes=3, vehicles=5), paused=True)
+    for number in range(12):
+        await do(session, {"do": "step", "ticks": 200}, ADD_CARS, save(f"moment {number % 3}"))
+        await do(session, rewind(60))
+    keeper = service.manager.keeper
+    keeper._take(session)
+    await keeper.settled()
+    large = await service.store.snapshot(session.id)
+    assert large is not None
+    monkeypatch.setattr("service.sessions.persistence.snapshot_codec.MOST_STATES", 8)
+    monkeypatch.setattr(module, "MOST_BYTES", len(large.body) * 2 // 3)
+    keeper._take(session)
+    await keeper.settled()
+    small = await service.store.snapshot(session.id)
+    assert small is not None
+    assert len(small.body) <= module.MOST_BYTES
+    assert len(values_of(small)["snapshots"]) < len(values_of(large)["snapshots"]) / 2
+    await compared(service.store, session.id)
+    monkeypatch.setattr(module, "MOST_BYTES", 100)
+    keeper._take(session)
+    await keeper.settled()
+    assert keeper.fates["failed"] == 1
+    assert await service.store.snapshot(session.id) == small

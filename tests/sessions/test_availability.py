@@ -1,0 +1,128 @@
+"""Every action of the language contract is either done or refused in words; none falls through."""
+
+from __future__ import annotations
+
+from typing import Any, get_args
+
+import pytest
+
+from service import actions as contract
+from service.grammar import Language
+from service.grammar.parse_types import Refused, Understood
+from service.problems import NotAvailable
+from service.sessions.availability import refusal
+from service.sessions.transaction import Draft
+from service.sessions.undo_stack import History
+from sim.config import Config
+from sim.session.timeline import Timeline
+
+OFFERED: list[dict[str, Any]] = [
+    {"do": "add", "kind": "pothole", "count": 1},
+    {"do": "remove", "kind": "everything", "count": "all"},
+    {"do": "set_count", "kind": "vehicle", "count": 3},
+    {
+        "do": "scenario",
+        "road": "city",
+        "weather": "clear",
+        "time_of_day": "day",
+        "planner": "priority",
+        "avs": 0,
+    },
+    {"do": "reset"},
+    {"do": "mode", "mode": "manual"},
+    {"do": "drive", "move": "left"},
+    {"do": "show", "view": "log"},
+    {"do": "hide", "view": "path"},
+    {"do": "pause"},
+    {"do": "resume"},
+    {"do": "step", "ticks": 2},
+    {"do": "undo"},
+    {"do": "redo"},
+    {"do": "rewind", "ticks": 2},
+    {"do": "save", "name": "monday"},
+    {"do": "load", "name": "monday"},
+    {"do": "ask", "about": "why"},
+    {"do": "ask", "about": "why_not", "move": "left"},
+    {"do": "ask", "about": "status"},
+    {"do": "ask", "about": "what_if", "change": [{"do": "remove", "kind": "pothole", "count": 1}]},
+    {"do": "ask", "about": "what_if", "change": [{"do": "show", "view": "log"}]},
+    {"do": "ask", "about": "next"},
+    {"do": "ask", "about": "metrics", "metric": "crashes"},
+    {"do": "set", "parameter": "planner", "value": "astar"},
+    {"do": "adjust", "parameter": "safety_buffer", "by": 1},
+    {"do": "set", "parameter": "playback_speed", "value": "max"},
+    {"do": "adjust", "parameter": "playback_speed", "factor": 2},
+    {"do": "prefer", "preference": "cautious"},
+    {"do": "ask", "about": "help"},
+    {"do": "ask", "about": "scene", "kind": "pothole"},
+    {"do": "ask", "about": "confidence"},
+    {"do": "ask", "about": "maintenance"},
+    {"do": "advise", "hazard": "pothole", "distance_m": 2, "speed_kmh": 40},
+]
+BESIDE_SESSIONS = {"teach", "forget"}
+"""Offered, but done to a phrasebook and to no session (test_teaching)."""
+REFUSED: list[dict[str, Any]] = [
+    {"do": "set", "parameter": "weather", "value": "rain"},
+    {"do": "show", "view": "sensors"},
+    {"do": "hide", "view": "sensors"},
+    {"do": "evaluate", "runs": 5},
+    {"do": "find_worst"},
+    {"do": "record", "on": True},
+    {"do": "add", "kind": "av", "count": 1},
+    {"do": "remove", "kind": "av", "count": "all"},
+    {"do": "set_count", "kind": "av", "count": 2},
+    *({"do": "scenario", key: value} for key, value in (
+        ("weather", "rain"), ("time_of_day", "night"), ("sensor", "lidar"), ("planner", "rl"), ("avs", 1),
+    )),
+    {"do": "ask", "about": "what_if", "change": [{"do": "set", "parameter": "weather", "value": "rain"}]},
+    {"do": "ask", "about": "what_if", "change": [{"do": "pause"}, {"do": "undo"}]},
+    {"do": "ask", "about": "what_if", "change": [{"do": "rewind", "ticks": 2}]},
+]  # fmt: skip
+
+
+def test_the_lists_here_hold_every_action_there_is() -> None:
+    verbs = {kind.__dataclass_fields__["do"].default for kind in get_args(get_args(contract.Action)[0])}
+    assert {action["do"] for action in OFFERED + REFUSED} | BESIDE_SESSIONS == verbs
+
+
+@pytest.mark.parametrize("action", OFFERED, ids=str)
+def test_what_is_offered_is_done(action: dict[str, Any]) -> None:
+    (loaded,) = contract.load([action])
+    assert refusal(loaded) is None
+    draft = Draft(Timeline(Config(seed=2)), False, History())
+    draft.perform(1, contract.load([{"do": "add", "kind": "barrier", "count": 1}]))
+    if action["do"] == "redo":
+        draft.perform(2, contract.load([{"do": "undo"}]))
+    if action["do"] == "rewind":
+        draft.perform(2, contract.load([{"do": "step", "ticks": 2}]))
+    if action["do"] == "load":
+        draft.perform(2, contract.load([{"do": "save", "name": "monday"}]))
+    (fact,) = draft.perform(3, (loaded,))
+    assert fact is not None
+
+
+def test_units_are_said_as_people_say_them() -> None:
+    said = {"do": "set", "parameter": "target_speed_kmh", "value": 50}
+    assert refusal(contract.load([said])[0]) == "Changing the target speed (50 km/h) is not available yet."
+
+
+@pytest.mark.parametrize("action", REFUSED, ids=str)
+def test_what_is_not_offered_says_so(action: dict[str, Any]) -> None:
+    draft = Draft(Timeline(Config(seed=2)), False, History())
+    before = draft.timeline.state
+    with pytest.raises(NotAvailable, match=r"^[A-Z].* not available yet.*\.$") as raised:
+        draft.perform(1, contract.load([action]))
+    assert raised.value.errors[0].field.startswith("actions.0")
+    assert draft.timeline.state == before
+
+
+def test_nothing_is_suggested_that_is_not_offered() -> None:
+    language = Language.load(offered=lambda action: refusal(action) is None)
+    for said in ("add five potholes and order pizza", "make it rain cats", "avoid potholes or else", "zebra"):
+        parse = language.parse(said)
+        assert isinstance(parse, Refused), said
+        for suggestion in parse.suggestions:
+            meant = language.parse(suggestion)
+            assert isinstance(meant, Understood)
+            assert all(refusal(action) is None for action in meant.actions), suggestion
+    assert language.parse("add five potholes and order pizza").suggestions  # type: ignore[union-attr]

@@ -1,0 +1,1 @@
+"""Programs that people run: checks too long for the tests, pictures, figures."""

@@ -1,0 +1,101 @@
+// @ts-check
+/**
+ * What a person can do without words, once for buttons, keys and the palette. Those that belong to a panel are told by
+ * it (`Panel.acts`); all of them together are `page.acts()`.
+ */
+
+/** @import { Page } from "../main.js" */
+/** @import { Action } from "./protocol.js" */
+/** @import { State } from "./state.js" */
+
+/**
+ * @typedef {object} Act
+ * @property {string} name
+ * @property {string} group  a heading in the palette and in help
+ * @property {string} [key]  as `KeyboardEvent.key` has it
+ * @property {string} [keyName]  as people call it
+ * @property {boolean} [repeats]  whether a key held down does it again and again
+ * @property {boolean} [button]  whether it stands among the clock's buttons
+ * @property {(state: State) => Doing | null} now  what it does in this state; null where it makes no sense
+ */
+
+/**
+ * @typedef {object} Doing
+ * @property {string} label
+ * @property {string} [icon]
+ * @property {Action[][]} [turns]  typed actions, each turn a message of its own
+ * @property {(page: Page) => void} [run]  what else is to be done
+ */
+
+/** Do it, if it makes sense now. @param {Act} act @param {Page} page */
+export function perform(act, page) {
+  const doing = act.now(page.state());
+  if (doing === null) return;
+  for (const actions of doing.turns ?? []) page.act(actions, doing.label, true);
+  doing.run?.(page);
+}
+
+const STEP = { do: "step", ticks: 1 };
+
+/** @type {Act[]} */
+export const ACTS = [
+  {
+    name: "back",
+    group: "Clock",
+    button: true,
+    repeats: true,
+    key: "ArrowLeft",
+    keyName: "←",
+    now: ({ world, past }) =>
+      world && (past ?? { world }).world.tick > 0
+        ? {
+            label: "Back",
+            icon: "back",
+            turns: past || world.paused ? [] : [[{ do: "pause" }]],
+            run: (page) => void page.looking?.step(-1),
+          }
+        : null,
+  },
+  {
+    name: "clock",
+    group: "Clock",
+    button: true,
+    key: " ",
+    keyName: "Space",
+    now: ({ past, world }) => {
+      if (past) return { label: "Play", icon: "play", run: (page) => page.looking?.toggle() };
+      return world?.paused
+        ? { label: "Resume", icon: "play", turns: [[{ do: "resume" }]] }
+        : { label: "Pause", icon: "pause", turns: [[{ do: "pause" }]] };
+    },
+  },
+  {
+    name: "step",
+    group: "Clock",
+    button: true,
+    repeats: true,
+    key: "ArrowRight",
+    keyName: "→",
+    now({ past, world }) {
+      if (past) return { label: "Step", icon: "step", run: (page) => void page.looking?.step(1) };
+      // Two messages: a step that comes alone is streamed tick by tick, with its decision.
+      return { label: "Step", icon: "step", turns: world?.paused === false ? [[{ do: "pause" }], [STEP]] : [[STEP]] };
+    },
+  },
+  {
+    name: "undo",
+    group: "Change",
+    button: true,
+    key: "u",
+    keyName: "U",
+    now: () => ({ label: "Undo", icon: "undo", turns: [[{ do: "undo" }]] }),
+  },
+  {
+    name: "reset",
+    group: "Change",
+    button: true,
+    key: "r",
+    keyName: "R",
+    now: () => ({ label: "Reset", icon: "reset", turns: [[{ do: "reset" }]] }),
+  },
+];

@@ -1,0 +1,43 @@
+// @ts-check
+/** Parts of the page that are fetched when they are first wanted, so that the page itself stays light. */
+
+import { words } from "./http.js";
+
+/** @import { Page } from "../main.js" */
+
+/**
+ * What makes a part once and hands it to whoever wants it; that it could not be fetched is told, and tried again.
+ * @template Part
+ * @param {Page} page
+ * @param {() => Promise<Part>} make
+ * @returns {(use: (part: Part) => unknown) => void}
+ */
+export function onDemand(page, make) {
+  /** @type {Promise<Part> | null} */ let part = null;
+  return (use) => {
+    part ??= make();
+    part.then(use, (error) => {
+      part = null;
+      page.tell({ text: `This part of the page could not be fetched. ${words(error)}`, tone: "bad" });
+    });
+  };
+}
+
+/**
+ * A part's own style, fetched with it.
+ * @param {string} name  of the file in `style/`
+ * @returns {Promise<void>}
+ */
+export function styled(name) {
+  return new Promise((resolve, reject) => {
+    const link = document.createElement("link");
+    link.rel = "stylesheet";
+    link.href = `style/${name}.css`;
+    link.onload = () => resolve();
+    link.onerror = () => {
+      link.remove();
+      reject(new Error("Its style is missing."));
+    };
+    document.head.append(link);
+  });
+}

@@ -1,0 +1,251 @@
+// @ts-check
+/**
+ * Everything the page knows, in one object, and the pure functions that carry it on.
+ *
+ * `reduce(state, event)` answers the next state and changes nothing; an event is a message of the
+ * service or something the person did here. Panels only read. What moves between ticks is not here:
+ * it is presentation, and belongs to the road's own stage (`motion.js`).
+ */
+
+import { logChange, logEvents, logTick } from "../talk/journal.js";
+import { NO_STEPS, stepsAfter } from "./undoStack.js";
+import { answerExchange, beginExchange, endUnanswered, refuseExchange } from "../talk/exchanges.js";
+import { courseAfter, NO_COURSE } from "../timeline/runChart.js";
+import { AT_FIRST, viewsAfter } from "../ui/views.js";
+import { worldAfter, worldOf } from "../road/world.js";
+
+/** @import { Foresight } from "../why/forecast.js" */
+/** @import { Line } from "../talk/journal.js" */
+/** @import { ServerMessage, Decision, Cell, Problem, HelloMessage, TickMessage } from "./protocol.js" */
+/** @import { Phase } from "./socket.js" */
+/** @import { Steps } from "./undoStack.js" */
+/** @import { Exchange } from "../talk/exchanges.js" */
+/** @import { Course } from "../timeline/runChart.js" */
+/** @import { Views } from "../ui/views.js" */
+/** @import { World } from "../road/world.js" */
+
+/**
+ * @typedef {object} State
+ * @property {Phase} connection  how the stream stands; while it is not "live" the rest is stale
+ * @property {string | null} session  the session's id
+ * @property {string | null} trouble  a sentence when no session could be opened
+ * @property {World | null} world  the road at the latest tick heard of
+ * @property {Decision | null} decision  the latest, as far as the stream tells it
+ * @property {string | null} narration  the latest decision in words
+ * @property {Line[]} log  newest last, at most `LOG_LINES`
+ * @property {Exchange[]} talk  what was said here and answered, newest last
+ * @property {Highlight | null} highlight  what the reader points at
+ * @property {string | null} announcement  the latest sentence worth reading aloud
+ * @property {string | null} fault  what the service last said against a message that was neither said nor done
+ * @property {Course} course  the run as the stream has told it
+ * @property {Notice | null} notice  the latest thing worth a passing line over the page
+ * @property {World | null} prior  the road at the tick before, as long as nothing but that tick has changed it
+ * @property {Foresight | null} foresight  what was last told to be about to happen
+ * @property {Views} views  what is shown
+ * @property {string | null} large  the part of the page that is enlarged
+ * @property {Steps} steps  which changes can be taken back
+ * @property {Past | null} past  an earlier tick that is looked at instead of the present
+ */
+
+/** @typedef {{world: World, decision: Decision | null, narration: string | null}} Past */
+
+/** @typedef {{ids: string[], cells: Cell[]}} Highlight */
+
+/**
+ * @typedef {object} Notice
+ * @property {string} text
+ * @property {"bad"} [tone]
+ * @property {boolean} [aloud]  only read aloud, since it shows by itself
+ * @property {{label: string, run: () => void}} [offer]
+ */
+
+/**
+ * @typedef {{type: "session", id: string}
+ *   | {type: "phase", phase: Phase}
+ *   | {type: "trouble", text: string}
+ *   | {type: "said", id: string, text: string, quiet: boolean}
+ *   | {type: "unsent", id: string}
+ *   | {type: "highlight", highlight: Highlight | null}
+ *   | {type: "notice", notice: Notice | null}
+ *   | {type: "foresight", foresight: Foresight}
+ *   | {type: "views", views?: Views, large?: string | null}
+ *   | {type: "past", past: Past | null}} PageEvent  what happened on this side of the wire
+ */
+
+/** @typedef {ServerMessage | PageEvent} Event */
+
+/** @type {State} before anything has been heard */
+export const INITIAL = {
+  connection: { phase: "opening" },
+  session: null,
+  trouble: null,
+  world: null,
+  decision: null,
+  narration: null,
+  log: [],
+  talk: [],
+  highlight: null,
+  announcement: null,
+  fault: null,
+  course: NO_COURSE,
+  notice: null,
+  prior: null,
+  foresight: null,
+  views: AT_FIRST,
+  large: null,
+  steps: NO_STEPS,
+  past: null,
+};
+
+/** Event types that are worth saying aloud, not only writing down. */
+const SPOKEN = new Set(["crashed", "arrived", "stuck", "no_way"]);
+
+/** @param {State} state @param {Event} event @returns {State} */
+export function reduce(state, event) {
+  const next = after(state, event);
+  const course = courseAfter(state.course, /** @type {ServerMessage} */ (event), state.world);
+  return course === state.course || event.type === "session" ? next : { ...next, course };
+}
+
+/** @param {State} state @param {Event} event @returns {State} */
+function after(state, event) {
+  switch (event.type) {
+    case "session":
+      return { ...INITIAL, session: event.id, notice: state.notice, views: state.views, large: state.large };
+    case "phase":
+      return afterPhase(state, event.phase);
+    case "trouble":
+      return { ...state, trouble: event.text };
+    case "said":
+      return { ...state, talk: beginExchange(state.talk, event) };
+    case "unsent":
+      return { ...state, talk: refuseExchange(state.talk, event.id, NOT_CONNECTED) };
+    case "highlight":
+      return { ...state, highlight: event.highlight };
+    case "notice":
+      return { ...state, notice: event.notice, announcement: event.notice?.text ?? state.announcement };
+    case "foresight":
+      return { ...state, foresight: event.foresight };
+    case "views":
+      return arranged(state, event.views, event.large);
+    case "past":
+      return { ...state, past: event.past, highlight: null };
+    case "hello":
+      return afterHello(state, event);
+    case "tick":
+      return afterTick(state, event);
+    case "changed":
+      if (event.views && !event.changes?.length) return arranged(state, event.views);
+      return {
+        ...(event.views ? arranged(state, event.views) : state),
+        steps: stepsAfter(state.steps, event.state.undo, event.sequence),
+        world: worldOf(event.state),
+        prior: null,
+        log: logChange(state.log, event),
+        highlight: null,
+        ...(event.text === null && SPOKEN.has(String(event.events?.at(-1)?.type)) ? { announcement: event.reply } : {}),
+      };
+    case "state":
+      return { ...state, world: worldOf(event.state), prior: null, steps: stepsAfter(state.steps, event.state.undo, null) };
+    case "result":
+      return {
+        ...state,
+        talk: answerExchange(state.talk, event.id, event.result),
+        announcement: event.result.reply,
+      };
+    case "problem":
+      return {
+        ...state,
+        talk: refuseExchange(state.talk, event.id, event.problem),
+        announcement: event.problem.detail,
+      };
+    case "error":
+      return { ...state, announcement: event.problem.detail, fault: event.problem.detail };
+    default:
+      return state;
+  }
+}
+
+/** @type {Problem} */
+const NOT_CONNECTED = {
+  type: "about:blank",
+  title: "Not connected",
+  status: 0,
+  detail: "There is no connection to the service just now, so this was not sent. Press ↑ to have it back.",
+};
+
+/** @param {State} state @param {Phase} phase @returns {State} */
+function afterPhase(state, phase) {
+  if (phase.phase !== "lost") return { ...state, connection: phase };
+  return { ...state, connection: phase, talk: endUnanswered(state.talk) };
+}
+
+/**
+ * With some views shown or hidden. What is enlarged goes back when something else is to be seen.
+ * @param {State} state
+ * @param {Views} [change]
+ * @param {string | null} [large]
+ * @returns {State}
+ */
+function arranged(state, change, large = state.large) {
+  const views = viewsAfter(state.views, change);
+  const covered = large !== null && (!(views[large] ?? true) || Object.keys(change ?? {}).some((name) => views[name] && name !== large));
+  return { ...state, views, large: covered ? null : large };
+}
+
+/** @param {State} state @param {HelloMessage} hello @returns {State} */
+function afterHello(state, hello) {
+  const note = state.world === null ? (hello.session.rules_note ?? null) : null; // once, not with each connection
+  return {
+    ...state,
+    ...(note === null ? {} : { notice: { text: note }, announcement: note }),
+    session: hello.session.id,
+    trouble: null,
+    world: worldOf(hello.state),
+    prior: null,
+    decision: hello.decision ?? null,
+    narration: hello.decision?.narration ?? null,
+    log: logEvents(state.log, hello.log ?? []),
+    steps: stepsAfter(state.steps, hello.state.undo, null),
+    past: null,
+  };
+}
+
+/**
+ * The state as it is to be shown: the present, or with the road of the tick that is looked at. The clock is the
+ * present one's: it runs on meanwhile.
+ * @param {State} state
+ * @returns {State}
+ */
+export function sceneOf(state) {
+  const { past, world } = state;
+  if (past === null || world === null) return state;
+  const { paused, mode } = world;
+  let seen = SEEN.get(past.world);
+  if (seen?.paused !== paused || seen.mode !== mode) {
+    seen = { ...past.world, paused, mode };
+    SEEN.set(past.world, seen);
+  }
+  return { ...state, ...past, world: seen };
+}
+
+/**
+ * Past worlds as they are shown: the same one as long as nothing of it changes, or it would be drawn anew each time.
+ * @type {WeakMap<World, World>}
+ */
+const SEEN = new WeakMap();
+
+/** @param {State} state @param {TickMessage} message @returns {State} */
+function afterTick(state, message) {
+  if (state.world === null) return state;
+  const spoken = (message.events ?? []).findLast((event) => SPOKEN.has(event.type));
+  return {
+    ...state,
+    world: worldAfter(state.world, message),
+    prior: state.world,
+    decision: message.decision ?? null,
+    narration: message.narration ?? null,
+    log: logTick(state.log, message),
+    announcement: spoken ? spoken.text : state.announcement,
+  };
+}

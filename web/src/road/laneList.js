@@ -1,0 +1,43 @@
+// @ts-check
+/** The road in words, for those who do not see it: to be read when wished, brought up to date quietly. */
+
+import { make } from "../ui/dom.js";
+import { roadWords } from "./laneSentences.js";
+
+/** @import { State } from "../core/state.js" */
+/** @import { Panel } from "../panels/index.js" */
+
+/** While the clock runs, sentences stay this long, so that they can be read to their end. */
+const STAYS_MS = 4_000;
+
+/** @param {HTMLElement} road @returns {Panel} */
+export function createLanes(road) {
+  const list = make("ul", {});
+  road.after(make("div", { class: "unseen lanes", id: "lanes", role: "region", "aria-label": "The road in words", tabIndex: 0 }, list));
+  let writtenAt = -Infinity;
+  /** @type {any} */ let timer = null;
+  /** @type {State | null} */ let latest = null;
+
+  function write() {
+    clearTimeout(timer);
+    timer = null;
+    if (!latest?.world) return;
+    writtenAt = performance.now();
+    const lines = roadWords(latest.world, latest.decision);
+    while (list.children.length > lines.length) list.lastChild?.remove();
+    lines.forEach((text, at) => {
+      const item = list.children[at] ?? list.appendChild(make("li"));
+      if (item.textContent !== text) item.textContent = text;
+    });
+  }
+
+  return {
+    update(state, before) {
+      if (state.world === null || (state.world === before.world && latest !== null)) return;
+      latest = state;
+      const waits = state.world.paused || state.past ? 0 : STAYS_MS - (performance.now() - writtenAt);
+      if (waits <= 0) write();
+      else timer ??= setTimeout(write, waits);
+    },
+  };
+}

@@ -1,0 +1,69 @@
+// @ts-check
+/** All that is done with the road by hand, over one surface that takes the pointer and the focus. */
+
+import { make } from "../ui/dom.js";
+import { offerPlaces } from "./hitTest.js";
+import { servedView } from "./serverCamera.js";
+import { sceneOf } from "../core/state.js";
+import { egoOf } from "./world.js";
+import { createCursor } from "./cursor.js";
+import { createDriving } from "./driving.js";
+import { watchPointing } from "../why/pointing.js";
+import { createTouch } from "./dragDrop.js";
+
+/** @import { Places } from "./hitTest.js" */
+/** @import { Page } from "../main.js" */
+/** @import { Card } from "../why/bubbleLoader.js" */
+/** @import { Panel } from "../panels/index.js" */
+
+/**
+ * @param {HTMLElement} host  the road
+ * @param {Places} places
+ * @param {HTMLElement} log
+ * @param {Page} page
+ * @param {Card} card
+ * @returns {Panel[]}
+ */
+export function createHands(host, places, log, page, card) {
+  const surface = make("div", { class: "road-hands" });
+  host.querySelector("canvas")?.after(surface);
+  const seen = whereSeen(host, places, page);
+  offerPlaces(surface, seen);
+  watchPointing(page, card, log);
+  const touch = createTouch(host, surface, seen, page, card);
+  return [touch, createCursor(surface, seen, page, card, touch), createDriving(host, page)];
+}
+
+/**
+ * Where things are on whatever is shown of the road: the page's own drawing, or the service's picture over it.
+ * @param {HTMLElement} host
+ * @param {Places} own
+ * @param {Page} page
+ * @returns {Places}
+ */
+function whereSeen(host, own, page) {
+  function served() {
+    const picture = /** @type {HTMLCanvasElement | null} */ (host.querySelector(".service-canvas:not([hidden])"));
+    const { world } = sceneOf(page.state());
+    const ego = world && egoOf(world);
+    if (!picture || !ego || picture.width === 0) return null;
+    const frame = host.getBoundingClientRect();
+    const view = servedView(frame, picture, world, own.poseOf?.(ego.id)?.row ?? ego.cell[1]);
+    return { ...view, left: frame.left + view.left, top: frame.top + view.top };
+  }
+
+  return {
+    ...own,
+    cellAt(x, y) {
+      const view = served();
+      if (view === null) return own.cellAt(x, y);
+      return [Math.floor((x - view.left) / view.cell), Math.floor((y - view.top) / view.cell + view.row)];
+    },
+    placeOf([column, row]) {
+      const view = served();
+      if (view === null) return own.placeOf([column, row]);
+      const { left, top, cell } = view;
+      return { left: left + column * cell, top: top + (row - view.row) * cell, width: cell, height: cell };
+    },
+  };
+}

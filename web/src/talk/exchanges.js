@@ -1,0 +1,71 @@
+// @ts-check
+/** What was said in this page and what came back, as a list of exchanges. */
+
+/** @import { CommandResult, Problem } from "../core/protocol.js" */
+
+/**
+ * @typedef {object} Exchange
+ * @property {string} id
+ * @property {string} said
+ * @property {boolean} quiet  a button or a key rather than words: shown only when there is something to tell
+ * @property {"pending" | "done" | "refused" | "unknown"} standing  "unknown": the connection was lost before the answer
+ * @property {CommandResult | null} result
+ * @property {Problem | null} problem
+ */
+
+export const TALK_EXCHANGES = 100;
+
+/** @param {Exchange[]} talk @param {{id: string, text: string, quiet: boolean}} said @returns {Exchange[]} */
+export function beginExchange(talk, { id, text, quiet }) {
+  /** @type {Exchange} */
+  const exchange = { id, said: text, quiet, standing: "pending", result: null, problem: null };
+  return [...talk, exchange].slice(-TALK_EXCHANGES);
+}
+
+/** @param {Exchange[]} talk @param {string} id @param {CommandResult} result @returns {Exchange[]} */
+export function answerExchange(talk, id, result) {
+  return replaced(talk, id, { standing: "done", result });
+}
+
+/** @param {Exchange[]} talk @param {string} id @param {Problem} problem @returns {Exchange[]} */
+export function refuseExchange(talk, id, problem) {
+  return replaced(talk, id, { standing: "refused", problem });
+}
+
+/**
+ * The connection is gone: what was pending will not be answered any more.
+ * @param {Exchange[]} talk
+ * @returns {Exchange[]}
+ */
+export function endUnanswered(talk) {
+  if (!talk.some((exchange) => exchange.standing === "pending")) return talk;
+  return talk.map((exchange) =>
+    exchange.standing === "pending" ? { ...exchange, standing: "unknown" } : exchange,
+  );
+}
+
+/**
+ * Those exchanges that are worth showing: all that was said, and of buttons and keys what changed
+ * something or was refused (pausing shows on the road itself).
+ * @param {Exchange[]} talk
+ * @returns {Exchange[]}
+ */
+export function shown(talk) {
+  return talk.filter(
+    ({ quiet, standing, result }) =>
+      !quiet || standing === "refused" || standing === "unknown" || changesOf(result).length > 0 || result?.answer,
+  );
+}
+
+/**
+ * What a result changed on the road; whether the clock runs shows on the road and is not repeated.
+ * @param {CommandResult | null} result
+ */
+export function changesOf(result) {
+  return (result?.changes ?? []).filter(({ path }) => path !== "paused" && path !== "tick");
+}
+
+/** @param {Exchange[]} talk @param {string} id @param {Partial<Exchange>} part @returns {Exchange[]} */
+function replaced(talk, id, part) {
+  return talk.map((exchange) => (exchange.id === id ? { ...exchange, ...part } : exchange));
+}

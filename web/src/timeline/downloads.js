@@ -1,0 +1,100 @@
+// @ts-check
+/** Things to take away: pictures, films, recordings; and a recording brought back. */
+
+import { ask } from "../core/http.js";
+import { sessionPath } from "../core/protocol.js";
+
+/**
+ * @typedef {object} FilmWish
+ * @property {number} from
+ * @property {number} to
+ * @property {"gif" | "mp4"} format
+ * @property {"road" | "schematic"} view
+ * @property {number} side
+ */
+
+/** Frames a second, so that a longer stretch stays within what the service makes. */
+const FRAMES = { most: 240, fastest: 12, slowest: 2 };
+
+/**
+ * Where a film is made.
+ * @param {string} session
+ * @param {FilmWish} wish
+ * @param {number} stepS  seconds of a tick
+ */
+export function filmPath(session, { from, to, format, view, side }, stepS) {
+  const seconds = Math.max(stepS, (to - from) * stepS);
+  const fps = Math.max(FRAMES.slowest, Math.min(FRAMES.fastest, Math.floor(FRAMES.most / seconds)));
+  const query = new URLSearchParams({ from: `${from}`, to: `${to}`, format, fps: `${fps}`, view, side: `${side}` });
+  return `${sessionPath(session)}/film?${query}`;
+}
+
+/** @param {string} session */
+export function recordingPath(session) {
+  return `${sessionPath(session)}/recording`;
+}
+
+/**
+ * The stretch around a tick, or the latest ones.
+ * @param {number} now
+ * @param {number | null} tick
+ * @param {number} [ticks]
+ */
+export function stretch(now, tick, ticks = 20) {
+  if (tick === null) return { from: Math.max(0, now - ticks), to: now };
+  const from = Math.max(0, Math.min(tick - ticks / 2, now - ticks));
+  return { from, to: Math.min(now, from + ticks) };
+}
+
+/**
+ * A name for a file: what it is, of which session, when.
+ * @param {string} session
+ * @param {string} part
+ * @param {string} ending
+ */
+export function fileName(session, part, ending) {
+  return `roadtalk-${session.slice(0, 8)}-${part}.${ending}`;
+}
+
+/** How large a file is. @param {number} bytes */
+export function sizeWords(bytes) {
+  return bytes < 1_000_000 ? `${Math.max(1, Math.round(bytes / 1000))} kB` : `${(bytes / 1_000_000).toFixed(1)} MB`;
+}
+
+/**
+ * What an address answers, as a file's content. Throws `Refused`, or what an abort throws.
+ * @param {string} path
+ * @param {AbortSignal} [signal]
+ * @param {typeof fetch} [http]
+ */
+export async function fetched(path, signal, http) {
+  return (await ask(path, { signal, http })).blob();
+}
+
+/** Hand a file over to the browser. @param {Blob} data @param {string} name */
+export function save(data, name) {
+  const url = URL.createObjectURL(data);
+  const link = document.createElement("a");
+  link.href = url;
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(url), 10_000);
+}
+
+/**
+ * A recording out of a file's text. Throws an `Error` that says what it is instead.
+ * @param {string} text
+ * @param {string} name
+ */
+export function recordingIn(text, name) {
+  let found;
+  try {
+    found = JSON.parse(text);
+  } catch {
+    throw new Error(`“${name}” is no recording: it is not JSON, or cut off.`);
+  }
+  if (found?.format !== "roadtalk-recording") {
+    throw new Error(`“${name}” is no recording of a session: it does not say that it is one.`);
+  }
+  return found;
+}
