@@ -11,9 +11,10 @@ from service.narration.answers import Answers
 from service.narration.episode_end import Ends
 from service.narration.naming import Naming
 from service.narration.outlook import outlook
-from service.narration.replies import Replies
+from service.narration.replies import Replies, speed
 from service.narration.sayings import Sayings
 from service.sessions.facts import Answerable, Fact, Lesson
+from service.sessions.scheduler.playback_speed import Pace
 from sim.decide import sense
 from sim.events import Event, EventType
 from sim.forecast import Forecast
@@ -52,7 +53,7 @@ class Narrator:
         `forecast`: what it was decided by, where that is known already.
         """
         if decision.fault is not None:
-            return self._say("fault", planner=decision.planner, fault=decision.fault)
+            return self._say("fault", planner=decision.planner, fault=self._sayings.fault(decision.fault))
         asked, first = decision.asked, decision.options[0]
         ranked = decision.measure is Measure.RANK
         if first.move is decision.move is Move.FORWARD and ranked and asked is None:
@@ -136,13 +137,13 @@ class Narrator:
             event.type,
             episode=event.episode,
             ticks=ticks,
-            seconds=f"{ticks * run.config.step_seconds:g}",
+            seconds=self._sayings.number(ticks * run.config.step_seconds),
             who=self._sayings.joined(event.ids),
             where="" if event.cell is None else self._sayings.where(event.cell),
             move="" if event.move is None else self._sayings.move(event.move, "name"),
             reason=reason,
             planner=run.config.planner,
-            fault=event.how or "",
+            fault=self._sayings.fault(event.how or "") if event.type is EventType.PLANNER_FAILED else "",
         )
 
     def _no_way(self, event: Event) -> str:
@@ -151,13 +152,17 @@ class Narrator:
         form = "one" if len(event.ids) == 1 else "many"
         return self._sayings.say("log", "no_way", "without", form, who=self._sayings.joined(event.ids))
 
+    def speed(self, pace: Pace) -> str:
+        """A playback speed."""
+        return speed(self._sayings, pace)
+
     def planner(self, name: str) -> str:
         """A planner as people know it."""
         return self._sayings.planner(name)
 
     def silent(self, planner: str, fault: str) -> str:
         """What is said when a planner did not answer in time and a person is to drive."""
-        return self._sayings.say("log", "events", "planner_silent", planner=planner, fault=fault)
+        return self._sayings.say("log", "events", "planner_silent", planner=planner, fault=self._sayings.fault(fault))
 
     def done(self, facts: tuple[Fact, ...]) -> str:
         """The reply: what was done, in a sentence for each fact."""
@@ -184,7 +189,7 @@ class Narrator:
                 return self._say("leads_nowhere", move=name)
             return self._say("other", move=name, reason=self._sayings.met(straight, "now", naming))
         more = straight.cost - chosen.cost
-        return self._say(f"saves_{decision.measure}", move=name, more=f"{more:g}")
+        return self._say(f"saves_{decision.measure}", move=name, more=self._sayings.number(more))
 
     def _own(self, decision: Decision, naming: Naming) -> str:
         """The move of another package's planner, with what is so, and without a reason: none is known."""
@@ -207,7 +212,7 @@ class Narrator:
 
     def _named(self, move: Move) -> str:
         """A move at the beginning of a sentence."""
-        return self._sayings.move(move, "name").capitalize()
+        return self._sayings.named_move(move)
 
     def _say(self, key: str, **parts: object) -> str:
         return self._sayings.say("log", "decisions", key, **parts)

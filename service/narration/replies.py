@@ -5,8 +5,7 @@ from __future__ import annotations
 from service.narration.sayings import Sayings
 from service.sessions.bookmarks import Kept, Went
 from service.sessions.facts import Advised, Asked, Fact, Lesson, PauseSet, Stepped, Undone, Viewed, changes_of
-from service.sessions.scheduler.playback_speed import PaceSet
-from service.sessions.scheduler.playback_speed import said as said_pace
+from service.sessions.scheduler.playback_speed import MAX, Pace, PaceSet
 from sim.actions import Add, Adjust, Drive, Prefer, Remove, Reset, Scenario, Set, SetCount, SetMode
 from sim.events import EventType
 from sim.plan import traits_of
@@ -48,7 +47,7 @@ class Replies:
                 return self._say(f"{key}_already" if before is paused else key)
             case PaceSet(before=before, after=after):
                 key = "pace_already" if before == after else "pace"
-                return self._say(key, before=said_pace(before), after=said_pace(after))
+                return self._say(key, before=speed(self._sayings, before), after=speed(self._sayings, after))
             case Stepped(ticks=ticks):
                 key = "step_one" if len(ticks) == 1 else "step_many"
                 return self._say(key, count=len(ticks), tick=fact.first_tick + len(ticks))
@@ -127,7 +126,7 @@ class Replies:
 
     def _value(self, parameter: str, value: object) -> object:
         """A value as people know it."""
-        return self._sayings.planner(str(value)) if parameter == "planner" else value
+        return value_of(self._sayings, parameter, value)
 
     def _preferring(self, applied: Applied) -> str:
         config = applied.state.config
@@ -175,14 +174,36 @@ class Replies:
     def _diff(self, changes: tuple[Change, ...]) -> str:
         """The counts that changed."""
         told = [
-            self._say("diff", path=change.path, before=change.before, after=change.after)
+            self._say("diff", path=self._path(change.path), before=change.before, after=change.after)
             for change in changes
             if type(change.before) is int and not change.path.startswith("config.")
         ]
         return ", ".join(told)
 
+    def _path(self, path: str) -> str:
+        """What a figure is called."""
+        key = path if path in self._sayings.words("replies", "paths") else "other"
+        return self._sayings.say("replies", "paths", key, path=path)
+
     def _say(self, key: str, **parts: object) -> str:
         return self._sayings.say("replies", key, **parts)
+
+
+def speed(sayings: Sayings, pace: Pace) -> str:
+    """A playback speed: `4×`."""
+    if pace == MAX:
+        return sayings.say("replies", "speed", "max")
+    return sayings.say("replies", "speed", "times", speed=sayings.number(float(pace)))
+
+
+def value_of(sayings: Sayings, parameter: str, value: object) -> object:
+    """The value of a setting as people know it."""
+    if parameter == "planner":
+        return sayings.planner(str(value))
+    known = sayings.words("replies", "values").get(parameter, {}).get(value)
+    if known is not None:
+        return known
+    return sayings.number(value, "") if isinstance(value, float) else value
 
 
 def _grouped(facts: tuple[Fact, ...]) -> list[list[Fact]]:

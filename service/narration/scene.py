@@ -112,7 +112,12 @@ class _Told:
             return self._say("single", thing=self._near(seen[0]))
         counts = {kind: len(self._scene.of(kind)) for kind in PLACEABLE}
         parts = [
-            self._say("counted", count=self._count(count), things=self._noun(kind, count))
+            self._say(
+                "counted",
+                "one" if count == 1 else "many",
+                count=self._count(count),
+                things=self._noun(kind, count),
+            )
             for kind, count in counts.items()
             if count
         ]
@@ -128,7 +133,7 @@ class _Told:
         if threats:
             return self._say("threats", threats=self._sayings.joined(threats))
         key = "clear_to_goal" if scene.reach == scene.cell[1] else "clear"
-        return self._say(key, metres=f"{scene.reach * self._run.config.cell_m:g}")
+        return self._say(key, metres=self._sayings.number(scene.reach * self._run.config.cell_m))
 
     def _threat(self, thing: Detection) -> str:
         key = "threat_moving" if thing.walks else "threat"
@@ -161,11 +166,10 @@ class _Told:
         return self._say(key, told=told, percent=min(99, max(1, round(100 * thing.likelihood))))
 
     def _seconds(self, thing: Detection) -> str:
-        return f"{(thing.ticks or 0) * self._run.config.step_seconds:g}"
+        return self._sayings.number((thing.ticks or 0) * self._run.config.step_seconds)
 
     def _noun(self, kind: Kind, count: int) -> str:
-        one, many = self._sayings.words("scene", "nouns", kind)
-        return str(one if count == 1 else many)
+        return self._sayings.noun("scene", "nouns", kind, count)
 
     def _count(self, count: int) -> str:
         words = self._sayings.words("scene", "counts")

@@ -6,6 +6,7 @@ from service.actions import Ask
 from service.contract.encode.forecast import what_if_json
 from service.narration.naming import Naming
 from service.narration.question_handler import Json, not_so, plain
+from service.narration.replies import value_of
 from service.narration.sayings import Sayings
 from service.refusals import refusals
 from service.sessions.facts import Asked
@@ -110,7 +111,7 @@ class WhatIfs:
         if difference is None:
             return self._say("same_moves", end=self._both(found))
         do, doing = self._moves(difference)
-        seconds = self._say("seconds", seconds=f"{difference.ahead * found.state.config.step_seconds:g}")
+        seconds = self._say("seconds", seconds=self._sayings.number(difference.ahead * found.state.config.step_seconds))
         return self._say(
             self._when(difference, found), do=do, doing=doing, end=self._both(found), time=seconds
         )
@@ -260,7 +261,8 @@ class Conditions:
         if parameter == "planner":
             return self._say("planner", planner=self._sayings.planner(str(value), "with"))
         name = self._sayings.say("whatif", "settings", parameter)
-        return self._say("setting", name=name, value=AS_IT_IS.get(parameter, "") if value is None else value)
+        shown = AS_IT_IS.get(parameter, "") if value is None else value
+        return self._say("setting", name=name, value=value_of(self._sayings, parameter, shown))
 
     def _road(self, run: SimState) -> str:
         road = self._sayings.say("replies", "roads", run.config.road or "none")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any, Protocol
 
 from service.sessions.facts import Answerable, Fact, Lesson
+from service.sessions.scheduler.playback_speed import Pace
 from sim.events import Event
 from sim.forecast import Forecast
 from sim.plan import Decision
@@ -22,6 +23,9 @@ class Words(Protocol):
 
     def event(self, event: Event, run: SimState) -> str:
         """One line of the log."""
+
+    def speed(self, pace: Pace) -> str:
+        """A playback speed: `4×`."""
 
     def planner(self, name: str) -> str:
         """A planner as people know it."""

@@ -10,7 +10,6 @@ from typing import Final
 import pygame
 
 from service.refusals import refusals
-from service.sessions.scheduler.playback_speed import said
 from service.window import theme as look
 from service.window.animation import Showing
 from service.window.canvas import Canvas
@@ -283,7 +282,7 @@ class Window:
             case "road":
                 planner = self.game.loaded.words.planner(run.config.planner)
                 driver = "by hand" if run.mode is Mode.MANUAL else planner
-                standing = "paused" if session.paused else said(session.pace)
+                standing = "paused" if session.paused else self.game.loaded.words.speed(session.pace)
                 return f"{standing}  ·  {driver}  ·  seed {run.config.seed}"
             case "plan":
                 return f"tick {self._showing.planned[0].world.tick}"

@@ -106,11 +106,6 @@ def hurried(pace: Pace) -> bool:
     return pace == MAX or float(pace) > NORMAL
 
 
-def said(pace: Pace) -> str:
-    """A speed for people: `4×`."""
-    return "as fast as possible" if pace == MAX else f"{float(pace):g}×"
-
-
 @lru_cache(maxsize=256)
 def _ticks_a_turn(pace: Pace, step_seconds: float) -> int:
     return max(1, math.ceil(SHORTEST_TURN_S * float(pace) / step_seconds - 1e-9))
