@@ -53,7 +53,12 @@ class _Telling:
         """Why the move was made."""
         decision = self._decision
         if decision.fault is not None:
-            return self._say("fact_fault", tick=decision.tick, planner=decision.planner, fault=self._sayings.fault(decision.fault))
+            return self._say(
+                "fact_fault",
+                tick=decision.tick,
+                planner=decision.planner,
+                fault=self._sayings.fault(decision.fault),
+            )
         if decision.asked is not None and not decision.held_back:
             return self._say("fact_asked", tick=decision.tick, did=self._did(decision.move))
         if decision.measure is not Measure.RANK and decision.asked is None:
@@ -281,5 +286,10 @@ def called(name: str, sayings: Sayings, naming: Naming) -> str:
     if kind == "preference" and what:
         return sayings.say("why", "wish", wish=sayings.say("replies", "preferences", what))
     if kind == "setting" and what:
-        return sayings.say("why", "setting", setting=what.replace("_", " "))
+        return sayings.say(
+            "why",
+            "setting",
+            setting=what.replace("_", " "),
+            name=sayings.value("replies", "parameters", what),
+        )
     return naming.thing(name)

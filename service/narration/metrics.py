@@ -100,7 +100,9 @@ class Figures:
         metres = metrics.distance_m
         if metres < 1000:
             return self._say("distance", distance=self._say("metres", count=round(metres)))
-        return self._say("distance", distance=self._say("kilometres", count=self._sayings.number(metres / 1000, ".1f")))
+        return self._say(
+            "distance", distance=self._say("kilometres", count=self._sayings.number(metres / 1000, ".1f"))
+        )
 
     def _many(self, key: str, count: int) -> str:
         forms = self._sayings.words("metrics", key)

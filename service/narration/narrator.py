@@ -13,6 +13,7 @@ from service.narration.naming import Naming
 from service.narration.outlook import outlook
 from service.narration.replies import Replies, speed
 from service.narration.sayings import Sayings
+from service.resources import DEFAULT_LANGUAGE
 from service.sessions.facts import Answerable, Fact, Lesson
 from service.sessions.scheduler.playback_speed import Pace
 from sim.decide import sense
@@ -43,7 +44,7 @@ class Narrator:
         """Sentences said before, by all they are made of: the same few are said again and again."""
 
     @classmethod
-    def load(cls, code: str = "en", folder: Path | None = None) -> Narrator:
+    def load(cls, code: str = DEFAULT_LANGUAGE, folder: Path | None = None) -> Narrator:
         """A narrator of the language `code`."""
         return cls(Sayings.load(code, folder))
 
@@ -162,7 +163,9 @@ class Narrator:
 
     def silent(self, planner: str, fault: str) -> str:
         """What is said when a planner did not answer in time and a person is to drive."""
-        return self._sayings.say("log", "events", "planner_silent", planner=planner, fault=self._sayings.fault(fault))
+        return self._sayings.say(
+            "log", "events", "planner_silent", planner=planner, fault=self._sayings.fault(fault)
+        )
 
     def done(self, facts: tuple[Fact, ...]) -> str:
         """The reply: what was done, in a sentence for each fact."""

@@ -134,7 +134,7 @@ class Replies:
         said = self._say("prefer", wishes=self._sayings.joined(wishes)) if wishes else self._say("balanced")
         if not wishes or traits_of(config.planner).weighs_costs:
             return said
-        return f"{said} {self._say('weighs_nothing', planner=config.planner)}"
+        return f"{said} {self._say('weighs_nothing', planner=self._sayings.planner(config.planner, 'id'))}"
 
     def _moved(self, key: str, applied: Applied) -> str:
         """Things added or removed: one by its id and place, several by their number."""

@@ -76,8 +76,9 @@ def _filled(other: Any, parts: Mapping[str, str]) -> Any:
 class Sayings:
     """What `prompts/sayings/<code>/*.yaml` holds."""
 
-    def __init__(self, files: dict[str, dict[str, Any]]) -> None:
-        """`files`: what each file holds, by its name without ending."""
+    def __init__(self, files: dict[str, dict[str, Any]], language: str = DEFAULT_LANGUAGE) -> None:
+        """`files`: what each file holds, by its name without ending; `language`: its code."""
+        self.language = language
         self._files = _with_every_kind(files)
         self._words = self._files["words"]
         self._inflects = bool(self._words["inflects"])
@@ -86,13 +87,13 @@ class Sayings:
         self._marks = {} if all(mark == other for mark, other in marks.items()) else str.maketrans(marks)
 
     @classmethod
-    def load(cls, code: str = "en", folder: Path | None = None) -> Sayings:
+    def load(cls, code: str = DEFAULT_LANGUAGE, folder: Path | None = None) -> Sayings:
         """The sayings of a language. Raises `FileNotFoundError` where there are none."""
         place = (folder or prompts_folder() / "sayings") / code
         paths = sorted(place.glob("*.yaml"))
         if not paths:
             raise FileNotFoundError(f"there are no sayings in {place}")
-        return cls({path.stem: yaml.safe_load(path.read_text(encoding="utf-8")) for path in paths})
+        return cls({path.stem: yaml.safe_load(path.read_text(encoding="utf-8")) for path in paths}, code)
 
     def say(self, file: str, *keys: str, **parts: object) -> str:
         """A template, filled, in all its forms. Raises `KeyError` where the language lacks it."""
@@ -170,9 +171,12 @@ class Sayings:
         return of_forms(found) if isinstance(found, dict) else str(found)
 
     def planner(self, name: str, form: str = "name") -> str:
-        """A planner as people know it, as `name` or after `with`; one of another package by its own name."""
+        """A planner as people know it: as `name`, after `with`, or as what is set (`id`).
+
+        One of another package goes by its own name, and so does one whose `id` has no word of its own.
+        """
         known = self._words["planners"].get(canonical(name))
-        return name if known is None else str(known[form])
+        return name if known is None else str(known[form] if form != "id" else known.get(form, name))
 
     def fault(self, text: str) -> str:
         """What a planner did instead of answering, as the simulator words it, in this language."""

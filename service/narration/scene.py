@@ -90,7 +90,11 @@ class _Told:
             return self._say("none_ahead", things=noun, count=self._count(rest))
         told = [self._ahead(ahead, rest), *self._met(ahead)]
         if rest:
-            told.append(self._say("rest", "one" if rest == 1 else "many", count=self._count(rest)))
+            told.append(
+                self._say(
+                    "rest", "one" if rest == 1 else "many", count=self._count(rest), thing=self._noun(kind, 1)
+                )
+            )
         return " ".join(told)
 
     def _ahead(self, ahead: Sequence[Detection], rest: int) -> str:
@@ -148,16 +152,16 @@ class _Told:
             return []
         first = min(threats, key=lambda thing: thing.ticks or 0)
         key = "met_it" if len(ahead) == 1 else "met_moving" if first.walks else "met"
-        return [self._say(key, place=self._naming.place(first.cell), seconds=self._seconds(first))]
+        place, thing = self._naming.place(first.cell), self._noun(first.kind, 1)
+        return [self._say(key, place=place, thing=thing, seconds=self._seconds(first))]
 
     def _near(self, thing: Detection) -> str:
         noun, place = self._say("a", thing.kind), self._naming.place(thing.cell)
         return self._sure(thing, self._say("near", thing=noun, place=place))
 
     def _one(self, thing: Detection) -> str:
-        return self._sure(
-            thing, self._say("held" if thing.held else "one", place=self._naming.place(thing.cell))
-        )
+        key, place = "held" if thing.held else "one", self._naming.place(thing.cell)
+        return self._sure(thing, self._say(key, place=place, thing=self._noun(thing.kind, 1)))
 
     def _sure(self, thing: Detection, told: str, key: str = "sure") -> str:
         """With how sure the sensors are, where they are not; never all of it, nor none."""

@@ -52,6 +52,8 @@ class Help:
 
     def answer(self, asked: Asked) -> Json:
         """See `Answerer.answer`."""
-        examples = self._sayings.joined([self._sayings.quoted(example) for example in self._sayings.examples()])
+        examples = self._sayings.joined(
+            [self._sayings.quoted(example) for example in self._sayings.examples()]
+        )
         text = self._sayings.say("answers", "help", examples=examples)
         return plain(self._sayings, asked.ask, asked.timeline.state, text)

@@ -60,7 +60,7 @@ class WhatIfs:
         except QuestionError as error:
             return plain(self._sayings, ask, timeline.state, not_so(self._sayings, error.code, error.facts))
         except EditError as error:
-            message = refusals().edit(error)
+            message = refusals(self._sayings.language).edit(error)
             told = plain(self._sayings, ask, timeline.state, self._say("cannot", message=message))
             return told | {"evidence": {"code": error.category, "field": error.field, "message": message}}
         text = self._text(ask, found)
@@ -111,7 +111,9 @@ class WhatIfs:
         if difference is None:
             return self._say("same_moves", end=self._both(found))
         do, doing = self._moves(difference)
-        seconds = self._say("seconds", seconds=self._sayings.number(difference.ahead * found.state.config.step_seconds))
+        seconds = self._say(
+            "seconds", seconds=self._sayings.number(difference.ahead * found.state.config.step_seconds)
+        )
         return self._say(
             self._when(difference, found), do=do, doing=doing, end=self._both(found), time=seconds
         )
@@ -141,7 +143,7 @@ class WhatIfs:
         wished = any(isinstance(each.action, Prefer) for each in found.done)
         if not wished or traits_of(planner).weighs_costs or found.real.by_hand:
             return []
-        return [self._sayings.say("replies", "weighs_nothing", planner=planner)]
+        return [self._sayings.say("replies", "weighs_nothing", planner=self._sayings.planner(planner, "id"))]
 
     def _moves(self, difference: Difference) -> tuple[str, str]:
         """What would be done, and what is done instead of it."""
