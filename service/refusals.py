@@ -6,9 +6,11 @@ languages without this file, get English.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from functools import lru_cache
-from typing import Any, Literal
+from types import MappingProxyType
+from typing import Any, Final, Literal
 
 import yaml
 
@@ -19,6 +21,8 @@ from sim.rules.versions import NewerRulesError
 from sim.session.errors import EditError
 from sim.types import KINDS, Kind
 
+_NO_FAULTS: Final[Mapping[str, Any]] = MappingProxyType({})
+
 
 @lru_cache(maxsize=16)
 def refusals(language: str = DEFAULT_LANGUAGE) -> Refusals:
@@ -27,15 +31,56 @@ def refusals(language: str = DEFAULT_LANGUAGE) -> Refusals:
     path = folder / language / "refusals.yaml"
     if language not in {each.name for each in folder.iterdir()} or not path.is_file():
         path = folder / DEFAULT_LANGUAGE / "refusals.yaml"
-    return Refusals(yaml.safe_load(path.read_text(encoding="utf-8")))
+    found = yaml.safe_load(path.read_text(encoding="utf-8"))
+    faults = yaml.safe_load(path.with_name("words.yaml").read_text(encoding="utf-8"))["faults"]
+    return Refusals(found, faults)
+
+
+@lru_cache(maxsize=1)
+def _fault_patterns() -> tuple[tuple[str, re.Pattern[str]], ...]:
+    """How the simulator words each fault of a planner: patterns that find its code and what it names."""
+    path = prompts_folder() / "sayings" / DEFAULT_LANGUAGE / "words.yaml"
+    known: dict[str, str] = yaml.safe_load(path.read_text(encoding="utf-8"))["faults"]
+    return tuple(
+        (code, re.compile(re.sub(r"\\{(\w+)\\}", r"(?P<\1>.+)", re.escape(said))))
+        for code, said in known.items()
+        if code != "other"
+    )
+
+
+def fault_of(text: str) -> tuple[str, dict[str, str]]:
+    """The code of a fault that the simulator has worded, `other` for none that is known, and its parts."""
+    for code, pattern in _fault_patterns():
+        if found := pattern.fullmatch(text):
+            return code, found.groupdict()
+    return "other", {"text": text}
+
+
+class Decimal(float):
+    """A number that is written with the marks of a language."""
+
+    marks: Mapping[int, str]
+
+    def __new__(cls, value: float, marks: Mapping[int, str]) -> Decimal:
+        """`marks`: what stands for the point and the comma."""
+        new = super().__new__(cls, value)
+        new.marks = marks
+        return new
+
+    def __format__(self, spec: str) -> str:
+        """As Python formats it, with these marks."""
+        return super().__format__(spec).translate(self.marks)
 
 
 class Refusals:
     """What is said in one language when something cannot be done."""
 
-    def __init__(self, data: Mapping[str, Any]) -> None:
-        """`data`: what `refusals.yaml` holds."""
+    def __init__(self, data: Mapping[str, Any], faults: Mapping[str, Any] = _NO_FAULTS) -> None:
+        """`data`: what `refusals.yaml` holds; `faults`: what planners do instead of answering."""
         self._data = data
+        self._faults = faults
+        numbers = data["numbers"]
+        self._marks = str.maketrans({",": numbers["thousands"], ".": numbers["decimal"]})
 
     def edit(self, error: EditError) -> str:
         """Why a change of the road cannot be made, as a sentence."""
@@ -84,10 +129,23 @@ class Refusals:
         if name == "kind":
             return self._nouns(str(value))
         if isinstance(value, tuple):
-            return ", ".join(map(str, value))
+            return ", ".join(str(self._worded(each)) for each in value)
+        if name == "fault":
+            return self._fault(str(value))
         if name in ("low", "high") and isinstance(value, float) and value.is_integer():
             return int(value)
-        return value
+        if isinstance(value, float):
+            return Decimal(value, self._marks)
+        return self._worded(value)
+
+    def _worded(self, value: object) -> object:
+        """A value as it is called, where it is a word."""
+        return self._data["values"].get(value, value) if isinstance(value, str) else value
+
+    def _fault(self, text: str) -> str:
+        code, parts = fault_of(text)
+        said = self._faults.get(code, "{text}" if code == "other" else text)
+        return str(next(iter(said.values())) if isinstance(said, dict) else said).format(**parts)
 
     def _nouns(self, kind: str) -> Mapping[str, str]:
         """The words for a kind, made from its names where the language has none of its own."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable
-from functools import lru_cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -47,6 +47,19 @@ class Narrator:
     def load(cls, code: str = DEFAULT_LANGUAGE, folder: Path | None = None) -> Narrator:
         """A narrator of the language `code`."""
         return cls(Sayings.load(code, folder))
+
+    @property
+    def language(self) -> str:
+        """The code of the language."""
+        return self._sayings.language
+
+    def in_language(self, code: str) -> Narrator:
+        """The same in another language; as it is where there are no sayings in that."""
+        return self if code == self.language else _narrator(code) or self
+
+    def failed(self) -> str:
+        """What is said when the simulation has met a defect of its own."""
+        return self._sayings.say("log", "events", "failed")
 
     def decision(self, decision: Decision, run: SimState, forecast: Forecast | None = None) -> str:
         """What the vehicle does at a tick and why, in one line.
@@ -219,6 +232,14 @@ class Narrator:
 
     def _say(self, key: str, **parts: object) -> str:
         return self._sayings.say("log", "decisions", key, **parts)
+
+
+@cache
+def _narrator(code: str) -> Narrator | None:
+    try:
+        return Narrator.load(code)
+    except FileNotFoundError:
+        return None
 
 
 @lru_cache(maxsize=4_096)

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from copy import deepcopy
-from functools import lru_cache
 from pathlib import Path
 from typing import Any, Final, Protocol
 
 import yaml
 
 from service.narration.inflection import Inflected, capital, join_forms, of_forms
+from service.refusals import fault_of
 from service.resources import DEFAULT_LANGUAGE, prompts_folder
 from sim.plan import Option
 from sim.planner_names import canonical
@@ -180,10 +179,8 @@ class Sayings:
 
     def fault(self, text: str) -> str:
         """What a planner did instead of answering, as the simulator words it, in this language."""
-        for code, pattern in _faults():
-            if found := pattern.fullmatch(text):
-                return self.say("words", "faults", code, **found.groupdict())
-        return self.say("words", "faults", "other", text=text)
+        code, parts = fault_of(text)
+        return self.say("words", "faults", code, **parts)
 
     def where(self, cell: Cell) -> str:
         """A cell as people call it: lanes count from 1."""
@@ -246,15 +243,3 @@ class Sayings:
         kinds = movers or [kind_of(name) for name in ids]
         a = self.say("words", "a", kinds[0]) if kinds else ""
         return self.say("words", "reasons", reason, tense, who=who, a=a, place=place)
-
-
-@lru_cache(maxsize=1)
-def _faults() -> tuple[tuple[str, re.Pattern[str]], ...]:
-    """How the simulator words each fault: patterns that find its code and what it names."""
-    path = prompts_folder() / "sayings" / DEFAULT_LANGUAGE / "words.yaml"
-    known: dict[str, str] = yaml.safe_load(path.read_text(encoding="utf-8"))["faults"]
-    return tuple(
-        (code, re.compile(re.sub(r"\\{(\w+)\\}", r"(?P<\1>.+)", re.escape(said))))
-        for code, said in known.items()
-        if code != "other"
-    )

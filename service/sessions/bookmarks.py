@@ -14,6 +14,7 @@ from rapidfuzz import process
 
 from service.actions import Action, Load
 from service.problems import FieldProblem, UnknownName
+from service.refusals import refusals
 from service.store import EntryRecord, Store, StoreError
 from sim.session.edits import Change
 from sim.session.timeline import Timeline
@@ -68,7 +69,9 @@ def with_names(entries: Sequence[EntryRecord], saved: Iterable[Moment]) -> Seque
     return [replace(entry, names=names.get(entry.sequence, {})) for entry in entries]
 
 
-async def told_where(store: Store, problem: UnknownName, actions: Sequence[Action]) -> UnknownName:
+async def told_where(
+    store: Store, problem: UnknownName, actions: Sequence[Action], language: str
+) -> UnknownName:
     """The problem, telling also of another session in which there is such a moment."""
     (error,) = problem.errors
     action = actions[int(error.field.split(".")[1])]
@@ -79,13 +82,17 @@ async def told_where(store: Store, problem: UnknownName, actions: Sequence[Actio
     if not found:
         return problem
     session = found[0].session_name or found[0].session
-    sentence = f"{problem.detail} It is saved in session {session}; a name is found where it was given."
+    elsewhere = refusals(language).session("saved_elsewhere", session=session)
+    sentence = f"{problem.detail} {elsewhere}"
     return UnknownName(sentence, errors=[FieldProblem(error.field, sentence)], **problem.more)
 
 
-def unknown(name: str, names: Iterable[str], where: str) -> UnknownName:
+def unknown(name: str, names: Iterable[str], where: str, language: str) -> UnknownName:
     """The problem of a name that nothing was saved under, with the nearest there are."""
     near = [found for found, _, _ in process.extract(name, list(names), limit=MOST_TOLD)]
-    told = f" There is: {', '.join(near)}." if near else " Nothing has been saved here yet."
-    sentence = f"Nothing was saved as {name!r}.{told}"
+    words = refusals(language)
+    if near:
+        sentence = words.session("not_saved_near", name=name, near=tuple(near))
+    else:
+        sentence = words.session("not_saved", name=name)
     return UnknownName(sentence, errors=[FieldProblem(where, sentence)], suggestions=near)

@@ -28,6 +28,7 @@ from service.problems import (
     UnknownSession,
 )
 from service.refusals import refusals
+from service.resources import DEFAULT_LANGUAGE
 from service.sessions.bookmarks import with_names
 from service.sessions.fork import way_of
 from service.sessions.persistence.replay import ReplayError, repeat, replay
@@ -100,6 +101,7 @@ class SessionManager:
         config: Config,
         *,
         paused: bool,
+        language: str = DEFAULT_LANGUAGE,
         recorded: Recorded | None = None,
         answer: Callable[[Session], KeptAnswer] | None = None,
     ) -> Session:
@@ -119,6 +121,7 @@ class SessionManager:
                 config=asdict(config),
                 paused=paused and recorded is None,
                 tick=recorded.tick if recorded else 0,
+                language=language,
             )
             # Looking for a road that can be driven may take many draws.
             timeline = await asyncio.to_thread(Timeline, config) if config.solvable else Timeline(config)
@@ -160,11 +163,11 @@ class SessionManager:
 
         Raises a `ProblemError`; for a tick that has not come yet it names `field`.
         """
-        check_ticks(actions, self._around.settings.max_step_ticks)
+        check_ticks(actions, self._around.settings.max_step_ticks, parent.language)
         now = parent.timeline.tick
         tick = now if at_tick is None else at_tick
         if tick > now:
-            message = f"has not come yet: it is tick {now}"
+            message = refusals(parent.language).session("tick_not_come", now=now)
             raise Invalid(f"{field}: {message}.", errors=[FieldProblem(field, message)])
         self._check_room()
         self._making += 1
@@ -180,6 +183,7 @@ class SessionManager:
                 paused=begins,
                 tick=tick,
                 branch=way.branch,
+                language=parent.language,
             )
             session = Session(record, way.timeline, self._around)
             session.begin_with(way)
@@ -187,7 +191,9 @@ class SessionManager:
             said = [] if pace == NORMAL else [(Set(parameter="playback_speed", value=pace),)]
             entries: list[EntryRecord] = []
             if all(isinstance(action, CHANGES_NOTHING) for action in actions):
-                draft = Draft(session.timeline, session.paused, session.history, session.pace)
+                draft = Draft(
+                    session.timeline, session.paused, session.history, session.pace, session.language
+                )
                 draft.perform(session.sequence + 1, actions)  # possible, and nothing to be kept, as ever
                 actions = ()
             for each in (*said, *((actions,) if actions else ())):
@@ -199,7 +205,7 @@ class SessionManager:
                         actions=contract.dump(each),
                     )
                 )
-                again = partial(repeat, session, self._around.words, entries[-1])
+                again = partial(repeat, session, session.words, entries[-1])
                 await to_thread.run_sync(patiently(STEPS_S, again))
             session.record = replace(record, tick=session.timeline.tick)
             session.paused = session.paused if paused is None else paused
@@ -343,7 +349,7 @@ class SessionManager:
             raise NotRestorable(sequence) from error
         except NewerRulesError as error:
             _LOG.error("a kept session is of newer rules", session=session_id, rules=error.rules)
-            raise NotRestorable(reason=refusals().newer_rules(error, "session")) from error
+            raise NotRestorable(reason=refusals(record.language).newer_rules(error, "session")) from error
         except (ConfigError, TypeError, StoreError) as error:
             _LOG.error("a kept session cannot be replayed", session=session_id, error=str(error))
             raise NotRestorable from error
@@ -357,7 +363,7 @@ class SessionManager:
 
     async def _replay(self, session: Session, recorded: Recorded) -> None:
         try:
-            words, most = self._around.words, self._around.settings.max_recording_ticks
+            words, most = session.words, self._around.settings.max_recording_ticks
             again = partial(replay, session, words, recorded.entries, recorded.tick, most=most)
             await to_thread.run_sync(patiently(REPLAY_S, again))
         except ReplayError as error:

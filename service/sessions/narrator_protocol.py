@@ -15,6 +15,16 @@ from sim.state import SimState
 class Words(Protocol):
     """Facts → words; nothing is said that is not in the facts."""
 
+    @property
+    def language(self) -> str:
+        """The code of the language."""
+
+    def in_language(self, code: str) -> Words:
+        """The same in another language."""
+
+    def failed(self) -> str:
+        """What is said when the simulation has met a defect of its own."""
+
     def decision(self, decision: Decision, run: SimState, forecast: Forecast | None = None) -> str:
         """What the vehicle does at a tick and why, `run` being the state it was decided in.
 

@@ -27,17 +27,22 @@ def outcome_of(
     sequence: int,
     notice: Notice | None = None,
 ) -> Outcome:
-    """The outcome of an utterance that was said in a state; `notice` is told after what was done."""
+    """The outcome of an utterance that was said in a state; `notice` is told after what was done.
+
+    `words`: the session's; the reply is in the language of the utterance, the log in that of the session.
+    """
+    own = words if utterance.language is None else words.in_language(utterance.language)
     if utterance.supposes is not None:
         facts = tuple(
             replace(fact, supposes=utterance.supposes) if isinstance(fact, Asked) else fact for fact in facts
         )
-    answers = [words.answer(fact) for fact in facts if isinstance(fact, Answerable)]
-    done = reply(words, facts, answers)
+    answers, said = _told(own, facts)
+    done = said if own is words or not _changing(facts) else _told(words, facts)[1]
+    noticed = "" if notice is None else notice.text if own is words else own.event(notice.event, notice.run)
     return Outcome(
         utterance=utterance,
         facts=facts,
-        reply=done if notice is None else f"{done} {notice.text}".strip(),
+        reply=f"{said} {noticed}".strip() if noticed else said,
         done=done,
         notice=notice,
         answer=answers[-1] if answers else None,
@@ -45,6 +50,17 @@ def outcome_of(
         changes=changes_of(facts),
         before=before,
     )
+
+
+def _told(words: Words, facts: tuple[Fact, ...]) -> tuple[list[dict[str, Any]], str]:
+    """The answers, and all that is said."""
+    answers = [words.answer(fact) for fact in facts if isinstance(fact, Answerable)]
+    return answers, reply(words, facts, answers)
+
+
+def _changing(facts: tuple[Fact, ...]) -> bool:
+    """Whether there is more than answers, which the log has a line of."""
+    return any(not isinstance(fact, Answerable) for fact in facts)
 
 
 def entry_of(outcome: Outcome, tick: int, draft: Draft) -> EntryRecord:

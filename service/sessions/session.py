@@ -20,7 +20,6 @@ from anyio import to_thread
 from service.actions import Action, Advise, Ask, Hide, Show
 from service.contract.encode.state import Standing, state_json
 from service.problems import NotSaved, UnknownName, UnknownSession
-from service.resources import DEFAULT_LANGUAGE
 from service.server_timing import part as timed
 from service.sessions.bookmarks import told_where
 from service.sessions.conversation import Conversation
@@ -99,6 +98,7 @@ class Session:
         self._asking = Asking(self._planned)
         self.outlooks = Outlooks(lambda: self.run, self._tell_outlook)
         self._around = around
+        self.words = around.words.in_language(record.language)
         self._turn = asyncio.Lock()
         self._changing = False
         self._tick_due = False
@@ -112,6 +112,11 @@ class Session:
     def id(self) -> str:
         """The session's unguessable id."""
         return self.record.id
+
+    @property
+    def language(self) -> str:
+        """The code of the language that its log and narration are in."""
+        return self.record.language
 
     @property
     def run(self) -> SimState:
@@ -194,7 +199,7 @@ class Session:
     def _hand_over(self, silence: PlannerSilentError) -> None:
         """Let a person drive, as a change like any other: a replay does not ask that planner again."""
         self._changing = True  # no tick until it is done
-        text = self._around.words.silent(silence.planner, silence.fault)
+        text = self.words.silent(silence.planner, silence.fault)
         task = asyncio.ensure_future(self._handed_over(text))
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
@@ -207,9 +212,7 @@ class Session:
         """A defect of the world's rules: stand still and say so, rather than fail twice a second."""
         _LOG.error("session paused after a failed tick", session=self.id, error=repr(error))
         self.paused = True
-        line = self._line(
-            self.timeline.tick, "failed", "The simulation met a defect of its own and has been paused."
-        )
+        line = self._line(self.timeline.tick, "failed", self.words.failed())
         self._publish_changed(None, line.text, (), [line])
 
     @property
@@ -238,8 +241,8 @@ class Session:
         """Whether these would be done, and change something; long work is taken to be possible."""
         return possible(self._draft(), self.sequence, actions)
 
-    def _draft(self, language: str = DEFAULT_LANGUAGE) -> Draft:
-        return Draft(self.timeline, self.paused, self.history, self.pace, language)
+    def _draft(self, language: str | None = None) -> Draft:
+        return Draft(self.timeline, self.paused, self.history, self.pace, language or self.language)
 
     @asynccontextmanager
     async def held(self, terms: Terms) -> AsyncIterator[None]:
@@ -260,7 +263,8 @@ class Session:
         Raises a `ProblemError`; the session is then as it was.
         """
         if isinstance(utterance, Utterance):
-            check_ticks(utterance.actions, self._around.settings.max_step_ticks)
+            language = utterance.language or self.language
+            check_ticks(utterance.actions, self._around.settings.max_step_ticks, language)
         task = asyncio.ensure_future(self._change(utterance, dry_run, terms))
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
@@ -315,7 +319,9 @@ class Session:
                 return await to_thread.run_sync(draft.perform, sequence, actions)
             return draft.perform(sequence, actions)
         except UnknownName as problem:
-            raise await told_where(self._around.store, problem, utterance.actions) from None
+            raise await told_where(
+                self._around.store, problem, utterance.actions, utterance.language or self.language
+            ) from None
 
     async def _told(
         self,
@@ -328,8 +334,9 @@ class Session:
         """The outcome in words; beside the event loop where that takes long. `event`: of the draft's road."""
         notice = None
         if event is not None and draft is not None:
-            notice = Notice(event, self._around.words.event(event, draft.timeline.state))
-        told = partial(outcome_of, self._around.words, self.run, utterance, facts, sequence, notice)
+            run = draft.timeline.state
+            notice = Notice(event, self.words.event(event, run), run)
+        told = partial(outcome_of, self.words, self.run, utterance, facts, sequence, notice)
         if not long_to_answer(self.run.config.planner, facts):
             return told()
         return await off_loop(any(asks_others(timeline) for timeline in asked_about(facts)), QUESTION_S, told)
@@ -400,7 +407,7 @@ class Session:
         return self._write(self._worded(run, part)) if part.events else []
 
     def _worded(self, run: SimState, part: Applied | StepResult) -> list[tuple[Event, str]]:
-        return [(event, self._around.words.event(event, run)) for event in part.events]
+        return [(event, self.words.event(event, run)) for event in part.events]
 
     def _write(self, worded: list[tuple[Event, str]]) -> list[LogEvent]:
         return [self.log.add(event.tick, event.type, text, event.ids, event.cell) for event, text in worded]
@@ -413,7 +420,7 @@ class Session:
     def _tell_outlook(self, event: Event) -> None:
         """That a road which began by itself has no way through; once that is found out."""
         if not self._ended:
-            line = self._outlook_line(Notice(event, self._around.words.event(event, self.run)))
+            line = self._outlook_line(Notice(event, self.words.event(event, self.run), self.run))
             self._publish_changed(None, line.text, (), [line])
 
     def _outlook_line(self, notice: Notice) -> LogEvent:
@@ -428,7 +435,7 @@ class Session:
     def _publish_tick(self, before: SimState, tick: StepResult, lines: Sequence[LogEvent]) -> None:
         def message() -> bytes:
             decision = tick.decision
-            taken, words = tick.of(), self._around.words
+            taken, words = tick.of(), self.words
             narration = None if taken is None else words.decision(taken.decision, before, taken.forecast)
             return tick_message(
                 self.sequence, lambda: self.standing, before, tick.state, decision, narration, lines

@@ -238,7 +238,7 @@ class Draft:
 
     def _rewind(self, position: int, ticks: int) -> Went:
         before = self.timeline.state
-        go_back(self.timeline, ticks, f"actions.{position}.ticks")
+        go_back(self.timeline, ticks, f"actions.{position}.ticks", self._language)
         return self._went(before, len(self.timeline.entries))
 
     def _save(self, sequence: int, position: int, name: str) -> Kept:
@@ -253,7 +253,7 @@ class Draft:
     def _load(self, position: int, name: str) -> Went:
         moment = self.history.saved.get(name)
         if moment is None:
-            raise unknown(name, self.history.saved, f"actions.{position}.name")
+            raise unknown(name, self.history.saved, f"actions.{position}.name", self._language)
         before, log = self.timeline.state, self.timeline.entries
         self.timeline = moment.timeline.copy()
         return self._went(before, log.common_prefix_length(self.timeline.entries), name)
@@ -330,10 +330,10 @@ def ticks_to_run(actions: Sequence[Action]) -> int:
     return sum(action.ticks for action in actions if isinstance(action, StepTicks))
 
 
-def check_ticks(actions: Sequence[Action], most: int) -> None:
+def check_ticks(actions: Sequence[Action], most: int, language: str = DEFAULT_LANGUAGE) -> None:
     """Raise `Invalid` where an utterance would step further than is run at once."""
     if ticks_to_run(actions) > most:
-        sentence = f"At most {most} ticks can be run at once."
+        sentence = refusals(language).session("too_many_ticks", most=most)
         raise Invalid(sentence, errors=[FieldProblem("ticks", sentence)])
 
 

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import Any
 
 from service.actions import Action
-from service.resources import DEFAULT_LANGUAGE
 from service.sessions.facts import Fact, Stepped
 from sim.events import Event
 from sim.session.edits import Change
@@ -21,8 +20,8 @@ class Utterance:
     text: str | None = None
     supposes: str | None = None
     """what its questions were said to be about, beyond their keys (`Asked.supposes`)"""
-    language: str = DEFAULT_LANGUAGE
-    """the language in which it is refused, where it cannot be done"""
+    language: str | None = None
+    """the language in which it is answered or refused; None is the session's"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +30,8 @@ class Notice:
 
     event: Event
     text: str
+    run: SimState
+    """the state it is about"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -46,7 +47,7 @@ class Outcome:
     before: SimState | None = None
     """the state in which it was said"""
     done: str = ""
-    """the reply without the notice: what a replay says again"""
+    """what was done, in the session's language and without the notice: what a replay says again"""
     notice: Notice | None = None
 
     @property

@@ -12,6 +12,8 @@ from dataclasses import dataclass, field, replace
 from datetime import datetime
 from typing import Any, Protocol
 
+from service.resources import DEFAULT_LANGUAGE
+
 
 class StoreError(Exception):
     """The store could not do it; the message is for whoever runs the service."""
@@ -39,7 +41,7 @@ class SessionRecord:
 
     `number` orders sessions by age and is given by the store; `config` is JSON values; `paused` is
     how the session began. `tick` is where the clock stood when last written: at the beginning or at a
-    graceful stop. `branch` is what a fork has from its parent.
+    graceful stop. `branch` is what a fork has from its parent; `language` is that of its log and narration.
     """
 
     id: str
@@ -50,6 +52,7 @@ class SessionRecord:
     tick: int = 0
     number: int = 0
     branch: Branch | None = None
+    language: str = DEFAULT_LANGUAGE
 
     def numbered(self, number: int) -> SessionRecord:
         """The same record under the store's number."""

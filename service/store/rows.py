@@ -7,6 +7,7 @@ from typing import Any
 
 from sqlalchemy import Row
 
+from service.resources import DEFAULT_LANGUAGE
 from service.store.base import Branch, EntryRecord, KeptAnswer, SessionRecord, SnapshotRecord
 
 
@@ -27,6 +28,7 @@ def session_values(record: SessionRecord) -> dict[str, Any]:
         "config": dict(record.config),
         "paused": record.paused,
         "tick": record.tick,
+        "language": record.language,
     } | (shared or {})
 
 
@@ -50,6 +52,7 @@ def record_of(row: Row[Any]) -> SessionRecord:
         tick=row.tick,
         number=row.number,
         branch=branch,
+        language=row.language or DEFAULT_LANGUAGE,
     )
 
 

@@ -91,7 +91,7 @@ async def rewind(
     def told(outcome: Outcome) -> Response:
         return json_response(result_json(outcome, None, False), headers=etag(outcome.sequence))
 
-    return told(await session.change(to_tick(body.tick), terms=terms(told)))
+    return told(await session.change(to_tick(body.tick, session.language), terms=terms(told)))
 
 
 @router.get(

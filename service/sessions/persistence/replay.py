@@ -148,7 +148,7 @@ class Replay:
         self.run_to(entry.tick)
         if entry.paused is not None:
             session.paused = entry.paused
-        draft = Draft(session.timeline, session.paused, session.history, session.pace)
+        draft = Draft(session.timeline, session.paused, session.history, session.pace, session.language)
         facts = draft.perform(entry.sequence, said)
         before = session.run
         session.footing.owe(draft.timeline.worked, 1)

@@ -43,7 +43,7 @@ def woken(
         said = "a session is done again from all of its log; whoever asked for it waits, nobody else"
         _LOG.info(said, session=record.id, entries=len(entries), reason=why)
     session = Session(record, Timeline(saved_config(record.config)), around)
-    replay(session, around.words, entries, record.tick)
+    replay(session, session.words, entries, record.tick)
     return session, unfit
 
 
@@ -54,5 +54,5 @@ def _from(
     session = Session(record, frozen.timeline, around)
     frozen.give(session)
     session.footing.seen = frozen.timeline.worked
-    replay(session, around.words, entries, record.tick, first=position)
+    replay(session, session.words, entries, record.tick, first=position)
     return session
