@@ -11,7 +11,7 @@ from service.actions import Ask
 from service.narration import Narrator
 from service.sessions.facts import Asked
 from sim.types import Move
-from tests.sim.explain.moments import moments
+from tests.support.moments import moments
 
 COUNTS = {"priority": 1_000, "bfs": 200, "dijkstra": 60, "astar": 60}
 KINDS = ("why", "why_not", "what_if", "scene", "next", "confidence", "metrics", "status")

@@ -22,8 +22,8 @@ from sim import planner_names
 from sim.actions import SetMode
 from sim.config import Config
 from sim.types import Mode
-from tests.sim.plan import faulty_planners
-from tests.sim.plan.hostile_planners import HOSTILE
+from tests.support import faulty_planners
+from tests.support.hostile_planners import HOSTILE
 
 
 class _Counting(WheelClock):

@@ -4,7 +4,7 @@ Bodies are boxes parallel to the lanes, their sizes in cells. Within a tick ever
 line from the centre of one cell to the centre of another (or stays), all by the same share of their way at
 the same time; so where one is, seen from another, is a straight line too, and the time of their first contact
 follows from two intervals: swept boxes in relative motion (C. Ericson, *Real-Time Collision Detection*,
-Morgan Kaufmann 2005, section 5.5.8). The drawing shows these boxes and no others; `tests/sim/contacts.py`
+Morgan Kaufmann 2005, section 5.5.8). The drawing shows these boxes and no others; `tools/contacts.py`
 lists every contact.
 
 The sizes are chosen so that the half-sums of any vehicle with anything else are at most a cell together: then

@@ -8,9 +8,8 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.browser.conftest import Visit
-from tests.browser.test_accessibility import violations
-from tests.browser.test_layout import FAINT_TEXT
 from tests.browser.visitor import Visitor, until
+from tests.support.axe import FAINT_TEXT, violations
 
 PHONES: list[dict[str, Any]] = [
     {"viewport": {"width": 360, "height": 740}, "has_touch": True, "is_mobile": True},

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import os
 import queue
 import re
 import signal
 import socket
 import subprocess
-import sys
 import threading
 import time
 from collections.abc import Iterator
@@ -23,16 +21,7 @@ from typer.testing import CliRunner
 from service.app import create_app
 from service.cli.main import cli, warmed
 from service.settings import Settings
-
-ROOT = Path(__file__).parents[2]
-COMMAND = [sys.executable, "-m", "service"]
-ENVIRONMENT = {**os.environ, "PYTHONPATH": os.environ.get("PYTHONPATH", str(ROOT)), "PYTHONUNBUFFERED": "1"}
-
-
-def run(*arguments: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [*COMMAND, *arguments], capture_output=True, text=True, timeout=300, cwd=ROOT, env=ENVIRONMENT
-    )
+from tests.support.command import COMMAND, ENVIRONMENT, ROOT, run
 
 
 @contextmanager

@@ -24,7 +24,7 @@ from service.cli.watch import lines
 from service.client import Changed, Client, Gone, LogEvent, Message, Session, SessionSummary, Standing
 from service.client.messages import Hello
 from service.settings import Settings
-from tests.cli.test_cli import COMMAND, ENVIRONMENT, ROOT, run
+from tests.support.command import COMMAND, ENVIRONMENT, ROOT, run
 from tests.support.service_process import ServiceProcess
 
 COMMANDS = ("serve", "say", "watch", "replay", "sessions", "doctor", "check-planner", "language-eval")

@@ -1,30 +1,22 @@
 """Recordings, databases and links that older rules made are what they were: each tick, and how they go on.
 
 The folders under `tests/data` are named by the version of the rules; each was written once, by the code of
-that time (`tests.compat.make`), and nothing in it may change.
+that time (`tools.make_compat_data`), and nothing in it may change.
 """
 
 from __future__ import annotations
 
-import json
-import shutil
 import sqlite3
-from collections.abc import AsyncIterator, Iterator
-from contextlib import asynccontextmanager, contextmanager
 from pathlib import Path
-from typing import Any
 
-import httpx
 import pytest
 
-from service.app import create_app
 from service.http.session_json import PREFIX
-from service.settings import Settings
 from sim.planner_names import canonical
 from sim.session.timeline import Timeline
-from tests.compat.make import summed
+from tests.support.kept_data import ROOT, Json, Opened, kept, opened
+from tools.make_compat_data import summed
 
-ROOT = Path(__file__).parents[1] / "data"
 VERSIONS = ("v1", "v2")
 RECORDINGS = [
     (version, path.stem)
@@ -34,67 +26,8 @@ RECORDINGS = [
 ]
 
 
-Json = dict[str, Any]
-
-
-def kept(version: str, *parts: str) -> Json:
-    """What a file of a version's folder holds."""
-    *folders, name = parts
-    return dict(json.loads(ROOT.joinpath(version, *folders, f"{name}.json").read_text()))
-
-
 LINKS = [(version, name) for version in VERSIONS for name in kept(version, "links")]
 KEPT = [(version, name) for version in VERSIONS for name in kept(version, "kept.expected")]
-
-
-class Opened:
-    """A service with sessions of before, and what is asked of it."""
-
-    def __init__(self, client: httpx.AsyncClient, manager: Any) -> None:
-        self.client = client
-        self._manager = manager
-
-    async def make(self, **body: Any) -> Json:
-        made = await self.client.post(f"{PREFIX}/sessions", json=body)
-        assert made.status_code == 201, made.text
-        return dict(made.json())
-
-    async def timeline(self, session: str) -> Timeline:
-        return (await self._manager.get(session)).timeline.copy()  # type: ignore[no-any-return]
-
-    async def ask(self, session: str, part: str, **body: Any) -> Json:
-        path = f"{PREFIX}/sessions/{session}/{part}"
-        answer = await (self.client.post(path, json=body) if body else self.client.get(path))
-        assert answer.is_success, answer.text
-        return dict(answer.json())
-
-
-@asynccontextmanager
-async def opened(database: str = "memory:") -> AsyncIterator[Opened]:
-    app = create_app(Settings(database=database))
-    transport = httpx.ASGITransport(app)
-    async with (
-        app.router.lifespan_context(app),
-        httpx.AsyncClient(transport=transport, base_url="http://service") as client,
-    ):
-        yield Opened(client, app.state.context.manager)
-
-
-@contextmanager
-def copied(version: str, folder: Path) -> Iterator[Path]:
-    """A copy of a version's database, which itself stays as it is."""
-    original, copy = ROOT / version / "kept.sqlite", folder / "kept.sqlite"
-    before = original.read_bytes()
-    shutil.copy(original, copy)
-    yield copy
-    assert original.read_bytes() == before
-
-
-@pytest.fixture
-def database(version: str, tmp_path: Path) -> Iterator[Path]:
-    """The copy for a test that has a version."""
-    with copied(version, tmp_path) as copy:
-        yield copy
 
 
 def check(timeline: Timeline, wanted: Json) -> None:

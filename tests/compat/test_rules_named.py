@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 from service.cli.main import cli
 from service.http.session_json import PREFIX
 from sim.rules.versions import RULES
-from tests.compat.test_kept_files import ROOT, Json, copied, kept, opened
+from tests.support.kept_data import ROOT, Json, copied, kept, opened
 
 OLD = "v1"
 """What is told of older rules is tried on what was kept under the first."""

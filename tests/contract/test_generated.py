@@ -1,4 +1,4 @@
-"""A short run of `tests.contract.generated` on the real service: every call, every check, from one seed."""
+"""A short run of `tools.generated_requests` on the real service: every call, every check, from one seed."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from typing import Any
 
 import pytest
 
-from tests.contract import generated
 from tests.contract.document import document
 from tests.contract.running import Report, Tally, Tool, serving
 from tests.contract.whole import Part, Whole
+from tools import generated_requests as generated
 
 pytest.importorskip("schemathesis")
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from tests.faults import kill
 from tests.support.postgres import Server
+from tools import kill
 
 
 def test_killed_it_loses_nothing(tmp_path: Path) -> None:

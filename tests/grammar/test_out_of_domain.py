@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from service.grammar import Language, Refused
-from tests.grammar.out_of_domain import sentences
+from tools.out_of_domain import sentences
 
 
 def test_nothing_out_of_domain_is_understood_or_asked_about(language: Language) -> None:

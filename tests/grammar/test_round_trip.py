@@ -8,7 +8,7 @@ from service.actions import load
 from service.grammar import Language, Understood
 from service.grammar.corpus import sentences
 from service.grammar.sentences import Unsayable, number, quoted
-from tests.grammar.random_actions import failures
+from tests.support.random_actions import failures
 
 
 def test_random_actions_come_back(language: Language) -> None:

@@ -16,7 +16,7 @@ from service.grammar.makes import MAX_PIECES, SKIPPED, Make, ends_of_pieces, fam
 from service.grammar.parse_types import Refused
 from service.grammar.topic import ALONE
 from service.grammar.work_budget import MOST_STEPS, READ_STEPS, TOKEN_STEPS, Work
-from tests.grammar.worst_cases import HERE, LONGEST, completing, labelled, reading
+from tools.slow_sentences import HERE, LONGEST, completing, labelled, reading
 
 LAST = READ_STEPS + TOKEN_STEPS * MAX_TOKENS
 """Steps of the largest single payment: so much may be spent past the bound."""

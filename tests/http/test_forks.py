@@ -11,30 +11,15 @@ from hypothesis import strategies as st
 
 from service import actions as contract
 from service.http.routes.links import MOST_CARRIED, Named, opened
-from service.problems import DoesNotFit, Invalid, NotAvailable, NotSaved, ProblemError
+from service.problems import DoesNotFit, Invalid, NotAvailable, NotSaved
 from service.sessions.persistence.replay import replay
-from service.sessions.session import Session
 from service.store import EntryRecord, MemoryStore, StoreError
-from tests.sessions.test_rewind import SAID, anew
+from tests.support.fork_talk import TALK, talked
 from tests.support.service import Service as Http
+from tests.support.session_talk import anew
 from tests.support.sessions import ADD, ADD_CARS, UNDO, WORDS, Service, do, fingerprint, potholes
 
 Json = dict[str, Any]
-
-
-async def talked(said: list[tuple[int, list[dict[str, object]]]]) -> tuple[Service, Session]:
-    service = Service()
-    session = await service.session()
-    for ticks, actions in said:
-        service.clock.tick(ticks)
-        try:
-            await do(session, *actions)
-        except ProblemError:
-            continue
-    return service, session
-
-
-TALK = st.lists(st.tuples(st.integers(0, 6), SAID), max_size=8)
 
 
 @settings(max_examples=100, deadline=None)

@@ -19,9 +19,9 @@ from service.app import create_app
 from service.http.middleware.header_limits import MOST_BYTES
 from service.settings import Settings
 from service.store import MemoryStore
-from tests.security.test_security import BEARER, KEY, SESSIONS, asked
 from tests.support.fakes import FewSentences, HandClock
 from tests.support.live_server import Running, running
+from tests.support.strangers import BEARER, KEY, SESSIONS, asked
 
 HEADERS = ("content-security-policy", "x-content-type-options", "referrer-policy", "x-request-id")
 

@@ -6,8 +6,8 @@ import pytest
 from pydantic import ValidationError
 
 from service.settings import Settings
-from tests.security.test_security import SESSIONS, asked, assert_refused
 from tests.support.injections import PAYLOADS, SENTENCES
+from tests.support.strangers import SESSIONS, asked, assert_refused
 
 
 @pytest.mark.parametrize(

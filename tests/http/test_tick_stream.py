@@ -11,7 +11,7 @@ from service.sessions.messages import tick_message
 from sim.config import Config
 from sim.state import SimState
 from sim.transition import step
-from tests.sessions.test_tick_message import TICKS, roads
+from tests.support.tick_roads import TICKS, roads
 
 SENT = {1: "45287be357b9314cdd82bdff1d2bebf9", 2: "c93cb4d0551258ed8c4e9ddb214ee01c"}
 """By version of the rules."""

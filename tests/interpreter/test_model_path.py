@@ -16,7 +16,7 @@ from service.store import MemoryStore
 from tests.interpreter.conftest import Json, Opening, Talk
 from tests.llm.conftest import KEY, Seconds, _no_environment  # noqa: F401 -- a fixture
 from tests.llm.server import HELD, Endpoint, Reply, acts, reply, says, serving
-from tests.llm.test_answers import BROKEN
+from tests.support.broken_answers import BROKEN
 
 GRAMMAR_SAYS = [
     *("add five potholes", "why did you do that?", "remove that pothole", "pause", "make it rain"),

@@ -9,8 +9,8 @@ from sim.transition import step
 from sim.types import Mode, Outcome
 from tests.model.compare import holds, same
 from tests.model.plain import Plain
-from tests.sim.twin_run import braking, courteous
 from tests.support import twin
+from tools.twin_run import braking, courteous
 
 LOCAL = ("priority", "rules")
 """Planners that see the vehicle's row and the one ahead, and so may be seen to repeat themselves."""

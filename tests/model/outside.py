@@ -9,8 +9,8 @@ from pathlib import Path
 
 import httpx
 
-from tests.faults.kill import Service
 from tests.model.following import Follower
+from tools.kill import Service
 
 ASKED = 2_000
 """How often is asked for a line that is told of a little later."""

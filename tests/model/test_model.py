@@ -1,4 +1,4 @@
-"""Short walks of fixed seeds; `python -m tests.model` takes as many as one likes, shortened if wrong.
+"""Short walks of fixed seeds; `python -m tools.model_walks` takes as many as one likes, shortened if wrong.
 
 With `--real` it walks on a process that is killed, which takes too long for every day.
 """

@@ -12,7 +12,7 @@ from service.sessions.facts import Advised
 from sim.hazard_advice import advise
 from sim.hazard_advice.parameters import FRICTION
 from sim.types import Kind
-from tests.sim.hazard_advice.calibration import questions
+from tools.advice_calibration import questions
 
 ADVICES = Advices(Sayings.load())
 NUMBER = re.compile(r"\d+(?:\.\d+)?")

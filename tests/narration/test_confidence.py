@@ -20,10 +20,10 @@ from sim.metrics import Metrics
 from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.types import Mode, Outcome
-from tests.narration.test_narrator import ID, looks_like_sentences
-from tests.sim.explain.calibration import drawn_config
-from tests.sim.perceive.sensors import Missing, registered
 from tests.support.roads import road, run_on
+from tests.support.sensors import Missing, registered
+from tests.support.sentences import ID, looks_like_sentences
+from tools.confidence_calibration import drawn_config
 
 SAYINGS = Sayings.load()
 SURE = Confidences(SAYINGS)

@@ -13,9 +13,9 @@ from sim.actions import Add, Where
 from sim.config import Config
 from sim.session.timeline import Timeline
 from sim.types import Kind, Move, Outcome, kind_of
-from tests.narration.test_narrator import looks_like_sentences
-from tests.sim.perceive.rides import SENSORS, rides
-from tests.sim.perceive.sensors import NAMES, Missing, Phantom, registered
+from tests.support.rides import SENSORS, rides
+from tests.support.sensors import NAMES, Missing, Phantom, registered
+from tests.support.sentences import looks_like_sentences
 
 NARRATOR = Narrator.load()
 AHEAD = (4, 3)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import re
-
 import pytest
 
 from service.actions import Ask
@@ -15,19 +13,11 @@ from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.transition import step
 from sim.types import Mode, Move
-from tests.sim.explain.moments import moments
+from tests.support.moments import moments
 from tests.support.roads import road, run_on
+from tests.support.sentences import ids_in, looks_like_sentences
 
 NARRATOR = Narrator.load()
-ID = re.compile(r"\b(?:pothole|barrier|vehicle|pedestrian)-\d+\b")
-
-
-def looks_like_sentences(text: str) -> bool:
-    return bool(re.fullmatch(r"[A-Z].*[.]", text)) and not re.search(r"[{}]|  |\.\.|None|nan", text)
-
-
-def ids_in(value: object) -> set[str]:
-    return set(ID.findall(repr(value)))
 
 
 def answer(timeline: Timeline, **ask: object) -> dict[str, object]:

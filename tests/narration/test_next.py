@@ -15,9 +15,9 @@ from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.transition import step
 from sim.types import Mode, Move, Outcome
-from tests.narration.test_narrator import ids_in, looks_like_sentences
-from tests.sim.explain.check_what_if import sessions
 from tests.support.roads import road, run_on
+from tests.support.sentences import ids_in, looks_like_sentences
+from tools.check_what_if import sessions
 
 NARRATOR = Narrator.load()
 HOLE = run_on(road(*["........"] * 7, "...o....", "........", "...A...."))

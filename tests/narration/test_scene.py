@@ -17,9 +17,9 @@ from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.transition import step
 from sim.types import PLACEABLE, Kind, Outcome
-from tests.narration.test_narrator import ID, looks_like_sentences
-from tests.sim.explain.moments import moments
+from tests.support.moments import moments
 from tests.support.roads import road, run_on
+from tests.support.sentences import ID, looks_like_sentences
 
 SCENES = Scenes(Sayings.load())
 

@@ -7,15 +7,8 @@ import pytest
 from service.problems import Invalid, UnknownName
 from service.sessions.bookmarks import MOST_NAMES
 from tests.support.service import Service as Http
+from tests.support.session_talk import load, save
 from tests.support.sessions import ADD, ADD_CARS, UNDO, Service, do, potholes
-
-
-def save(name: str) -> dict[str, object]:
-    return {"do": "save", "name": name}
-
-
-def load(name: str) -> dict[str, object]:
-    return {"do": "load", "name": name}
 
 
 async def test_saved_and_loaded_and_taken_back() -> None:

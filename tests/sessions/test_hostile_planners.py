@@ -14,8 +14,8 @@ import pytest
 
 from sim import planner_names
 from sim.plan.sandbox import answer_cache, worker
-from tests.sim.plan import faulty_planners
-from tests.sim.plan.hostile_planners import HOSTILE, POSING, payload_path
+from tests.support import faulty_planners
+from tests.support.hostile_planners import HOSTILE, POSING, payload_path
 from tests.support.service import Service
 
 MADE = "/api/v1/sessions"

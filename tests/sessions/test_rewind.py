@@ -11,30 +11,10 @@ from hypothesis import strategies as st
 from service.problems import Invalid, NothingToUndo, ProblemError
 from service.sessions.persistence.recording import recording_json
 from service.sessions.rewind import to_tick
-from service.sessions.session import Session
 from service.store import EntryRecord
-from sim.session.timeline import Timeline
-from sim.state import SimState
 from tests.support.service import Service as Http
-from tests.support.sessions import ADD, ADD_CARS, PAUSE, REDO, UNDO, Service, do, potholes, recorded
-
-
-def rewind(ticks: int) -> dict[str, object]:
-    return {"do": "rewind", "ticks": ticks}
-
-
-def anew(session: Session) -> SimState:
-    """The state that the present log leads to when it is played from the beginning."""
-    timeline = Timeline(session.timeline.config)
-    entries = list(session.timeline.entries)
-    while True:
-        while entries and entries[0].tick == timeline.tick:
-            entry = entries.pop(0)
-            timeline.apply(entry.sequence, [entry.action])
-        if timeline.tick == session.timeline.tick:
-            assert not entries, "nothing stands in the log that is still to come"
-            return timeline.state
-        timeline.advance()
+from tests.support.session_talk import SAID, anew, rewind
+from tests.support.sessions import ADD, PAUSE, REDO, UNDO, Service, do, potholes, recorded
 
 
 async def test_back_and_on_from_there() -> None:
@@ -122,19 +102,6 @@ async def test_an_old_place_in_time_is_not_run_on_to_after_going_back() -> None:
     await do(session, rewind(15))
     again = await Service(service.store).manager.get(session.id)
     assert (again.timeline.tick, again.run) == (5, session.run)
-
-
-SAID = st.lists(
-    st.one_of(
-        st.sampled_from([ADD, ADD_CARS, PAUSE, UNDO, REDO, UNDO, REDO, {"do": "resume"}, {"do": "reset"}]),
-        st.integers(1, 12).map(rewind),
-        st.sampled_from("ab").map(lambda name: {"do": "save", "name": name}),
-        st.sampled_from("ab").map(lambda name: {"do": "load", "name": name}),
-        st.just({"do": "step", "ticks": 3}),
-    ),
-    min_size=1,
-    max_size=3,
-)
 
 
 @settings(max_examples=150, deadline=None)

@@ -12,14 +12,7 @@ from sim.decide import decide
 from sim.state import SimState
 from sim.transition import step
 from sim.world import World
-
-TICKS = 60
-
-
-def roads() -> list[Config]:
-    small = [Config(seed=seed, rows=14, pedestrians=seed % 3, courtesy=seed % 2 * 0.5) for seed in range(6)]
-    large = Config(seed=7, columns=20, rows=40, pothole_probability=0.4, cell_m=2.5)
-    return [*small, large, Config(seed=8, columns=3, rows=10, barriers=2), Config(seed=9, planner="astar")]
+from tests.support.tick_roads import TICKS, roads
 
 
 def looked_at(before: World, after: World) -> dict[str, object]:

@@ -7,14 +7,14 @@ import subprocess
 import sys
 from pathlib import Path
 
-from tests.sim.recording import SCRIPT, TICKS, digests
+from tests.support.print_digests import SCRIPT, TICKS, digests
 
 ROOT = Path(__file__).parents[2]
 
 
 def replayed(hash_seed: str) -> list[str]:
     done = subprocess.run(
-        [sys.executable, "-m", "tests.sim.recording"],
+        [sys.executable, "-m", "tests.support.print_digests"],
         cwd=ROOT,
         env={**os.environ, "PYTHONHASHSEED": hash_seed},
         capture_output=True,

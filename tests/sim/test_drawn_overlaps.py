@@ -10,9 +10,9 @@ from sim.state import FIRST, SimState
 from sim.transition import transition
 from sim.types import Kind, Mode, Move, Outcome
 from sim.world import World
-from tests.sim.contacts import Case, cases, worlds
-from tests.sim.drawn_overlaps import Found, overlaps, watch
 from tests.support.roads import road, run_on
+from tools.contacts import Case, cases, worlds
+from tools.drawn_overlaps import Found, overlaps, watch
 
 CUTTING = Case(Move.FORWARD_LEFT, Kind.VEHICLE, (-1, 0), 1)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import combinations
 from random import Random
 
@@ -11,7 +10,6 @@ import pytest
 from sim.config import Config
 from sim.decide import deciding_order
 from sim.forecast import Forecast, StepVerdict, predict
-from sim.generation import generate
 from sim.judge import collisions
 from sim.perceive import perceive_truth
 from sim.rules.ego_contacts import REACH, ego_contacts
@@ -27,8 +25,8 @@ from sim.world import World
 from sim.world.grid import bits
 from tests.support import twin
 from tests.support.roads import road, run_on
+from tests.support.two_egos import FIRST, SECOND, drawn
 
-FIRST, SECOND = "av-1", "av-2"
 PLANNERS = {"rules": 300, "priority": 300, "exact": 60, "dijkstra": 20, "astar": 20}
 """Roads that each planner drives."""
 
@@ -89,24 +87,6 @@ def egos_apart(before: World, after: World, *, swept: bool = True) -> bool:
         if one[1] == other[1] or (one == other[::-1] and one[0] != one[1]):
             return False
     return True
-
-
-def drawn(random: Random, planner: str, egos: int = 2, **parts: object) -> SimState:
-    """A random road with several egos in free cells."""
-    columns, rows = random.randint(4, 6), random.randint(7, 11)
-    config = Config(
-        columns=columns,
-        rows=rows,
-        potholes=random.randint(0, 4),
-        vehicles=random.randint(0, 6),
-        pedestrians=random.randint(0, 2),
-        planner=planner,
-        seed=random.getrandbits(32),
-    ).with_parts(**parts)
-    world = generate(config, 1)
-    free = [*bits(world.road.all & ~world.occupied & ~world.road.row(0))]
-    world = replace(world, avs=(world.av, *random.sample(free, egos - 1)))
-    return SimState.start(config, world)
 
 
 def driven(state: SimState, ticks: int = 120) -> list[tuple[SimState, StepResult]]:

@@ -1,10 +1,10 @@
-"""Episodes come out as the version before did, trace and all: a sample of `tests.sim.episodes`."""
+"""Episodes come out as the version before did, trace and all: a sample of `tools.episodes`."""
 
 from __future__ import annotations
 
 import pytest
 
-from tests.sim import episodes
+from tools import episodes
 
 CHEAP = ("layouts", "limit", "mixed", "changed", "by hand")
 SEARCHING = ("mixed", "changed")
@@ -18,7 +18,7 @@ SAMPLE = [
 @pytest.mark.parametrize("group", SAMPLE)
 def test_episodes_are_as_they_were(group: str) -> None:
     assert episodes.hashed(group)[1] == episodes.kept()[group], (
-        f"`python -m tests.sim.episodes --lines {group!r}` prints what differs from the version before"
+        f"`python -m tools.episodes --lines {group!r}` prints what differs from the version before"
     )
 
 

@@ -13,9 +13,9 @@ from sim.config import Collision
 from sim.transition import step
 from sim.types import Kind, Mode, Move, Outcome
 from sim.world import World
-from tests.sim.twin_run import braking, drive_both, random_run
 from tests.support import twin
 from tests.support.roads import run_on, worlds
+from tools.twin_run import braking, drive_both, random_run
 
 
 @pytest.mark.parametrize("part", range(4))

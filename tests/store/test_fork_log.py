@@ -15,10 +15,9 @@ from service.sessions.manager import Recorded
 from service.sessions.persistence.recording import recording_json
 from service.sessions.session import Session
 from service.store import EntryRecord, SqlStore
-from tests.http.test_forks import TALK, talked
-from tests.sessions.test_bookmarks import load, save
-from tests.sessions.test_rewind import SAID, anew, rewind
+from tests.support.fork_talk import TALK, talked
 from tests.support.service import Service as Http
+from tests.support.session_talk import SAID, anew, load, rewind, save
 from tests.support.sessions import ADD, ADD_CARS, CONFIG, UNDO, Service, do, potholes
 
 

@@ -19,8 +19,7 @@ from service.settings import Settings
 from service.store import SqlStore, StoreError
 from service.store.schema import MIGRATIONS
 from service.store.tables import METADATA, VERSION
-
-DATA = Path(__file__).parent.parent / "faults" / "data"
+from tests.support.old_databases import DATA, state_of
 
 
 def version(path: Path) -> str:
@@ -29,16 +28,6 @@ def version(path: Path) -> str:
         return str(connection.execute("SELECT version_num FROM alembic_version").fetchone()[0])
     finally:
         connection.close()
-
-
-async def state_of(url: str, session: str) -> httpx.Response:
-    app = create_app(Settings(database=url))
-    transport = httpx.ASGITransport(app)
-    async with (
-        app.router.lifespan_context(app),
-        httpx.AsyncClient(transport=transport, base_url="http://service") as client,
-    ):
-        return await client.get(f"/api/v1/sessions/{session}/state")
 
 
 def test_the_version_is_that_of_the_last_migration() -> None:

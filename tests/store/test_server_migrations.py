@@ -11,7 +11,7 @@ import asyncpg
 
 from service.store import SqlStore
 from service.store.tables import VERSION
-from tests.store.test_migrations import DATA, state_of
+from tests.support.old_databases import DATA, state_of
 from tests.support.postgres import Server
 
 TABLES = """

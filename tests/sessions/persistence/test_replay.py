@@ -9,32 +9,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from service.grammar.topic import Phrases
 from service.problems import NothingToUndo, NotRestorable, ProblemError
 from service.sessions.session import Session
 from service.store import MemoryStore
-from tests.sessions.test_bookmarks import load, save
-from tests.sessions.test_rewind import SAID
-from tests.support.sessions import ADD, ADD_CARS, REDO, UNDO, Service, do, potholes
-
-NAMES = st.sampled_from([[save("a")], [save("b"), ADD], [load("a")], [ADD_CARS, load("b"), ADD]])
-TALK = st.lists(st.tuples(st.integers(0, 5), st.one_of(SAID, NAMES)), max_size=12)
-
-
-def whole(session: Session) -> dict[str, Any]:
-    return {
-        "run": session.run,
-        "sequence": session.sequence,
-        "pace": session.pace,
-        "entries": list(session.timeline.entries),
-        "done": session.history.done,
-        "undone": session.history.undone,
-        "steps": session.history.steps,
-        "saved": {name: (each.sequence, each.tick) for name, each in session.history.saved.items()},
-        "topic": session.conversation.topic(session.run.world, Phrases()),
-        "mixed": session.mixed,
-        "log": (session.log.last, session.log.latest(400)),
-    }
+from tests.support.sessions import ADD, REDO, UNDO, Service, do, potholes
+from tests.support.snapshots import TALK, whole
 
 
 @settings(max_examples=150, deadline=None)

@@ -13,8 +13,8 @@ from structlog.testing import capture_logs
 from service.sessions.session import Session
 from service.store import MemoryStore, SnapshotRecord, SqlStore, StoreError
 from sim.config import Config
-from tests.sessions.persistence.test_snapshots import all_of, back, compared
 from tests.support.sessions import ADD, UNDO, Service, do
+from tests.support.snapshots import all_of, back, compared
 
 STEP = {"do": "step", "ticks": 40}
 

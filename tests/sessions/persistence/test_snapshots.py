@@ -13,74 +13,19 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from service.problems import NotRestorable, ProblemError
-from service.sessions.fork import way_of
+from service.problems import NotRestorable
 from service.sessions.persistence import snapshots as module
 from service.sessions.persistence.snapshots import UnfitError, opened
 from service.sessions.session import Session
 from service.store import MemoryStore, SnapshotRecord
 from sim.config import Config
-from tests.sessions.persistence.test_replay import TALK, whole
-from tests.sessions.test_bookmarks import load, save
-from tests.sessions.test_rewind import rewind
-from tests.support.sessions import ADD, ADD_CARS, PAUSE, REDO, RESUME, UNDO, Service, do
+from tests.support.session_talk import load, rewind, save
+from tests.support.sessions import ADD, ADD_CARS, UNDO, Service, do
+from tests.support.snapshots import TALK, all_of, back, compared, said
 
 ASK = {"do": "ask", "about": "why"}
-AFTERWARDS = ([UNDO], [UNDO], [REDO], [ADD], [load("a")], [UNDO, ADD], [rewind(2)], [UNDO], [PAUSE], [RESUME])
 
 Said = list[tuple[int, list[dict[str, object]]]]
-
-
-def all_of(session: Session) -> dict[str, Any]:
-    """Whatever a user could see of it, now or later."""
-    footing = session.footing
-    steps = (*session.history.done, *session.history.undone)
-    jumps = [(each.jump.before, each.jump.after) for each in steps if each.jump is not None]
-    return {
-        **whole(session),
-        "paused": (session.paused, footing.paused, footing.tick, footing.trail),
-        "ground": (session.history.ground, session.history.ground_steps, session.history.ground_paused),
-        "past": list(session.timeline.between(0, session.timeline.tick)),
-        "moments": [
-            (name, each.timeline.state, list(each.timeline.entries))
-            for name, each in session.history.saved.items()
-        ],
-        "jumps": [(one.state, other.state, [*one.entries], [*other.entries]) for one, other in jumps],
-        "standing": session.standing,
-        "state": session.state(),
-        "talk": session.conversation.values(),
-        "first line": session.log.first_kept,
-    }
-
-
-async def said(session: Session, actions: list[dict[str, object]]) -> str:
-    try:
-        return await do(session, *actions)
-    except ProblemError as problem:
-        return problem.detail
-
-
-async def back(store: MemoryStore, session: str, *, short: bool, **given: int) -> Session:
-    """The session in a service of its own, of a copy of the store."""
-    copied = deepcopy(store)
-    if not short:
-        copied._snapshots.clear()
-    service = Service(copied, **given)
-    found = await service.manager.get(session)
-    fates = service.manager.keeper.fates
-    assert (fates["used"], fates["unfit"]) == ((1, 0) if short else (0, 0))
-    return found
-
-
-async def compared(store: MemoryStore, session: str, **given: int) -> None:
-    short = await back(store, session, short=True, **given)
-    long = await back(store, session, short=False, **given)
-    assert all_of(short) == all_of(long)
-    for actions in AFTERWARDS:
-        assert await said(short, actions) == await said(long, actions)
-        assert all_of(short) == all_of(long)
-    ways = [way_of(each.id, each.mixed, each.timeline, each.timeline.tick // 2) for each in (short, long)]
-    assert ways[0].branch == ways[1].branch, "what a fork and a link are made of"
 
 
 @settings(max_examples=60, deadline=None)

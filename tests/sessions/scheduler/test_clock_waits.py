@@ -8,7 +8,7 @@ from typing import cast
 import pytest
 
 from service.sessions.scheduler.clock import SLOT_S, WheelClock
-from tests.sessions.scheduler.test_clock import Counter, Time
+from tests.support.clock_time import Counter, Time
 
 
 def test_a_slot_is_waited_for_in_whole_milliseconds_and_never_looked_at_before() -> None:

@@ -12,7 +12,7 @@ import pytest
 
 from sim import planner_names
 from sim.plan.sandbox import answer_cache, worker
-from tests.sim.plan import faulty_planners
+from tests.support import faulty_planners
 from tests.support.service import Service
 
 MADE = "/api/v1/sessions"

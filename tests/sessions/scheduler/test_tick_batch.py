@@ -16,7 +16,7 @@ from service.settings import Settings
 from service.store import MemoryStore, SessionRecord
 from sim.config import Config
 from sim.session.timeline import Timeline
-from tests.sessions.scheduler.test_clock import Time
+from tests.support.clock_time import Time
 from tests.support.fakes import HandClock
 
 WORDS = Narrator.load()

@@ -17,8 +17,8 @@ from sim.state import SimState, StepResult
 from sim.transition import next_world, step
 from sim.types import Kind, Mode, Move, Outcome
 from sim.world import World
-from tests.sim.batch.parity import difference, mixed_configs
 from tests.support.roads import road, run_on, worlds
+from tools.batch_parity import difference, mixed_configs
 
 # What they use is compiled at first use, once in every worker that has one of them.
 pytestmark = pytest.mark.xdist_group("compiled")

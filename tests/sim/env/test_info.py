@@ -11,7 +11,7 @@ from gymnasium.wrappers import RecordEpisodeStatistics
 from gymnasium.wrappers.vector import RecordEpisodeStatistics as RecordStatisticsOfMany
 
 from sim.env import RoadEnv, RoadVectorEnv
-from tests.sim.env.alike import assert_alike
+from tests.support.alike import assert_alike
 
 pytestmark = pytest.mark.xdist_group("compiled")
 

@@ -9,7 +9,7 @@ import pytest
 from gymnasium.vector import SyncVectorEnv
 
 from sim.env import RoadEnv, RoadVectorEnv
-from tests.sim.env.alike import assert_alike
+from tests.support.alike import assert_alike
 
 pytestmark = pytest.mark.xdist_group("compiled")
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from sim.env import RoadEnv, RoadVectorEnv
-from tests.sim.env.alike import assert_alike
+from tests.support.alike import assert_alike
 
 pytestmark = pytest.mark.xdist_group("compiled")
 

@@ -8,8 +8,8 @@ import pytest
 
 from sim.explain import why_not
 from sim.types import Move, Outcome
-from tests.sim.explain.judge import played
-from tests.sim.explain.moments import moments
+from tests.support.intervention_judge import played
+from tests.support.moments import moments
 
 
 @pytest.mark.parametrize(

@@ -18,9 +18,9 @@ from sim.state import SimState
 from sim.statistics import wilson
 from sim.transition import step
 from sim.types import Mode, Move, Outcome
-from tests.sim.explain import calibration
-from tests.sim.explain.moments import moments
+from tests.support.moments import moments
 from tests.support.roads import road, run_on
+from tools import confidence_calibration as calibration
 
 
 def of(state: SimState) -> Confidence:

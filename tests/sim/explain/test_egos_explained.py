@@ -32,8 +32,8 @@ from sim.state import SimState
 from sim.transition import step, transition
 from sim.types import Kind, Mode, Move, Outcome, is_ego
 from sim.world import World
-from tests.sim.test_egos import FIRST, SECOND, drawn
 from tests.support.roads import road, run_on
+from tests.support.two_egos import FIRST, SECOND, drawn
 
 BEHIND = road(".....", ".....", ".....", "..A..", "..A..", ".....")
 """The second ego right behind the first."""

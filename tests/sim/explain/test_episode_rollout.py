@@ -14,7 +14,7 @@ from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.transition import step
 from sim.types import Kind, Mode, Move, Outcome
-from tests.sim.explain.moments import moments
+from tests.support.moments import moments
 from tests.support.roads import road, run_on
 
 WALLED = run_on(road("........", "........", "...oo...", "...A...."))

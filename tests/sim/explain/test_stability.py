@@ -15,7 +15,7 @@ from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.transition import step
 from sim.types import Kind, Move
-from tests.sim.explain.moments import moments
+from tests.support.moments import moments
 
 NARRATOR = Narrator.load()
 FAR_ROWS = 5

@@ -12,8 +12,8 @@ from sim.session.errors import EditError
 from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.types import Move, Outcome
-from tests.sim.explain.check_what_if import checked
 from tests.support.roads import road, run_on
+from tools.check_what_if import checked
 
 NEAREST = Remove(kind="pothole", count=1, where=Where(nearest=True))
 

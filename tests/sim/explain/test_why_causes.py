@@ -8,19 +8,10 @@ import pytest
 
 from sim.explain import Role, why
 from sim.oracle.ddmin import ddmin
-from sim.session.timeline import Timeline
-from sim.state import SimState
 from sim.types import Mode, Move
-from tests.sim.explain.moments import all_ids, moments, move_after
+from tests.support.moments import all_ids, moments, move_after
 from tests.support.roads import road, run_on
-
-
-def timeline_on(state: SimState) -> Timeline:
-    """A timeline that has taken one decision, from `run`."""
-    timeline = Timeline(state.config)
-    timeline.state = state
-    timeline.advance()
-    return timeline
+from tests.support.timelines import timeline_on
 
 
 def test_of_1000_moments_every_cause_flips_and_the_causes_are_enough() -> None:

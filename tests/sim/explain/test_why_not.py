@@ -6,9 +6,9 @@ import pytest
 
 from sim.explain import QuestionError, why_not
 from sim.types import Move
-from tests.sim.explain.moments import moments, move_after
-from tests.sim.explain.test_why_causes import timeline_on
+from tests.support.moments import moments, move_after
 from tests.support.roads import road, run_on
+from tests.support.timelines import timeline_on
 
 
 def test_every_change_stated_has_the_outcome_stated() -> None:

@@ -11,8 +11,8 @@ from sim.hazard_advice import Choice, Ending, NoAdviceError, advise, samples
 from sim.hazard_advice.chances import interval
 from sim.hazard_advice.parameters import DISTANCE, FRICTION, LATERAL, REACTION, WIDTH, parameters
 from sim.types import Kind
-from tests.sim.hazard_advice.calibration import AIM, calibration_error, outcomes, questions, table
-from tests.sim.hazard_advice.slow_motion import Case, unharmed
+from tests.support.slow_motion import Case, unharmed
+from tools.advice_calibration import AIM, calibration_error, outcomes, questions, table
 
 KINDS = st.sampled_from(Kind)
 WEATHERS = st.sampled_from(tuple(FRICTION))

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import pytest
 
-from tests.sim.perceive.rides import SENSORS
-from tests.sim.perceive.sensors import NAMES, registered
+from tests.support.rides import SENSORS
+from tests.support.sensors import NAMES, registered
 
 
 @pytest.fixture(autouse=True, scope="package")

@@ -30,9 +30,9 @@ from sim.state import SimState
 from sim.transition import next_world, step
 from sim.types import Kind, Move, Outcome
 from sim.world.boards import BOARDED
-from tests.sim.perceive.rides import rides
-from tests.sim.perceive.sensors import NAMES
+from tests.support.rides import rides
 from tests.support.roads import road, run_on
+from tests.support.sensors import NAMES
 
 DRAWN = 120
 """Futures drawn for one moment."""

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from sim.perceive import NO_BELIEF, perceive, perceive_truth
 from sim.types import Kind, kind_of, phantom_id
 from sim.world import World
-from tests.sim.perceive.sensors import with_pothole
 from tests.support.roads import run_on, worlds
+from tests.support.sensors import with_pothole
 
 
 @given(worlds(), st.data(), st.sampled_from([0.0, 0.5, 1.0]), st.sampled_from([0.0, 0.5, 1.0]))

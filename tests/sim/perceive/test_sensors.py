@@ -15,8 +15,8 @@ from sim.session.timeline import Timeline
 from sim.state import SimState, next_episode
 from sim.transition import step
 from sim.types import Outcome
-from tests.sim.perceive.rides import SENSORS, rides
-from tests.sim.perceive.sensors import NAMES, Delayed, Dropping, Missing, Phantom
+from tests.support.rides import SENSORS, rides
+from tests.support.sensors import NAMES, Delayed, Dropping, Missing, Phantom
 
 
 def test_a_configuration_takes_the_sensors_there_are() -> None:

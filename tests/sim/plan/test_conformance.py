@@ -6,7 +6,7 @@ import pytest
 
 from sim.plan import Planner, planner_named
 from sim.plan.conformance import check, moments
-from tests.sim.plan import faulty_planners as faulty
+from tests.support import faulty_planners as faulty
 
 BROKEN = {
     faulty.Raises: "answers",

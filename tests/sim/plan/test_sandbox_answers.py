@@ -21,8 +21,8 @@ from sim.plan.sandbox.answer import FaultError, decision_of, parse_answer
 from sim.plan.sandbox.codec import parse_question, percept_of, percept_values, question
 from sim.state import SimState
 from sim.types import Move
-from tests.sim.plan import faulty_planners
-from tests.sim.plan.hostile_planners import HOSTILE, POSING
+from tests.support import faulty_planners
+from tests.support.hostile_planners import HOSTILE, POSING
 
 COSTS = '"forward": 1, "left": 2.5, "right": null, "forward_left": 4, "forward_right": 5, "stay": -6'
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from sim.render.motion import STEP_FRAMES, poses
 from sim.rules.collision_geometry import SIZES, Path, clearance, first_contact
 from sim.types import HAZARDS, MOVERS, Kind, Move, Outcome
-from tests.sim.contacts import TABLE, Case, cases, table, worlds, written
+from tools.contacts import TABLE, Case, cases, table, worlds, written
 
 DIAGONALS = (Move.FORWARD_LEFT, Move.FORWARD_RIGHT)
 
@@ -120,7 +120,7 @@ def test_what_is_drawn_touches_only_in_a_crash_and_stops_there() -> None:
 
 
 def test_the_page_is_compared_with_what_is_so_now() -> None:
-    assert TABLE.read_text(encoding="utf-8") == written(), "python -m tests.sim.contacts --write"
+    assert TABLE.read_text(encoding="utf-8") == written(), "python -m tools.contacts --write"
 
 
 def test_the_table_counts_every_contact() -> None:

@@ -22,7 +22,7 @@ from sim.session.edits import Change, apply
 from sim.state import SimState
 from sim.transition import step
 from sim.types import PLACEABLE, Cell, Kind
-from tests.sim.edits import EMPTY, FULL, KINDS, counts_of, refusal, sound
+from tests.support.edits import EMPTY, FULL, KINDS, counts_of, refusal, sound
 from tests.support.roads import grid, road, run_on
 
 # Adding

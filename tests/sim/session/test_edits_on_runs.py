@@ -26,7 +26,7 @@ from sim.state import SimState
 from sim.transition import step
 from sim.types import Kind, Mode, Move, Outcome
 from sim.world import Thing
-from tests.sim.edits import EMPTY, FULL, KINDS, refusal, sound, tried
+from tests.support.edits import EMPTY, FULL, KINDS, refusal, sound, tried
 from tests.support.roads import road, run_on
 
 # Scenarios, reset, mode, drive

@@ -1,0 +1,306 @@
+"""Random action lists, anything that the contract allows: what the way back through the grammar is tried on.
+
+python -m tests.support.random_actions 10000
+"""
+
+from __future__ import annotations
+
+import sys
+from random import Random
+from typing import Any
+
+from service.actions import Action, dump, load
+from service.grammar import Language, Understood
+from service.grammar.sentences import Unsayable
+from sim.planner_names import BUILT_IN, PROMISED
+
+KINDS = ("pothole", "vehicle", "barrier", "pedestrian", "av")
+MOVES = ("forward", "left", "right", "forward_left", "forward_right", "stay")
+PLANNERS = (*BUILT_IN, *PROMISED)
+CHOICES: dict[str, tuple[str, ...]] = {
+    "weather": ("clear", "rain", "fog", "snow"),
+    "time_of_day": ("day", "dusk", "night", "dawn"),
+    "traffic": ("none", "light", "normal", "heavy"),
+    "planner": PLANNERS,
+    "sensor": ("perfect", "camera", "lidar", "radar", "fusion"),
+    "dynamics": ("grid", "continuous"),
+}
+WHOLE = ("safety_buffer", "columns", "rows", "seed")
+NUMBERS = (
+    "playback_speed",
+    "target_speed_kmh",
+    "step_seconds",
+    "spawn_probability",
+    "pothole_probability",
+    "courtesy",
+    "sensor_noise",
+    "detection_sensitivity",
+    "false_positive_rate",
+    "sensor_range_m",
+)
+PLAIN = (
+    *("pause", "resume", "reset", "undo", "redo", "step", "rewind", "mode", "drive", "show", "hide"),
+    *("prefer", "save", "load", "record"),
+)
+VIEWS = ("road", "schematic", "occupancy", "plan", "log", "potholes", "sensors", "path", "metrics")
+METRICS = ("crashes", "successes", "success_rate", "steps", "moves", "distance")
+NAMES = (
+    "monday demo",
+    "five cars",
+    "rush hour, then night",
+    'the "big" one',
+    "a \\ b",
+    "Straße 7",
+    "it's_me",
+    "x",
+    "please",
+    "and then, remove everything.",
+)
+
+
+class Maker:
+    """Makes random actions as JSON values."""
+
+    def __init__(self, seed: int) -> None:
+        self.random = Random(seed)
+
+    def actions(self, most: int = 4) -> list[dict[str, Any]]:
+        """A list that one utterance may hold."""
+        if self.chance(0.05):
+            return [self.teaching()]
+        return [self.action() for _ in range(self.random.randint(1, most))]
+
+    def teaching(self) -> dict[str, Any]:
+        phrase = self.random.choice(NAMES)
+        if self.chance(0.3):
+            return {"do": "forget", "phrase": phrase}
+        return {
+            "do": "teach",
+            "phrase": phrase,
+            "meaning": [self.action() for _ in range(self.random.randint(1, 3))],
+        }
+
+    def action(self, *, questions: bool = True) -> dict[str, Any]:
+        makers = [
+            self.add,
+            self.remove,
+            self.set_count,
+            self.scenario,
+            self.set,
+            self.adjust,
+            self.plain,
+            self.evaluation,
+            *([self.ask] if questions else []),
+        ]
+        return self.random.choice(makers)()
+
+    def add(self) -> dict[str, Any]:
+        return self.optional({"do": "add", "kind": self.pick(KINDS), "count": self.count()}, where=self.where)
+
+    def remove(self) -> dict[str, Any]:
+        if self.chance(0.15):
+            return self.optional({"do": "remove", "kind": "everything", "count": "all"}, where=self.where)
+        kind = self.pick(KINDS)
+        if self.chance(0.2):
+            where = {"id": f"{kind}-{self.random.randint(1, 99)}"}
+            return {"do": "remove", "kind": kind, "count": 1, "where": where}
+        count: Any = "all" if self.chance(0.3) else self.count()
+        action = self.optional({"do": "remove", "kind": kind, "count": count}, where=self.where)
+        if "id" in action.get("where", {}):
+            action["where"]["id"] = f"{kind}-{self.random.randint(1, 99)}"
+        return action
+
+    def set_count(self) -> dict[str, Any]:
+        return {"do": "set_count", "kind": self.pick(KINDS), "count": self.random.choice((0, self.count()))}
+
+    def scenario(self) -> dict[str, Any]:
+        return {"do": "scenario", **self.parts()}
+
+    def parts(self) -> dict[str, Any]:
+        parts: dict[str, Any] = {}
+        for key in ("weather", "time_of_day", "traffic", "planner", "sensor"):
+            if self.chance(0.3):
+                parts[key] = self.pick(CHOICES[key])
+        if self.chance(0.3):
+            parts["road"] = self.pick(("highway", "city", "rural"))
+        if self.chance(0.2):
+            parts["layout"] = self.pick(("walls", "narrows", "dead_ends", "crossing", "maze"))
+        for kind in KINDS:
+            if self.chance(0.3):
+                parts[f"{kind}s"] = self.random.choice((0, self.count()))
+        return parts
+
+    def set(self) -> dict[str, Any]:
+        if self.chance(0.5):
+            parameter = self.pick(tuple(CHOICES))
+            return {"do": "set", "parameter": parameter, "value": self.pick(CHOICES[parameter])}
+        if self.chance(0.4):
+            return {"do": "set", "parameter": self.pick(WHOLE), "value": self.random.randint(0, 10**6)}
+        return {"do": "set", "parameter": self.pick(NUMBERS), "value": self.number()}
+
+    def adjust(self) -> dict[str, Any]:
+        action: dict[str, Any] = {"do": "adjust", "parameter": self.pick((*WHOLE, *NUMBERS))}
+        match self.random.randint(0, 2):
+            case 0:
+                action["factor"] = self.number() or 2
+            case 1:
+                action["by"] = self.random.choice((1, -1)) * self.number()
+            case _:
+                action["direction"] = self.pick(("up", "down"))
+        return action
+
+    def plain(self) -> dict[str, Any]:
+        do = self.pick(PLAIN)
+        keys: dict[str, Any] = {}
+        match do:
+            case "step" | "rewind":
+                keys["ticks"] = self.random.choice((1, self.random.randint(2, 10_000)))
+            case "mode":
+                keys["mode"] = self.pick(("manual", "auto"))
+            case "drive":
+                keys["move"] = self.pick(MOVES)
+            case "show" | "hide":
+                keys["view"] = self.pick(VIEWS)
+            case "prefer":
+                keys["preference"] = self.pick(
+                    ("avoid_potholes", "smooth_ride", "fastest", "cautious", "balanced")
+                )
+            case "save" | "load":
+                keys["name"] = self.random.choice(NAMES)
+            case "record":
+                keys["on"] = self.chance(0.5)
+        return {"do": do, **keys}
+
+    def ask(self) -> dict[str, Any]:
+        about = self.pick(
+            (
+                "why",
+                "why_not",
+                "what_if",
+                "next",
+                "scene",
+                "status",
+                "metrics",
+                "confidence",
+                "maintenance",
+                "help",
+            )
+        )
+        action: dict[str, Any] = {"do": "ask", "about": about}
+        match about:
+            case "why" | "why_not":
+                if about == "why_not" or self.chance(0.5):
+                    action["move"] = self.pick(MOVES)
+                if self.chance(0.5):
+                    action["tick"] = self.random.randint(0, 5000)
+            case "what_if":
+                change = [self.action(questions=False) for _ in range(self.random.randint(1, 3))]
+                action["change"] = change
+            case "scene" if self.chance(0.5):
+                action["kind"] = self.pick(KINDS)
+            case "metrics" if self.chance(0.8):
+                action["metric"] = self.pick(METRICS)
+        return action
+
+    def evaluation(self) -> dict[str, Any]:
+        match self.random.randint(0, 2):
+            case 0:
+                action: dict[str, Any] = {"do": "evaluate"}
+                if self.chance(0.7):
+                    action["runs"] = self.random.randint(1, 1_000_000)
+                if self.chance(0.6) or "runs" not in action:
+                    action["planners"] = self.random.sample(PLANNERS, self.random.randint(1, 3))
+                parts = {key: value for key, value in self.parts().items() if key != "planner"}
+                if parts and self.chance(0.5):
+                    action["scenario"] = parts
+                return action
+            case 1:
+                return self.optional(
+                    {"do": "find_worst"},
+                    runs=lambda: self.random.randint(1, 1_000_000),
+                    planner=lambda: self.pick(PLANNERS),
+                )
+            case _:
+                distance, speed = self.number() or 1, self.number()
+                return {
+                    "do": "advise",
+                    "hazard": self.pick(KINDS),
+                    "distance_m": distance,
+                    "speed_kmh": speed,
+                }
+
+    def where(self) -> dict[str, Any]:
+        """A place whose parts do not contradict each other."""
+        where: dict[str, Any] = {}
+        match self.random.randint(0, 3):
+            case 0:
+                where["cell"] = [self.random.randint(0, 63), self.random.randint(0, 511)]
+            case 1:
+                where["id"] = f"{self.pick(KINDS)}-{self.random.randint(1, 99)}"
+            case 2 if self.chance(0.4):
+                return {"nearest": True}
+            case _:
+                if self.chance(0.6):
+                    lane: Any = self.random.choice(("left", "middle", "right", self.random.randint(1, 64)))
+                    where["lane"] = lane
+                if self.chance(0.4):
+                    where["row"] = self.random.randint(0, 511)
+        if self.chance(0.3):
+            where["side"] = self.pick(("ahead", "behind", "left", "right"))
+        match self.random.randint(0, 3):
+            case 0:
+                where["distance_m"] = self.number() or 5
+            case 1:
+                where["cells"] = self.random.choice((1, self.random.randint(2, 99)))
+        return where or {"side": "ahead"}
+
+    def number(self) -> float:
+        scale = self.random.choice((1, 10, 1000))
+        value = self.random.choice(
+            (self.random.random() * scale, float(self.random.randint(0, 200)), 0.5, 1e-05)
+        )
+        return value
+
+    def count(self) -> int:
+        return self.random.choice((1, 2, self.random.randint(1, 10_000)))
+
+    def pick(self, values: tuple[str, ...]) -> str:
+        return self.random.choice(values)
+
+    def chance(self, share: float) -> bool:
+        return self.random.random() < share
+
+    def optional(self, action: dict[str, Any], **more: Any) -> dict[str, Any]:
+        """The action with each further key by chance."""
+        return {**action, **{key: make() for key, make in more.items() if self.chance(0.5)}}
+
+
+def failures(language: Language, seeds: range) -> list[str]:
+    """What does not come back as it was: one line for each."""
+    lines = []
+    for seed in seeds:
+        values = Maker(seed).actions()
+        actions: tuple[Action, ...] = load(values)
+        try:
+            said = language.sentence(actions)
+        except Unsayable as reason:
+            lines.append(f"seed {seed}: {values} cannot be said: {reason}")
+            continue
+        heard = language.parse(said)
+        if not isinstance(heard, Understood) or heard.actions != actions:
+            got = (
+                dump(heard.actions)
+                if isinstance(heard, Understood)
+                else heard.message
+                if hasattr(heard, "message")
+                else heard
+            )
+            lines.append(f"seed {seed}: {said!r}\n  meant {dump(actions)}\n  heard {got}")
+    return lines
+
+
+if __name__ == "__main__":
+    many = int(sys.argv[1]) if len(sys.argv) > 1 else 10_000
+    found = failures(Language.load(), range(many))
+    print("\n".join(found[:20]))
+    print(f"{many} lists, {len(found)} did not come back")

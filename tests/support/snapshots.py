@@ -1,0 +1,92 @@
+"""Sessions brought back from a snapshot, compared with those that never left."""
+
+from __future__ import annotations
+
+from copy import deepcopy
+from typing import Any
+
+from hypothesis import strategies as st
+
+from service.grammar.topic import Phrases
+from service.problems import ProblemError
+from service.sessions.fork import way_of
+from service.sessions.session import Session
+from service.store import MemoryStore
+from tests.support.session_talk import SAID, load, rewind, save
+from tests.support.sessions import ADD, ADD_CARS, PAUSE, REDO, RESUME, UNDO, Service, do
+
+AFTERWARDS = ([UNDO], [UNDO], [REDO], [ADD], [load("a")], [UNDO, ADD], [rewind(2)], [UNDO], [PAUSE], [RESUME])
+
+
+def all_of(session: Session) -> dict[str, Any]:
+    """Whatever a user could see of it, now or later."""
+    footing = session.footing
+    steps = (*session.history.done, *session.history.undone)
+    jumps = [(each.jump.before, each.jump.after) for each in steps if each.jump is not None]
+    return {
+        **whole(session),
+        "paused": (session.paused, footing.paused, footing.tick, footing.trail),
+        "ground": (session.history.ground, session.history.ground_steps, session.history.ground_paused),
+        "past": list(session.timeline.between(0, session.timeline.tick)),
+        "moments": [
+            (name, each.timeline.state, list(each.timeline.entries))
+            for name, each in session.history.saved.items()
+        ],
+        "jumps": [(one.state, other.state, [*one.entries], [*other.entries]) for one, other in jumps],
+        "standing": session.standing,
+        "state": session.state(),
+        "talk": session.conversation.values(),
+        "first line": session.log.first_kept,
+    }
+
+
+async def said(session: Session, actions: list[dict[str, object]]) -> str:
+    try:
+        return await do(session, *actions)
+    except ProblemError as problem:
+        return problem.detail
+
+
+async def back(store: MemoryStore, session: str, *, short: bool, **given: int) -> Session:
+    """The session in a service of its own, of a copy of the store."""
+    copied = deepcopy(store)
+    if not short:
+        copied._snapshots.clear()
+    service = Service(copied, **given)
+    found = await service.manager.get(session)
+    fates = service.manager.keeper.fates
+    assert (fates["used"], fates["unfit"]) == ((1, 0) if short else (0, 0))
+    return found
+
+
+async def compared(store: MemoryStore, session: str, **given: int) -> None:
+    short = await back(store, session, short=True, **given)
+    long = await back(store, session, short=False, **given)
+    assert all_of(short) == all_of(long)
+    for actions in AFTERWARDS:
+        assert await said(short, actions) == await said(long, actions)
+        assert all_of(short) == all_of(long)
+    ways = [way_of(each.id, each.mixed, each.timeline, each.timeline.tick // 2) for each in (short, long)]
+    assert ways[0].branch == ways[1].branch, "what a fork and a link are made of"
+
+
+NAMES = st.sampled_from([[save("a")], [save("b"), ADD], [load("a")], [ADD_CARS, load("b"), ADD]])
+
+
+TALK = st.lists(st.tuples(st.integers(0, 5), st.one_of(SAID, NAMES)), max_size=12)
+
+
+def whole(session: Session) -> dict[str, Any]:
+    return {
+        "run": session.run,
+        "sequence": session.sequence,
+        "pace": session.pace,
+        "entries": list(session.timeline.entries),
+        "done": session.history.done,
+        "undone": session.history.undone,
+        "steps": session.history.steps,
+        "saved": {name: (each.sequence, each.tick) for name, each in session.history.saved.items()},
+        "topic": session.conversation.topic(session.run.world, Phrases()),
+        "mixed": session.mixed,
+        "log": (session.log.last, session.log.latest(400)),
+    }
