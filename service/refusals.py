@@ -102,9 +102,25 @@ class Refusals:
         """That something was made under older rules."""
         return self._say("rules", "older", {"rules": rules})
 
-    def session(self, code: str, **facts: object) -> str:
+    def session(self, code: str, /, **facts: object) -> str:
         """What a session cannot do, as a sentence."""
         return self._say("session", code, facts)
+
+    def said(self, code: str, /, **facts: object) -> str:
+        """What is wrong with something that was said or taught."""
+        return self._say("said", code, facts)
+
+    def beside(self, code: str, facts: Mapping[str, object]) -> str:
+        """Why another run cannot be shown beside the real one, as a sentence."""
+        return self._say("beside", code, facts)
+
+    def model(self, reason: str, facts: Mapping[str, object]) -> str:
+        """Why a language model was of no use, as a sentence."""
+        return self._say("model", reason, facts)
+
+    def action(self, name: str) -> str:
+        """What an action is called where no sentence means it."""
+        return str(self._data["actions"].get(name, name))
 
     def pace(self, code: str, facts: Mapping[str, object]) -> str:
         """Why the clock cannot be set so, as a sentence."""

@@ -83,7 +83,7 @@ class AsyncClient:
         return await self._do(calls.advice(text, hazard, distance_m, speed_kmh, weather, language))
 
     async def guide(
-        self, prefix: str | None = None, *, session: str | None = None, language: str = "en"
+        self, prefix: str | None = None, *, session: str | None = None, language: str | None = None
     ) -> unbound.Guide:
         """What can be said; with `prefix`, how a sentence that was begun could go on, there or anywhere."""
         return await self._do(calls.guide(prefix, session, language))
@@ -101,11 +101,12 @@ class AsyncClient:
         seed: int | None = None,
         planner: str | None = None,
         paused: bool | None = None,
+        language: str | None = None,
         recording: results.Recording | Json | None = None,
         link: results.Link | str | None = None,
     ) -> AsyncSession:
         """A new session, from a sentence, from figures, from a recording or from a link."""
-        call = calls.create(name, scenario, config, seed, planner, paused, recording, link)
+        call = calls.create(name, scenario, config, seed, planner, paused, recording, link, language)
         return await self._do(call.then(lambda info: AsyncSession(self, info.id)))
 
     async def list(self, *, after: str | None = None, limit: int = 50) -> Page[results.SessionSummary]:
@@ -205,7 +206,9 @@ class AsyncSession:
         """The session as it stands."""
         return await self._client._do(calls.look(self.id))
 
-    async def say(self, text: str, *, dry_run: bool = False, language: str = "en") -> results.CommandResult:
+    async def say(
+        self, text: str, *, dry_run: bool = False, language: str | None = None
+    ) -> results.CommandResult:
         """Say something; done as a whole or not at all. Raises `NotUnderstood`, `Ambiguous`."""
         return await self._client._do(calls.say(self.id, text, dry_run, language))
 
@@ -217,7 +220,7 @@ class AsyncSession:
         """Other settings, all or nothing: `configure(traffic="heavy")`; None asks for the default."""
         return await self._client._do(calls.configure(self.id, parts))
 
-    async def ask(self, question: str, *, language: str = "en") -> results.Answer:
+    async def ask(self, question: str, *, language: str | None = None) -> results.Answer:
         """Ask something; nothing is changed."""
         return await self._client._do(calls.ask(self.id, question, language))
 

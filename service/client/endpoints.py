@@ -156,6 +156,7 @@ def create(
     paused: bool | None,
     recording: results.Recording | Json | None,
     link: results.Link | str | None,
+    language: str | None,
 ) -> Call[results.SessionInfo]:
     """A new session."""
     file = recording.raw if isinstance(recording, results.Recording) else recording
@@ -166,6 +167,7 @@ def create(
         seed=seed,
         planner=planner,
         paused=paused,
+        language=language,
         recording=file,
         link=link.link if isinstance(link, results.Link) else link,
     )
@@ -189,9 +191,9 @@ def delete(session: str) -> Call[None]:
     return Call("DELETE", _own(session), lambda _: None, key=_key())
 
 
-def say(session: str, text: str, dry_run: bool, language: str) -> Call[results.CommandResult]:
+def say(session: str, text: str, dry_run: bool, language: str | None) -> Call[results.CommandResult]:
     """Something said."""
-    body = {"text": text, "dry_run": dry_run, "language": language}
+    body = _sent(text=text, dry_run=dry_run, language=language)
     path = _own(session, "/commands")
     return Call("POST", path, _reading(results.CommandResult), body, said="text", key=_key())
 
@@ -207,9 +209,9 @@ def configure(session: str, parts: Json) -> Call[results.ConfigChanged]:
     return Call("PATCH", _own(session, "/config"), _reading(results.ConfigChanged), parts, key=_key())
 
 
-def ask(session: str, question: str, language: str) -> Call[results.Answer]:
+def ask(session: str, question: str, language: str | None) -> Call[results.Answer]:
     """A question."""
-    body = {"question": question, "language": language}
+    body = _sent(question=question, language=language)
     return Call("POST", _own(session, "/ask"), _reading(results.Answer), body, said="question")
 
 
@@ -345,7 +347,7 @@ def advice(
     return Call("POST", f"{PREFIX}/advice", _reading(unbound.Advice), body, said="text")
 
 
-def guide(prefix: str | None, session: str | None, language: str) -> Call[unbound.Guide]:
+def guide(prefix: str | None, session: str | None, language: str | None) -> Call[unbound.Guide]:
     """What can be said."""
     params = {"prefix": prefix, "session": session, "language": language}
     return Call("GET", f"{PREFIX}/language", _reading(unbound.Guide), params=params)

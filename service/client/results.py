@@ -202,6 +202,7 @@ class SessionInfo(Result):
     sequence: int
     seed: int
     config: Json
+    language: str = "en"
     rules: int = 1
     rules_note: str | None = None
     sentence: str | None

@@ -87,7 +87,7 @@ class Client:
         return self._do(calls.advice(text, hazard, distance_m, speed_kmh, weather, language))
 
     def guide(
-        self, prefix: str | None = None, *, session: str | None = None, language: str = "en"
+        self, prefix: str | None = None, *, session: str | None = None, language: str | None = None
     ) -> unbound.Guide:
         """What can be said; with `prefix`, how a sentence that was begun could go on, there or anywhere."""
         return self._do(calls.guide(prefix, session, language))
@@ -105,11 +105,12 @@ class Client:
         seed: int | None = None,
         planner: str | None = None,
         paused: bool | None = None,
+        language: str | None = None,
         recording: results.Recording | Json | None = None,
         link: results.Link | str | None = None,
     ) -> Session:
         """A new session, from a sentence, from figures, from a recording or from a link."""
-        call = calls.create(name, scenario, config, seed, planner, paused, recording, link)
+        call = calls.create(name, scenario, config, seed, planner, paused, recording, link, language)
         return self._do(call.then(lambda info: Session(self, info.id)))
 
     def list(self, *, after: str | None = None, limit: int = 50) -> Page[results.SessionSummary]:
@@ -214,7 +215,7 @@ class Session:
         """The session as it stands."""
         return self._client._do(calls.look(self.id))
 
-    def say(self, text: str, *, dry_run: bool = False, language: str = "en") -> results.CommandResult:
+    def say(self, text: str, *, dry_run: bool = False, language: str | None = None) -> results.CommandResult:
         """Say something; done as a whole or not at all. Raises `NotUnderstood`, `Ambiguous`."""
         return self._client._do(calls.say(self.id, text, dry_run, language))
 
@@ -226,7 +227,7 @@ class Session:
         """Other settings, all or nothing: `configure(traffic="heavy")`; None asks for the default."""
         return self._client._do(calls.configure(self.id, parts))
 
-    def ask(self, question: str, *, language: str = "en") -> results.Answer:
+    def ask(self, question: str, *, language: str | None = None) -> results.Answer:
         """Ask something; nothing is changed."""
         return self._client._do(calls.ask(self.id, question, language))
 

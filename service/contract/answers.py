@@ -40,6 +40,7 @@ class Session(Answered):
     sequence: int
     seed: int
     config: dict[str, Any]
+    language: str = Field(description="The code of the language that its log and narration are in.")
     rules: int = Field(description="The version of the rules that it runs under.", examples=[2])
     rules_note: str | None = Field(
         description="What to tell whoever opens it, where these are not the rules of today.",

@@ -24,6 +24,7 @@ from service.interpreter.languages import Languages
 from service.interpreter.preview import Preview, preview
 from service.llm.protocol import LanguageModel
 from service.problems import Ambiguous, FieldProblem, Invalid, NotAQuestion, NotUnderstood
+from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE
 from service.server_timing import part
 from service.sessions.facts import Lesson
@@ -101,17 +102,18 @@ class Listener:
             return Topic(phrases=phrases)
         return session.conversation.topic(session.run.world, phrases, session.history.saved)
 
-    def sentence(self, config: Config) -> str | None:
-        """The sentence that makes such a road; None where nothing that can be said does."""
+    def sentence(self, config: Config, code: str = DEFAULT_LANGUAGE) -> str | None:
+        """The sentence that makes such a road; None where nothing that can be said in the language does."""
         try:
-            return self.languages[DEFAULT_LANGUAGE].sentence(config_to_actions(config) or (Scenario(),))
+            return self.languages[code].sentence(config_to_actions(config) or (Scenario(),))
         except (UndescribableError, Unsayable):
             return None
 
-    async def foresee(self, text: str, session: Session, code: str = DEFAULT_LANGUAGE) -> Preview | None:
+    async def foresee(self, text: str, session: Session, code: str | None = None) -> Preview | None:
         """What a sentence would do now; None for one that is empty, or too long to be heard."""
         if not text.strip() or len(text) > self._most_chars:
             return None
+        code = code or session.language
         return preview(await self._read(text, session, code), session, code)
 
     async def _read(self, text: str, session: Session | None, code: str) -> Parse:
@@ -121,12 +123,17 @@ class Listener:
         return await to_thread.run_sync(heard, parse, text, topic)
 
     async def hear(
-        self, text: str, session: Session | None = None, code: str = DEFAULT_LANGUAGE, field: str = "text"
+        self, text: str, session: Session | None = None, code: str | None = None, field: str = "text"
     ) -> Heard:
-        """What a sentence means. Raises `Invalid`, `NotUnderstood` or `Ambiguous`, naming `field`."""
+        """What a sentence means, in a language (by default the session's).
+
+        Raises `Invalid`, `NotUnderstood` or `Ambiguous`, naming `field`.
+        """
+        code = code or language_of(session)
         if len(text) > self._most_chars:
-            message = f"has {len(text)} characters; at most {self._most_chars} are read"
-            raise Invalid("The text is too long.", errors=[FieldProblem(field, message)])
+            words = refusals(code)
+            message = words.said("too_many_characters", length=len(text), most=self._most_chars)
+            raise Invalid(words.said("too_long"), errors=[FieldProblem(field, message)])
         with part("parse"):
             parse = await self._read(text, session, code)
         match parse:
@@ -141,13 +148,11 @@ class Listener:
                     raise refusal
                 return await self._interpreted(self._model, text, refusal, code)
 
-    async def hear_question(self, text: str, session: Session | None, code: str = DEFAULT_LANGUAGE) -> Heard:
+    async def hear_question(self, text: str, session: Session | None, code: str | None = None) -> Heard:
         """What a question means. Raises also `NotAQuestion` where something else was said."""
         found = await self.hear(text, session, code, "question")
         if not all(isinstance(action, Ask | Advise) for action in found.actions):
-            raise NotAQuestion(
-                "This is understood, but it is not a question. Send it to `commands` to have it done."
-            )
+            raise NotAQuestion(refusals(found.language).said("no_question"))
         return found
 
     async def do(
@@ -156,16 +161,16 @@ class Listener:
         utterance: Utterance,
         *,
         dry_run: bool = False,
-        code: str = DEFAULT_LANGUAGE,
         terms: Terms = ANY_TERMS,
     ) -> Outcome:
         """Do an utterance, all or nothing; a taught phrase is kept with its owner. Raises a problem."""
         if not any(isinstance(action, Teach | Forget) for action in utterance.actions):
             outcome = await session.change(utterance, dry_run=dry_run, terms=terms)
             # An answer that is kept is kept as it was made: in our own words.
-            return outcome if terms.answer else await self._reworded(outcome)
+            return outcome if terms.answer else await self._reworded(outcome, session)
+        code = utterance.language or session.language
         if len(utterance.actions) > 1:
-            sentence = "A phrase is taught or forgotten by itself, with nothing else in the same breath."
+            sentence = refusals(code).said("taught_alone")
             raise Invalid(sentence, errors=[FieldProblem("actions", sentence)])
         (action,) = utterance.actions
         assert isinstance(action, Teach | Forget)
@@ -174,7 +179,7 @@ class Listener:
 
         def outcome_of(lesson: Lesson) -> Outcome:
             if not made:
-                reply = self._words.lesson(lesson)
+                reply = self._words.in_language(code).lesson(lesson)
                 made.append(
                     Outcome(
                         utterance=utterance,
@@ -195,9 +200,13 @@ class Listener:
             session.tell("taught" if lesson.taught else "forgotten", utterance.text, outcome.reply)
         return outcome
 
-    async def _reworded(self, outcome: Outcome) -> Outcome:
-        """The answer in a model's words, where one may reword and its words are true to the facts."""
-        if self._model is None or not self._rephrase or outcome.answer is None:
+    async def _reworded(self, outcome: Outcome, session: Session) -> Outcome:
+        """The answer in a model's words, where one may reword and its words are true to the facts.
+
+        Only where it is English: what a text claims is known for no other language.
+        """
+        english = (outcome.utterance.language or session.language) == DEFAULT_LANGUAGE
+        if self._model is None or not self._rephrase or outcome.answer is None or not english:
             return outcome
         text = outcome.answer["text"]
         other = await self._model.rephrase(text, outcome.answer)
@@ -225,19 +234,25 @@ class Listener:
         """What a model makes of a sentence the grammar refused. Raises the refusal, or asks."""
         reading = await model.interpret(text)
         if not reading.actions:
-            refusal.detail = f"{refusal.detail} {reading.told}".strip()
+            failure = reading.failure
+            told = reading.told if failure is None else refusals(code).model(failure.reason, failure.parts)
+            refusal.detail = f"{refusal.detail} {told}".strip()
             raise refusal
         at_once = HARMLESS if self._confirm else UNASKED
         if all(isinstance(action, at_once) for action in reading.actions):
             return Heard(text, reading.actions, source="llm", language=code)
+        words = refusals(code)
         try:
-            said = self.languages[DEFAULT_LANGUAGE].sentence(reading.actions)
+            said = self.languages[code].sentence(reading.actions)
         except Unsayable:
-            refusal.detail += " A language model read it as something that has no sentence to confirm it by."
+            refusal.detail += f" {words.said('not_confirmable')}"
             raise refusal from None
-        raise _asked(
-            "A language model read this as follows. Is that what you mean?", [(said, reading.actions)], "llm"
-        )
+        raise _asked(words.said("confirm"), [(said, reading.actions)], "llm")
+
+
+def language_of(session: Session | None) -> str:
+    """The language of a sentence that names none: the session's, or the default outside of any."""
+    return DEFAULT_LANGUAGE if session is None else session.language
 
 
 def _asked(question: str, choices: list[tuple[str, tuple[Action, ...]]], source: Source) -> Ambiguous:

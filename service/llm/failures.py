@@ -1,6 +1,6 @@
 """Everything that can go wrong with a model, by the name under which a person is told.
 
-A leaf; the sentences are in `prompts/llm/told.yaml`, one for each reason.
+A leaf; the sentences are in `prompts/sayings/<language>/refusals.yaml`, one for each reason.
 """
 
 from __future__ import annotations

@@ -12,7 +12,7 @@ from pydantic import ValidationError
 from service.llm import LanguageModel, configured
 from service.llm.fake import FakeModel
 from service.llm.openai import OpenAIModel
-from service.llm.prompts import PromptError, load_claims, load_prompt, load_told
+from service.llm.prompts import PromptError, load_claims, load_prompt
 from service.llm.protocol import Interpretation
 from service.settings import Settings
 from sim.actions import Add
@@ -118,17 +118,13 @@ def test_a_broken_prompt_is_named(tmp_path: Path, text: str) -> None:
         load_prompt("interpret", tmp_path)
 
 
-def test_missing_files_and_sentences_are_named(tmp_path: Path) -> None:
+def test_missing_files_are_named(tmp_path: Path) -> None:
     for reading in (
         lambda: load_prompt("x", tmp_path),
-        lambda: load_told(tmp_path),
         lambda: load_claims(tmp_path),
     ):
         with pytest.raises(PromptError, match=str(tmp_path)):
             reading()
-    (tmp_path / "told.yaml").write_text("nothing: Nothing.\nmore: More.\n")
-    with pytest.raises(PromptError, match=r"more, .*timeout"):
-        load_told(tmp_path)
     (tmp_path / "claims.yaml").write_text("groups: {}\n")
     with pytest.raises(PromptError, match="numbers, groups"):
         load_claims(tmp_path)

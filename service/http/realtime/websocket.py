@@ -43,7 +43,6 @@ from service.http.responses import problem_response
 from service.http.routes.ws_tickets import admitted
 from service.http.session_json import session_json, told_decision
 from service.problems import CrossSite, Internal, Invalid, Malformed, ProblemError
-from service.resources import DEFAULT_LANGUAGE
 from service.security.guard import client_of, guard_of
 from service.sessions.messages import hello_message, state_message
 from service.sessions.session import Session
@@ -70,7 +69,7 @@ class Command(Sent):
     id: Id
     text: Letters
     dry_run: bool = False
-    language: str = Field(DEFAULT_LANGUAGE, max_length=16)
+    language: str | None = Field(None, max_length=16)
 
 
 class Actions(Sent):
@@ -256,23 +255,22 @@ async def _answer(
 
 
 async def _done(context: Context, session: Session, message: Command | Actions) -> dict[str, Any]:
-    heard, code = None, DEFAULT_LANGUAGE
+    heard = None
     if isinstance(message, Command):
-        code = message.language
-        heard = await context.listener.hear(message.text, session, code)
+        heard = await context.listener.hear(message.text, session, message.language)
         utterance = heard.utterance
     else:
         utterance = Utterance(actions=tuple(message.actions))
-    outcome = await context.listener.do(session, utterance, dry_run=message.dry_run, code=code)
+    outcome = await context.listener.do(session, utterance, dry_run=message.dry_run)
     return result_json(outcome, heard, message.dry_run)
 
 
 def hello(context: Context, session: Session) -> bytes:
     """The first message: all there is to go on from."""
     latest = session.latest_decision()
-    decision = told_decision(context.words, latest[1], latest[0]) if latest else None
+    decision = told_decision(session.words, latest[1], latest[0]) if latest else None
     log = session.log.latest(HELLO_EVENTS)
-    sentence = context.listener.sentence(session.run.config)
+    sentence = context.listener.sentence(session.run.config, session.language)
     told = hello_message(session_json(session, sentence), session.state(), log, decision, session.sequence)
     return stamped(told, session.watchers.event)
 

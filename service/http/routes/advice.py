@@ -57,7 +57,7 @@ async def advice(
         field = error.field if body.text is None else "text"
         sentence = refusals(body.language).advice(error)
         raise Invalid(sentence, errors=[FieldProblem(field, sentence)]) from error
-    told = here.words.answer(Advised(found))
+    told = here.words.in_language(body.language).answer(Advised(found))
     said = {"question": told["question"], "text": told["text"], "source": source}
     return json_response(said | advice_json(found))
 
@@ -72,7 +72,7 @@ async def _asked(body: bodies.AdviceQuestion, here: Context) -> tuple[PlaceableK
         match heard.actions:
             case (Advise() as asked,):
                 return asked.hazard, asked.distance_m, asked.speed_kmh, heard.source
-        sentence = "This is understood, but it tells of no hazard ahead with its distance and your speed."
+        sentence = refusals(body.language).said("no_hazard")
         raise NotAQuestion(sentence, errors=[FieldProblem("text", sentence)])
     if body.hazard is None or body.distance_m is None or body.speed_kmh is None:
         missing = [name for name in _FIGURES if getattr(body, name) is None]

@@ -64,11 +64,7 @@ async def say(
     def told(outcome: Outcome) -> Response:
         return json_response(result_json(outcome, heard, body.dry_run), headers=etag(outcome.sequence))
 
-    return told(
-        await here.listener.do(
-            session, heard.utterance, dry_run=body.dry_run, code=body.language, terms=terms(told)
-        )
-    )
+    return told(await here.listener.do(session, heard.utterance, dry_run=body.dry_run, terms=terms(told)))
 
 
 @router.post(
@@ -102,7 +98,7 @@ async def act(
 async def step(
     body: Annotated[bodies.StepTicks, Body(openapi_examples=examples.STEP)],
     session: TheSession,
-    here: Here,
+    here: Here,  # noqa: ARG001 -- all of these routes are called alike
     terms: TheTerms,
 ) -> Response:
     """Pauses, then runs the ticks as fast as it can; answers what was decided in each."""
@@ -114,7 +110,7 @@ async def step(
         standing = replace(session.standing, paused=True, sequence=outcome.sequence)
         state = state_json(standing, runs[-1])
         decisions = [
-            told_decision(here.words, run, tick.decision)
+            told_decision(session.words, run, tick.decision)
             for run, tick in zip(runs, outcome.ticks, strict=False)
             if tick.decision is not None
         ]
@@ -140,5 +136,5 @@ async def ask(
 ) -> Response:
     """Answers, and changes nothing."""
     heard = await here.listener.hear_question(body.question, session, body.language)
-    outcome = await here.listener.do(session, heard.utterance, code=body.language)
+    outcome = await here.listener.do(session, heard.utterance)
     return json_response(outcome.answer, headers=etag(outcome.sequence))

@@ -67,12 +67,6 @@ _EXAMPLES: dict[str, Any] = {
         "value": {"actions": [{"do": "remove", "kind": "everything", "count": "all"}]},
     },
 }
-_WORDS = {
-    "no_decision": "No decision was taken at tick {tick}: the result of an episode stood.",
-    "off_road": "That move leads off the road.",
-    "same_move": "That is the move that was made.",
-    "no_such_tick": "Tick {tick} has not come yet: it is tick {now}.",
-}
 
 
 class Otherwise(Sent):
@@ -111,7 +105,7 @@ async def counterfactual(
         tick = body.at_tick
     else:
         tick = timeline.tick if body.actions else max(0, timeline.tick - 1)
-    actions = _possible(body.actions or [])
+    actions = _possible(body.actions or [], session.language)
 
     def found() -> dict[str, Any]:
         if body.move is not None:
@@ -124,19 +118,20 @@ async def counterfactual(
         value = await off_loop(asks_others(timeline), QUESTION_S, found)
     except QuestionError as error:
         field = "move" if error.code in ("off_road", "same_move") else "at_tick"
-        raise invalid([FieldProblem(field, _WORDS[error.code].format(**error.facts))]) from error
+        sentence = refusals(session.language).beside(error.code, error.facts)
+        raise invalid([FieldProblem(field, sentence)]) from error
     except EditError as error:
         kind = NotAvailable if error.category == "not-available" else DoesNotFit
-        sentence = refusals().edit(error)
+        sentence = refusals(session.language).edit(error)
         raise kind(sentence, errors=[FieldProblem(f"actions.{error.field}", sentence)]) from error
     return json_response(value, headers=etag(standing.sequence))
 
 
-def _possible(actions: list[Action]) -> list[WorldAction]:
+def _possible(actions: list[Action], language: str) -> list[WorldAction]:
     """Those, where all of them change the road. Raises `NotAvailable` or `Invalid`."""
     changing: list[WorldAction] = []
     for position, action in enumerate(actions):
-        sentence = refusal(action)
+        sentence = refusal(action, language)
         if sentence is not None:
             raise NotAvailable(sentence, errors=[FieldProblem(f"actions.{position}", sentence)])
         if not isinstance(action, _WORLD_ACTIONS) or sets_pace(action):

@@ -14,7 +14,7 @@ from pydantic import Field
 
 from service.contract.parts import Answered, CellPair, Decision
 from service.contract.requests import Tick
-from service.http.deps import Here, TheSession
+from service.http.deps import TheSession
 from service.http.errors import documented, invalid
 from service.http.responses import StrictRoute, json_response
 from service.http.session_json import told_decision
@@ -83,7 +83,6 @@ class Judged(Answered):
 )
 async def forecast(
     session: TheSession,
-    here: Here,
     ticks: Annotated[int, Query(ge=1, le=MOST_AHEAD, description="How far ahead.")] = 1,
     tick: Annotated[int | None, Query(ge=0, le=_MOST, description="At an earlier tick than now.")] = None,
 ) -> Response:
@@ -107,7 +106,7 @@ async def forecast(
         }
         for each in range(ticks)
     ]
-    told = None if decision is None else told_decision(here.words, run, decision)
+    told = None if decision is None else told_decision(session.words, run, decision)
     exact = ticks == 1 or not run.config.reacting
     return json_response({"tick": now, "decision": told, "exact": exact, "ahead": ahead})
 

@@ -60,7 +60,8 @@ async def fork(
     @made_once
     def told(made: Session) -> Response:
         headers = {"Location": links_json(made.id)["self"], **etag(made.sequence)}
-        return json_response(session_json(made, here.listener.sentence(made.run.config)), 201, headers)
+        sentence = here.listener.sentence(made.run.config, made.language)
+        return json_response(session_json(made, sentence), 201, headers)
 
     made = await here.manager.fork(
         session,

@@ -13,9 +13,9 @@ from service.http.deps import Here
 from service.http.errors import documented
 from service.http.responses import StrictRoute, json_response
 from service.interpreter.guide import Intent
+from service.interpreter.interpreter import language_of
 from service.interpreter.preview import Preview
 from service.problems import Invalid, NotRestorable, UnknownSession
-from service.resources import DEFAULT_LANGUAGE
 
 router = APIRouter(tags=["talking"], route_class=StrictRoute)
 
@@ -35,15 +35,19 @@ async def language(
     session: Annotated[
         str | None, Query(max_length=64, description="Complete with what would work in this session now.")
     ] = None,
-    language: Annotated[str, Query(max_length=16, description="The language's code.")] = DEFAULT_LANGUAGE,
+    language: Annotated[
+        str | None,
+        Query(max_length=16, description="The language's code. Default: the session's; en without one."),
+    ] = None,
 ) -> Response:
     """Every intent with examples; or with `prefix`, whole sentences that begin with it and would work.
 
     With a `session` as well: what the prefix would do there if it were sent as it stands.
     """
     listener = here.listener
-    guide = listener.languages.guide(language)
     live = None if session is None else await here.manager.get(session)
+    language = language or language_of(live)
+    guide = listener.languages.guide(language)
     taught = listener.phrasebook.listed(language)
     told: dict[str, Any] = {"language": language, "languages": listener.languages.codes, "prefix": prefix}
     if prefix is None:

@@ -24,7 +24,7 @@ from service.http.errors import documented, invalid
 from service.http.responses import StrictRoute, etag, json_response
 from service.problems import FieldProblem, Invalid, NotRestorable, UnknownSession
 from service.sessions.fork import way_to, written_out
-from service.sessions.persistence.recording import FORMAT, VERSION
+from service.sessions.persistence.recording import FORMAT, VERSION, recorded_language
 from sim.session.timeline import Timeline
 
 router = APIRouter(tags=["time"], route_class=StrictRoute)
@@ -64,7 +64,7 @@ async def link(
     at = timeline.tick if tick is None else tick
     if at > timeline.tick:
         raise invalid([FieldProblem("tick", f"has not come yet: it is tick {timeline.tick}")])
-    carried = await to_thread.run_sync(_carried, timeline, at)
+    carried = await to_thread.run_sync(_carried, timeline, at, session.language)
     fits = len(carried) <= MOST_CARRIED
     told = carried if fits else f"{_NAMES}{session.id}/{at}"
     return json_response({"link": told, "tick": at, "carries": fits}, headers=etag(session.sequence))
@@ -82,7 +82,7 @@ def opened(said: str, most_bytes: int) -> bodies.Recording | Named:
     return Named(named["session"], None if named["tick"] is None else int(named["tick"]))
 
 
-def _carried(timeline: Timeline, tick: int) -> str:
+def _carried(timeline: Timeline, tick: int, language: str) -> str:
     way = way_to(timeline, tick)
     entries = [
         {"sequence": each.sequence, "tick": each.tick, "text": None, "actions": each.actions}
@@ -97,7 +97,7 @@ def _carried(timeline: Timeline, tick: int) -> str:
         "entries": entries,
         "tick": tick,
         "digest": way.state.world.digest(),
-    }
+    } | recorded_language(language)
     deflate = zlib.compressobj(9, zlib.DEFLATED, _RAW)
     packed = deflate.compress(encoded(recording)) + deflate.flush()
     return _CARRIES + urlsafe_b64encode(packed).rstrip(b"=").decode()

@@ -34,13 +34,14 @@ from service.problems import (
     UnknownSession,
 )
 from service.refusals import refusals
+from service.resources import DEFAULT_LANGUAGE
 from service.sessions.manager import Recorded
 from service.sessions.preconditions import Terms
 from service.sessions.session import Session
 from service.settings import Settings
 from service.store import EntryRecord
 from sim.actions import Scenario
-from sim.config import Config, ConfigError, Problem
+from sim.config import Config, ConfigError
 from sim.generation import GenerationError
 from sim.rules.versions import NewerRulesError
 from sim.session.saved_config import new_config, saved_config
@@ -85,10 +86,13 @@ async def make(
     @made_once
     def told(session: Session) -> Response:
         headers = {"Location": links_json(session.id)["self"], **etag(session.sequence)}
-        return json_response(session_json(session, here.listener.sentence(session.run.config)), 201, headers)
+        sentence = here.listener.sentence(session.run.config, session.language)
+        return json_response(session_json(session, sentence), 201, headers)
 
     answer = kept_answer(request, told)
     recording, named = _linked(here.settings, body)
+    language = body.language or (recording and recording.language) or DEFAULT_LANGUAGE
+    here.listener.languages.check(language)
     if named is not None:
         paused = body.paused is not False
         parent = await here.manager.get(named.session)
@@ -96,19 +100,23 @@ async def make(
             parent, named.tick, name=body.name, paused=paused, answer=answer, field="link"
         )
     elif recording is None:
-        config = await _config(here, body)
+        config = await _config(here, body, language)
         try:
-            session = await here.manager.create(body.name, config, paused=bool(body.paused), answer=answer)
+            session = await here.manager.create(
+                body.name, config, paused=bool(body.paused), language=language, answer=answer
+            )
         except GenerationError as error:
             raise invalid(
-                FieldProblem(f"config.{each.field}", refusals().problem(each)) for each in error.problems
+                FieldProblem(f"config.{each.field}", refusals(language).problem(each))
+                for each in error.problems
             ) from error
     else:
-        config, recorded = _recorded(here.settings, body, recording)
+        config, recorded = _recorded(here.settings, body, recording, language)
         session = await here.manager.create(
             body.name or recording.name,
             config,
             paused=body.paused is not False,
+            language=language,
             recorded=recorded,
             answer=answer,
         )
@@ -148,7 +156,7 @@ async def newest(
 )
 async def look(session: TheSession, here: Here) -> Response:
     """A session as it stands. One that is kept but not live is brought back, paused."""
-    told = session_json(session, here.listener.sentence(session.run.config))
+    told = session_json(session, here.listener.sentence(session.run.config, session.language))
     return json_response(told, headers=etag(session.sequence))
 
 
@@ -165,7 +173,7 @@ async def end(session_id: str, here: Here, request: Request) -> Response:
     return Response(status_code=204)
 
 
-async def _config(here: Context, body: bodies.NewSession) -> Config:
+async def _config(here: Context, body: bodies.NewSession, language: str) -> Config:
     """The configuration that was asked for, in figures and in words."""
     parts = dict(body.config or {})
     for name in ("seed", "planner"):
@@ -178,11 +186,11 @@ async def _config(here: Context, body: bodies.NewSession) -> Config:
     try:
         config = new_config(parts)
         if body.scenario is not None:
-            scenario = await _scenario(here, body.scenario)
+            scenario = await _scenario(here, body.scenario, language)
             planner = scenario.planner or config.planner
             config = config_of_scenario(config, scenario).with_parts(planner=planner)
     except ConfigError as error:
-        words = refusals()
+        words = refusals(language)
         beside = [name for name in ("seed", "planner") if getattr(body, name) is not None]
         problems = [
             FieldProblem(each.field if each.field in beside else f"config.{each.field}", words.problem(each))
@@ -196,18 +204,21 @@ async def _config(here: Context, body: bodies.NewSession) -> Config:
     return config
 
 
-async def _scenario(here: Context, text: str) -> Scenario:
+async def _scenario(here: Context, text: str, language: str) -> Scenario:
     """The one scenario a sentence describes; a planner named beside it stands unless it names one."""
-    parse = await here.listener.hear(text, field="scenario")
+    parse = await here.listener.hear(text, code=language, field="scenario")
+    words = refusals(language)
     if len(parse.actions) != 1 or not isinstance(parse.actions[0], Scenario):
-        sentence = "does not describe a road; say for instance: a highway with 10 potholes"
         raise NotUnderstood(
-            f"{text!r} {sentence}.",
-            errors=[FieldProblem("scenario", sentence)],
+            words.said("no_road_told", text=text),
+            errors=[FieldProblem("scenario", words.said("no_road"))],
             understood=[text],
         )
     scenario = parse.actions[0]
-    _check_available(find_unavailable(scenario), "scenario")
+    missing = find_unavailable(scenario)
+    if missing is not None:
+        sentence = words.problem(missing)
+        raise NotAvailable(sentence, errors=[FieldProblem("scenario", sentence)])
     return scenario
 
 
@@ -215,12 +226,6 @@ def _check_offered(settings: Settings, config: Config) -> None:
     if config.columns * config.rows > settings.max_road_cells:
         message = f"makes a road of more than {settings.max_road_cells} cells, the most there can be here"
         raise invalid([FieldProblem("config.rows", message)])
-
-
-def _check_available(missing: Problem | None, field: str) -> None:
-    if missing is not None:
-        sentence = refusals().problem(missing)
-        raise NotAvailable(sentence, errors=[FieldProblem(field, sentence)])
 
 
 def _linked(settings: Settings, body: bodies.NewSession) -> tuple[bodies.Recording | None, Named | None]:
@@ -244,7 +249,7 @@ def _of_rules(recording: bodies.Recording) -> dict[str, Any]:
 
 
 def _recorded(
-    settings: Settings, body: bodies.NewSession, recording: bodies.Recording
+    settings: Settings, body: bodies.NewSession, recording: bodies.Recording, language: str
 ) -> tuple[Config, Recorded]:
     """What a recording says, checked as far as can be before it is replayed."""
     beside = [name for name in ("scenario", "config", "seed", "planner") if getattr(body, name) is not None]
@@ -259,11 +264,11 @@ def _recorded(
     try:
         config = saved_config(_of_rules(recording))
     except NewerRulesError as error:
-        sentence = refusals().newer_rules(error, "recording")
+        sentence = refusals(language).newer_rules(error, "recording")
         raise Invalid(sentence, errors=[FieldProblem("recording.rules", sentence)]) from error
     except ConfigError as error:
         raise invalid(
-            FieldProblem(f"recording.config.{each.field}", refusals().problem(each))
+            FieldProblem(f"recording.config.{each.field}", refusals(language).problem(each))
             for each in error.problems
         ) from error
     _check_offered(settings, config)

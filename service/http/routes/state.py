@@ -50,7 +50,6 @@ async def state(
 )
 async def decisions(
     session: TheSession,
-    here: Here,
     after: Annotated[
         int | None, Query(ge=-1, le=_MOST, description="Tick to go on after; default: the newest.")
     ] = None,
@@ -60,7 +59,7 @@ async def decisions(
     timeline = session.timeline.copy()
     first = max(0, timeline.tick - limit) if after is None else min(after + 1, timeline.tick)
     stop = min(timeline.tick, first + limit)
-    items = await to_thread.run_sync(told_runs, here.words, timeline, first, stop)
+    items = await to_thread.run_sync(told_runs, session.words, timeline, first, stop)
     return json_response({"items": items, "after": stop - 1, "more": stop < timeline.tick})
 
 
@@ -70,12 +69,12 @@ async def decisions(
     summary="One decision",
     responses=documented(UnknownSession, UnknownDecision, Invalid, NotRestorable),
 )
-async def decision(session: TheSession, here: Here, tick: Annotated[int, Path(ge=0, le=_MOST)]) -> Response:
+async def decision(session: TheSession, tick: Annotated[int, Path(ge=0, le=_MOST)]) -> Response:
     """The decision taken in the world of a tick."""
     timeline = session.timeline.copy()
     if tick >= timeline.tick:
         raise UnknownDecision(f"Tick {tick} has not been decided yet: it is tick {timeline.tick}.")
-    items = await to_thread.run_sync(told_runs, here.words, timeline, tick, tick + 1)
+    items = await to_thread.run_sync(told_runs, session.words, timeline, tick, tick + 1)
     if not items:
         raise UnknownDecision(f"At tick {tick} the result of an episode stood; nothing was decided.")
     return json_response(items[0])

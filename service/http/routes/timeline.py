@@ -24,7 +24,6 @@ from service.http.errors import documented, invalid
 from service.http.responses import StrictRoute, json_response
 from service.http.session_json import told_decision
 from service.problems import FieldProblem, Invalid, NotRestorable, NotSaved, UnknownSession
-from service.resources import DEFAULT_LANGUAGE
 from service.sessions.narrator_protocol import Words
 from sim.session.timeline import Timeline
 from sim.state import SimState
@@ -153,7 +152,7 @@ async def changes(
         sequence, text = group[0].sequence, said.get(group[0].sequence)
         if text is None:
             dumped = contract.dump(tuple(entry.action for entry in group))
-            told = here.listener.phrasebook.told(contract.load(dumped), DEFAULT_LANGUAGE)
+            told = here.listener.phrasebook.told(contract.load(dumped), session.language)
         else:
             told = text
         items.append({"tick": group[0].tick, "sequence": sequence, "text": told, "said": text is not None})
@@ -168,7 +167,6 @@ async def changes(
 )
 async def moments(
     session: TheSession,
-    here: Here,
     first: Annotated[int, Query(alias="from", ge=0, le=_MOST, description="First tick.")] = 0,
     limit: Annotated[int, Query(ge=1, le=MOST_MOMENTS)] = 16,
 ) -> Response:
@@ -176,7 +174,7 @@ async def moments(
     way, standing = session.timeline.copy(), session.standing
     _check(first, way.tick)
     stop = min(way.tick + 1, first + limit)
-    items = await to_thread.run_sync(lambda: list(_moments(here.words, standing, way, first, stop)))
+    items = await to_thread.run_sync(lambda: list(_moments(session.words, standing, way, first, stop)))
     return json_response({"items": items, "now": way.tick})
 
 

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
+from service.resources import DEFAULT_LANGUAGE
 from service.sessions.fork import numbered
 from service.sessions.session import Session
 from service.store import EntryRecord
@@ -33,7 +34,12 @@ def recording_json(session: Session, entries: Sequence[EntryRecord]) -> dict[str
         "entries": [_entry(entry) for entry in kept],
         "tick": session.timeline.tick,
         "digest": session.run.world.digest(),
-    }
+    } | recorded_language(session.language)
+
+
+def recorded_language(language: str) -> dict[str, str]:
+    """The part of a recording that names its language; the default is not named, as ever."""
+    return {} if language == DEFAULT_LANGUAGE else {"language": language}
 
 
 def _entry(entry: EntryRecord) -> dict[str, Any]:
