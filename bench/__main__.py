@@ -18,6 +18,7 @@ PARTS = (
     "readers",
     "rest",
     "restore",
+    "startup",
     "window",
 )
 

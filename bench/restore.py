@@ -27,7 +27,7 @@ from service.narration import Narrator
 from service.problems import ProblemError
 from service.sessions.manager import SessionManager
 from service.sessions.scheduler.clock import WheelClock
-from service.sessions.session import Session, Surroundings
+from service.sessions.session import Session, SessionServices
 from service.sessions.utterance import Utterance
 from service.settings import Settings
 from service.store import SqlStore
@@ -89,8 +89,8 @@ async def measure(name: str, script: Callable[[int], Iterator[Said]], entries: i
     """Make a session and let it go; then see how it comes back."""
     store = SqlStore(f"sqlite:///{folder}/{name.replace(' ', '-')}.db")
     await store.open()
-    around = Surroundings(store, WheelClock(), Narrator.load(), Settings())
-    manager = SessionManager(around)
+    services = SessionServices(store, WheelClock(), Narrator.load(), Settings())
+    manager = SessionManager(services)
     session = await manager.create("long", Config(seed=7), paused=True)
     sayings = script(10**9)
     while session.sequence < entries:
@@ -98,10 +98,10 @@ async def measure(name: str, script: Callable[[int], Iterator[Said]], entries: i
             await session.change(Utterance(actions=contract.load([next(sayings)])))
         except ProblemError:
             continue
-    ends, kept = (session.run.world.digest(), session.timeline.tick), Counter(manager.keeper.fates)
+    ends, kept = (session.run.world.digest(), session.timeline.tick), Counter(manager.snapshots.counts)
     # Nothing is kept at the end, as after a kill; what is due already would have been kept meanwhile.
-    await manager.keeper.settled()
-    kept += manager.keeper.fates - kept
+    await manager.snapshots.flush()
+    kept += manager.snapshots.counts - kept
     snapshot = await store.snapshot(session.id)
     identity = session.id
     del session, manager
@@ -114,15 +114,15 @@ async def measure(name: str, script: Callable[[int], Iterator[Said]], entries: i
         f"entry {snapshot.sequence} of {len(snapshot.body) / 1000:.0f} kB",
         flush=True,
     )
-    await come_back(f"{name}, by its snapshot", around, identity, ends)
-    await store.keep_snapshot(replace(snapshot, checksum="none of it is used"))
-    await come_back(f"{name}, by its whole log", around, identity, ends)
+    await come_back(f"{name}, by its snapshot", services, identity, ends)
+    await store.save_snapshot(replace(snapshot, checksum="none of it is used"))
+    await come_back(f"{name}, by its whole log", services, identity, ends)
     await store.close()
 
 
-async def come_back(name: str, around: Surroundings, session_id: str, ends: tuple[str, int]) -> None:
+async def come_back(name: str, services: SessionServices, session_id: str, ends: tuple[str, int]) -> None:
     """Bring a session back, look at ticks of it by chance, and fork it."""
-    again = SessionManager(around)
+    again = SessionManager(services)
     back, restored_s, restored_cpu_s = await timed(lambda: again.get(session_id))
     if (back.run.world.digest(), back.timeline.tick) != ends:
         raise SystemExit("it came back as another")
@@ -135,16 +135,16 @@ async def come_back(name: str, around: Surroundings, session_id: str, ends: tupl
         rewinds.append(spent(lambda at=at: back.timeline.copy().rewind(at)))
     for number in range(FORKS):
         at = dice.randrange(tick) if number % 2 else tick
-        await again.keeper.settled()
+        await again.snapshots.flush()
         child, wall_s, cpu_s = await timed(lambda at=at: again.fork(back, at))
         if child.run != back.timeline.at(at):
             raise SystemExit("a fork is another")
         forks.append(cpu_s * 1000)
         walls.append(wall_s * 1000)
     last = child.id
-    await again.keeper.settled()
+    await again.snapshots.flush()
     await again.close()
-    third = SessionManager(around)
+    third = SessionManager(services)
     _, _, woken_s = await timed(lambda: third.get(last))
     print(
         f"{name}: restored in {restored_cpu_s:.2f} s "

@@ -9,61 +9,102 @@ from __future__ import annotations
 import asyncio
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
-from functools import partial
 
-from anyio import CapacityLimiter
 from fastapi import FastAPI
-from fastapi.routing import APIRoute
 
 from service.http import errors, openapi
-from service.http import not_found as nearby
-from service.http.conditional.idempotency import Answers
+from service.http.conditional.answers import KeptAnswers
 from service.http.deps import Context
-from service.http.middleware import access_control as gate
-from service.http.middleware import body_limit as edges
-from service.http.middleware import head_method as bodiless
-from service.http.middleware import hot_routes as plainly
-from service.http.middleware import metrics
-from service.http.middleware import state_cache as glance
-from service.http.realtime import sse
-from service.http.realtime import websocket as stream
+from service.http.metrics import Metrics, time_store
+from service.http.middleware.cross_site import CrossSiteCheck
+from service.http.middleware.head_method import HeadMethod
+from service.http.middleware.host_check import HostCheck
+from service.http.middleware.request_id import RequestId
+from service.http.middleware.security_headers import SecurityHeaders
+from service.http.not_found import NO_WEBSOCKET
+from service.http.realtime import sse, websocket
 from service.http.routes import (
     advice,
+    bookmarks,
+    changes,
     commands,
     config,
     counterfactual,
+    create_session,
+    decisions,
+    docs,
+    events,
+    forecast,
     forks,
+    frame,
     health,
     links,
+    metrics,
+    moments,
     pages,
     parse,
+    questions,
+    recording,
+    regret,
+    rewind,
     sessions,
+    state,
+    step,
     timeline,
+    video,
+    ws_tickets,
 )
-from service.http.routes import forecast as insight
-from service.http.routes import frame as frames
 from service.http.routes import language as language_route
-from service.http.routes import state as watching
-from service.http.routes import video as film
-from service.http.routes import ws_tickets as tickets
-from service.http.session_json import PREFIX
-from service.interpreter.aliases import Phrasebook
-from service.interpreter.interpreter import Listener
+from service.interpreter.aliases import Aliases
+from service.interpreter.interpreter import Interpreter
 from service.interpreter.languages import Language, Languages
-from service.llm import LanguageModel, configured
-from service.log_format import RequestIds
+from service.llm import LanguageModel, create_model
 from service.narration import Narrator
 from service.resources import DEFAULT_LANGUAGE
 from service.security.guard import Guard
 from service.sessions.manager import SessionManager
-from service.sessions.narrator_protocol import Words
+from service.sessions.narrator_protocol import NarratorProtocol
 from service.sessions.scheduler.clock import Clock, WheelClock
-from service.sessions.session import Surroundings
+from service.sessions.session import SessionServices
 from service.settings import Settings
 from service.shutdown import STOP_S, within
 from service.store import Store, open_store
 from service.version import VERSION
 from sim.plan.sandbox.client import without_waiting
+
+RESOURCES = (
+    state,  # those that are asked most come first, as routes are tried in this order
+    commands,
+    step,
+    questions,
+    create_session,
+    sessions,
+    config,
+    decisions,
+    events,
+    recording,
+    frame,
+    video,
+    parse,
+    advice,
+    language_route,
+    websocket,
+    sse,
+    ws_tickets,
+    forks,
+    rewind,
+    bookmarks,
+    links,
+    timeline,
+    changes,
+    moments,
+    forecast,
+    regret,
+    counterfactual,
+    health,
+    metrics,
+)
+"""The modules whose `router` the application has."""
 
 _DESCRIPTION = """
 A vehicle that drives itself along a road of obstacles and potholes, live; changed and questioned in
@@ -82,7 +123,7 @@ def create_app(
     *,
     store: Store | None = None,
     language: Language | None = None,
-    words: Words | None = None,
+    narrator: NarratorProtocol | None = None,
     clock: Clock | None = None,
     model: LanguageModel | None = None,
 ) -> FastAPI:
@@ -92,27 +133,28 @@ def create_app(
     `MissingExtraError` where a language model is named and the extra for it is missing.
     """
     settings = settings or Settings()
-    counted = metrics.Metrics()
-    store = metrics.timed(store or open_store(settings.database), counted.store)
-    clock = clock or WheelClock(late=counted.lateness.observe)
-    guard = Guard(settings)
-    words = words or Narrator.load()
-    model = model or configured(settings)
-    manager = SessionManager(Surroundings(store, clock, words, settings))
+    measured = Metrics()
+    store = time_store(store or open_store(settings.database), measured.store)
+    clock = clock or WheelClock(late=measured.lateness.observe)
+    narrator = narrator or Narrator.load()
+    model = model or create_model(settings)
+    manager = SessionManager(SessionServices(store, clock, narrator, settings))
     languages = Languages.load() if language is None else Languages({DEFAULT_LANGUAGE: language})
-    phrasebook = Phrasebook(store, languages)
-    listener = Listener(
+    aliases = Aliases(store, languages)
+    interpreter = Interpreter(
         languages,
-        phrasebook,
-        words,
+        aliases,
+        narrator,
         most_chars=settings.max_text_chars,
         model=model,
         confirm=settings.llm_confirm,
         rephrase=settings.llm_rephrase,
     )
-    context = Context(settings, store, clock, listener, words, manager, CapacityLimiter(1), Answers(store))
+    measured.read_from(manager)
+    guard, answers = Guard(settings), KeptAnswers(store)
+    context = Context(settings, store, clock, interpreter, narrator, manager, guard, measured, answers)
 
-    async def closed(sleeper: asyncio.Task[None]) -> None:
+    async def close(sleeper: asyncio.Task[None]) -> None:
         await asyncio.wait([sleeper])
         await manager.close()
         if model is not None:
@@ -123,17 +165,17 @@ def create_app(
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
         await store.open()
         await manager.open()
-        await phrasebook.open()
+        await aliases.open()
         await context.answers.open()
         clock.start()
-        sleeper = asyncio.create_task(manager.sleeper().run())
+        sleeper = asyncio.create_task(manager.evictor().run())
         try:
             with without_waiting():
                 yield
         finally:
             sleeper.cancel()
             clock.stop()
-            await within(STOP_S, closed(sleeper))
+            await within(STOP_S, close(sleeper))
 
     app = FastAPI(
         title="Roadtalk",
@@ -143,57 +185,19 @@ def create_app(
         docs_url=None,
         redoc_url=None,
         redirect_slashes=False,
-        generate_unique_id_function=_operation_id,
     )
     app.state.context = context
-    app.state.readers = sse.Readers()
-    app.state.guard = guard
-    app.state.metrics = counted
-    app.add_middleware(glance.Glance, manager=manager)
-    app.add_middleware(plainly.Plainly, routes=commands.router.routes)
-    app.add_middleware(edges.BodyLimit, most=partial(_body_bytes, settings))
-    app.add_middleware(gate.Gate, guard=guard)
-    app.add_middleware(edges.SecurityHeaders)
-    app.add_middleware(metrics.Counted, metrics=counted)
-    app.add_middleware(bodiless.Bodiless)
-    app.add_middleware(RequestIds)
+    # The last one added is the outermost.
+    app.add_middleware(CrossSiteCheck)
+    app.add_middleware(HostCheck, hosts=guard.hosts)
+    app.add_middleware(SecurityHeaders)
+    app.add_middleware(HeadMethod)
+    app.add_middleware(RequestId)
     errors.install(app)
-    app.state.addresses = addresses = nearby.Addresses()
-    for resource in (
-        sessions,
-        commands,
-        config,
-        watching,
-        frames,
-        film,
-        parse,
-        advice,
-        language_route,
-        stream,
-        sse,
-        tickets,
-        forks,
-        links,
-        timeline,
-        insight,
-        counterfactual,
-    ):
-        app.include_router(resource.router, prefix=PREFIX)
-        addresses.add(resource.router, PREFIX)
-    for at_root in (health, metrics):
-        app.include_router(at_root.router)
-        addresses.add(at_root.router)
+    for resource in RESOURCES:
+        app.router.routes.extend(resource.router.routes)
     openapi.install(app)
+    docs.install(app)
     pages.install(app)
-    app.router.default = nearby.told_sockets(app.router.default)
+    app.router.routes.append(NO_WEBSOCKET)
     return app
-
-
-def _operation_id(route: APIRoute) -> str:
-    """Names for generated clients: `sessions_make`, `talking_say`."""
-    return f"{route.tags[0]}_{route.name}"
-
-
-def _body_bytes(settings: Settings, path: str) -> int:
-    """How large a body may be: a new session may come with a recording."""
-    return settings.max_recording_bytes if path == f"{PREFIX}/sessions" else settings.max_body_bytes

@@ -11,21 +11,16 @@ import atexit
 import logging
 import os
 import queue
-import secrets
 import sys
 import threading
-from collections.abc import Awaitable, Collection, MutableMapping
+from collections.abc import Collection, MutableMapping
 from contextlib import suppress
 from typing import Any, Literal, TextIO
 
 import structlog
-from starlette.types import ASGIApp, Message, Receive, Scope, Send
-from structlog.contextvars import bind_contextvars, get_contextvars
 
 from service.settings import Settings
 
-HEADER = "X-Request-ID"
-_ENCODED = HEADER.lower().encode()
 HIDDEN = "[hidden]"
 MOST_WAITING = 10_000
 """Lines that may wait to be written; more are lost."""
@@ -167,33 +162,3 @@ class _Hiding:
         for secret in self._values:
             text = text.replace(secret, HIDDEN)
         return text
-
-
-class RequestIds:
-    """Gives each request an id: in its answer, and in every line that is logged on its behalf."""
-
-    def __init__(self, app: ASGIApp) -> None:
-        self._app = app
-
-    def __call__(self, scope: Scope, receive: Receive, send: Send) -> Awaitable[None]:
-        """One connection."""
-        if scope["type"] not in ("http", "websocket"):
-            return self._app(scope, receive, send)
-        # Always our own: one that the caller may choose could be anyone's, or anything.
-        request_id = secrets.token_hex(8)
-
-        def named(message: Message) -> Awaitable[None]:
-            if message["type"] in ("http.response.start", "websocket.http.response.start"):
-                others = [each for each in message["headers"] if each[0] != _ENCODED]
-                message["headers"] = [*others, (_ENCODED, request_id.encode())]
-            return send(message)
-
-        # Left bound: a request is a task of its own, and an error is logged outside of every middleware.
-        bind_contextvars(request=request_id)
-        return self._app(scope, receive, named)
-
-
-def request_header() -> dict[str, str]:
-    """The header with the id of the request that is being answered, where a middleware cannot add it."""
-    bound = get_contextvars().get("request")
-    return {} if bound is None else {HEADER: str(bound)}

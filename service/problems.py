@@ -2,34 +2,34 @@
 """Everything that can go wrong for a caller, and the one shape it is told in (RFC 9457).
 
     ProblemError                application/problem+json
-    ├── Malformed          400  the body is not JSON
-    ├── KeyNeeded          401  no key, or not the right one
-    ├── CrossSite          403  a page of another site asks
-    ├── NotFound           404  no such route or resource
+    ├── Malformed                   400  the body is not JSON
+    ├── Unauthorized                401  no key, or not the right one
+    ├── CrossSite                   403  a page of another site asks
+    ├── NotFound                    404  no such route or resource
     │   ├── UnknownSession
     │   └── UnknownDecision
-    ├── WrongMethod        405  the route exists, the method does not
-    ├── Ambiguous          409  could mean several things: `choices`
-    ├── Stale              412  the session was changed since: `sequence`
-    ├── TooLarge           413  more bytes than are read
-    ├── NotJson            415  the content type is not JSON
-    ├── ForeignHost        421  asked under a name that is not this service's
-    ├── Invalid            422  fields out of range or unknown: `errors`
-    │   ├── DoesNotFit          the road has no room, or no such thing
-    │   ├── NotAvailable        understood, not offered by this version
+    ├── MethodNotAllowed            405  the route exists, the method does not
+    ├── Ambiguous                   409  could mean several things: `choices`
+    ├── PreconditionFailed          412  the session was changed since: `sequence`
+    ├── ContentTooLarge             413  more bytes than are read
+    ├── UnsupportedMediaType        415  the content type is not JSON
+    ├── MisdirectedRequest          421  asked under a name that is not this service's
+    ├── Invalid                     422  fields out of range or unknown: `errors`
+    │   ├── DoesNotFit                   the road has no room, or no such thing
+    │   ├── NotAvailable                 understood, not offered by this version
     │   ├── NothingToUndo
-    │   ├── UnknownName         nothing was saved under it: `suggestions`
-    │   ├── NotUnderstood       `unparsed`, `understood`, `suggestions`
-    │   ├── NotAQuestion        understood, but `ask` only answers
-    │   ├── NotTeachable        a phrase that cannot be taught, or forgotten
-    │   ├── KeyReused           an idempotency key that was another request's
-    │   └── RecordingMismatch   replayed to another digest than it says
-    ├── TooManySessions    429  the limit of live sessions is reached
-    ├── TooManyChanges     429  a client asks too often: `Retry-After`
-    ├── OverQuota          429  a client has as much as it may have
-    ├── Internal           500  a defect here; says nothing of its inside
-    ├── NotSaved           503  the store did not take it; nothing was changed
-    └── NotRestorable      503  what is kept of the session cannot be replayed
+    │   ├── UnknownName                  nothing was saved under it: `suggestions`
+    │   ├── NotUnderstood                `unparsed`, `understood`, `suggestions`
+    │   ├── NotAQuestion                 understood, but `ask` only answers
+    │   ├── NotTeachable                 a phrase that cannot be taught, or forgotten
+    │   ├── IdempotencyKeyReused         an idempotency key that was another request's
+    │   └── RecordingMismatch            replayed to another digest than it says
+    ├── TooManySessions             429  the limit of live sessions is reached
+    ├── RateLimited                 429  a client asks too often: `Retry-After`
+    ├── QuotaExceeded               429  a client has as much as it may have
+    ├── Internal                    500  a defect here; says nothing of its inside
+    ├── NotSaved                    503  the store did not take it; nothing was changed
+    └── NotRestorable               503  what is kept of the session cannot be replayed
 
 `sessions` raises these without knowing HTTP; `api` turns them into responses, and the stream into
 messages. A problem leaves the session as it was, always.
@@ -91,7 +91,7 @@ class Malformed(ProblemError):
     status, slug, title = 400, "malformed", "Not readable as JSON"
 
 
-class KeyNeeded(ProblemError):
+class Unauthorized(ProblemError):
     """The service has a key, and the request has not."""
 
     status, slug, title = 401, "key-needed", "A key is needed"
@@ -132,7 +132,7 @@ class UnknownDecision(NotFound):
     slug, title = "unknown-decision", "No decision at this tick"
 
 
-class WrongMethod(ProblemError):
+class MethodNotAllowed(ProblemError):
     """The route exists, the method does not."""
 
     status, slug, title = 405, "method-not-allowed", "Method not allowed"
@@ -144,7 +144,7 @@ class Ambiguous(ProblemError):
     status, slug, title = 409, "ambiguous", "This could mean several things"
 
 
-class Stale(ProblemError):
+class PreconditionFailed(ProblemError):
     """The session was changed since the caller saw it; `sequence` is where it stands."""
 
     status, slug, title = 412, "stale", "Changed meanwhile"
@@ -158,19 +158,19 @@ class Stale(ProblemError):
         )
 
 
-class TooLarge(ProblemError):
+class ContentTooLarge(ProblemError):
     """More bytes than are read."""
 
     status, slug, title = 413, "too-large", "Too large"
 
 
-class NotJson(ProblemError):
+class UnsupportedMediaType(ProblemError):
     """The content type is not JSON."""
 
     status, slug, title = 415, "not-json", "Send JSON"
 
 
-class ForeignHost(ProblemError):
+class MisdirectedRequest(ProblemError):
     """The `Host` header names something else than this service."""
 
     status, slug, title = 421, "foreign-host", "Not the name of this service"
@@ -230,7 +230,7 @@ class NotTeachable(Invalid):
     slug, title = "not-teachable", "Cannot be taught"
 
 
-class KeyReused(Invalid):
+class IdempotencyKeyReused(Invalid):
     """An idempotency key under which something else was asked before."""
 
     slug, title = "key-reused", "This key was another request's"
@@ -255,7 +255,7 @@ class TooManySessions(ProblemError):
     status, slug, title = 429, "too-many-sessions", "Too many sessions"
 
 
-class TooManyChanges(ProblemError):
+class RateLimited(ProblemError):
     """One client changes things faster than is let through."""
 
     status, slug, title = 429, "too-many-changes", "Too many changes"
@@ -267,7 +267,7 @@ class TooManyChanges(ProblemError):
         )
 
 
-class OverQuota(ProblemError):
+class QuotaExceeded(ProblemError):
     """One client has as many sessions, or as much road, as it may have."""
 
     status, slug, title = 429, "over-quota", "Quota reached"
@@ -308,17 +308,17 @@ class NotRestorable(ProblemError):
 
 KINDS: tuple[type[ProblemError], ...] = (
     Malformed,
-    KeyNeeded,
+    Unauthorized,
     CrossSite,
     NotFound,
     UnknownSession,
     UnknownDecision,
-    WrongMethod,
+    MethodNotAllowed,
     Ambiguous,
-    Stale,
-    TooLarge,
-    NotJson,
-    ForeignHost,
+    PreconditionFailed,
+    ContentTooLarge,
+    UnsupportedMediaType,
+    MisdirectedRequest,
     Invalid,
     DoesNotFit,
     NotAvailable,
@@ -327,11 +327,11 @@ KINDS: tuple[type[ProblemError], ...] = (
     NotUnderstood,
     NotAQuestion,
     NotTeachable,
-    KeyReused,
+    IdempotencyKeyReused,
     RecordingMismatch,
     TooManySessions,
-    TooManyChanges,
-    OverQuota,
+    RateLimited,
+    QuotaExceeded,
     Internal,
     NotSaved,
     NotRestorable,

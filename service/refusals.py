@@ -12,9 +12,8 @@ from functools import lru_cache
 from types import MappingProxyType
 from typing import Any, Final, Literal
 
-import yaml
-
 from service.resources import DEFAULT_LANGUAGE, prompts_folder
+from service.yaml_files import read_cached_yaml
 from sim.config import Problem
 from sim.hazard_advice import NoAdviceError
 from sim.rules.versions import NewerRulesError
@@ -31,16 +30,15 @@ def refusals(language: str = DEFAULT_LANGUAGE) -> Refusals:
     path = folder / language / "refusals.yaml"
     if language not in {each.name for each in folder.iterdir()} or not path.is_file():
         path = folder / DEFAULT_LANGUAGE / "refusals.yaml"
-    found = yaml.safe_load(path.read_text(encoding="utf-8"))
-    faults = yaml.safe_load(path.with_name("words.yaml").read_text(encoding="utf-8"))["faults"]
-    return Refusals(found, faults)
+    held, words = read_cached_yaml([path, path.with_name("words.yaml")])
+    return Refusals(held, words["faults"])
 
 
 @lru_cache(maxsize=1)
 def _fault_patterns() -> tuple[tuple[str, re.Pattern[str]], ...]:
     """How the simulator words each fault of a planner: patterns that find its code and what it names."""
     path = prompts_folder() / "sayings" / DEFAULT_LANGUAGE / "words.yaml"
-    known: dict[str, str] = yaml.safe_load(path.read_text(encoding="utf-8"))["faults"]
+    known: dict[str, str] = read_cached_yaml([path])[0]["faults"]
     return tuple(
         (code, re.compile(re.sub(r"\\{(\w+)\\}", r"(?P<\1>.+)", re.escape(said))))
         for code, said in known.items()
@@ -122,7 +120,7 @@ class Refusals:
         """What an action is called where no sentence means it."""
         return str(self._data["actions"].get(name, name))
 
-    def pace(self, code: str, facts: Mapping[str, object]) -> str:
+    def playback_speed(self, code: str, facts: Mapping[str, object]) -> str:
         """Why the clock cannot be set so, as a sentence."""
         return self._say("pace", code, facts)
 

@@ -10,7 +10,6 @@ import signal
 from collections.abc import Callable, Generator, Iterator
 from functools import cache
 from operator import itemgetter
-from pathlib import Path
 from typing import TypeVar
 
 import fastapi.routing
@@ -18,12 +17,10 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from service.grammar import engine
-from service.grammar.data import LanguageData
 from service.interpreter import languages
 from service.interpreter.languages import Languages
 from service.llm.claims import Claims
 from service.narration import Narrator
-from service.resources import prompts_folder
 from tests.support.postgres import Server, binaries, serving
 from tests.support.skips import EVEN_IN_CI
 
@@ -80,17 +77,10 @@ def pytest_unconfigure() -> None:
 
 def _words_read_once() -> None:
     """Grammars and sayings never change, and reading them is most of what making an application takes."""
-    _UNCHANGING.setattr(engine, "read_language", _kept_if_ours(engine.read_language))
+    _UNCHANGING.setattr(engine, "load_language", cache(engine.load_language))
     for read in (Languages, Narrator, Claims):
         _UNCHANGING.setattr(read, "load", cache(read.load))
     _UNCHANGING.setattr(languages, "Guide", cache(languages.Guide))
-
-
-def _kept_if_ours(read: Callable[[Path], LanguageData]) -> Callable[[Path], LanguageData]:
-    """The project's own languages read once; copies, which tests change, every time."""
-    once = cache(read)
-    ours = prompts_folder()
-    return lambda folder: (once if folder.is_relative_to(ours) else read)(folder)
 
 
 def _answers_described_once() -> None:

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from service.gc_tuning import GROWN, LATEST_S, LOOKED_AT_S, Sweep, held_mb
+from service.gc_tuning import FULL_EVERY_S, GROWTH, MEMORY_CHECK_S, Collector, resident_mb
 
 
 class Ring:
@@ -39,63 +39,63 @@ def lost(*, old: bool) -> weakref.ref[Ring]:
 class Machine:
     def __init__(self) -> None:
         self.now_s, self.memory_mb = 100.0, 200.0
-        self.sweep = Sweep(lambda: self.now_s, lambda: self.memory_mb)
+        self.collector = Collector(lambda: self.now_s, lambda: self.memory_mb)
 
 
 def test_a_new_ring_is_found_at_the_next_turn() -> None:
     ring = lost(old=False)
-    assert Machine().sweep.turn() == 0
+    assert Machine().collector.collect() == 0
     assert ring() is None
 
 
 def test_an_old_one_when_memory_has_grown() -> None:
     machine, ring = Machine(), lost(old=True)
-    machine.now_s += LOOKED_AT_S
-    assert machine.sweep.turn() == 0
-    machine.memory_mb *= GROWN + 0.01
-    machine.now_s += LOOKED_AT_S / 2
-    assert machine.sweep.turn() == 0, "memory is not looked at each time"
+    machine.now_s += MEMORY_CHECK_S
+    assert machine.collector.collect() == 0
+    machine.memory_mb *= GROWTH + 0.01
+    machine.now_s += MEMORY_CHECK_S / 2
+    assert machine.collector.collect() == 0, "memory is not looked at each time"
     assert ring() is not None
-    machine.now_s += LOOKED_AT_S / 2
-    assert machine.sweep.turn() == 2
+    machine.now_s += MEMORY_CHECK_S / 2
+    assert machine.collector.collect() == 2
     assert ring() is None
-    machine.now_s += LOOKED_AT_S
-    assert machine.sweep.turn() == 0, "what it is then is what it grows from"
+    machine.now_s += MEMORY_CHECK_S
+    assert machine.collector.collect() == 0, "what it is then is what it grows from"
 
 
 def test_an_old_one_after_some_minutes() -> None:
     machine, ring = Machine(), lost(old=True)
-    machine.now_s += LATEST_S - 1
-    assert (machine.sweep.turn(), ring() is None) == (0, False)
-    machine.now_s += LOOKED_AT_S
-    assert (machine.sweep.turn(), ring() is None) == (2, True)
+    machine.now_s += FULL_EVERY_S - 1
+    assert (machine.collector.collect(), ring() is None) == (0, False)
+    machine.now_s += MEMORY_CHECK_S
+    assert (machine.collector.collect(), ring() is None) == (2, True)
 
 
 def test_what_live_sessions_need_is_no_growth() -> None:
     machine = Machine()
     needed_mb = 0.0
-    machine.sweep = Sweep(lambda: machine.now_s, lambda: machine.memory_mb, lambda: needed_mb)
+    machine.collector = Collector(lambda: machine.now_s, lambda: machine.memory_mb, lambda: needed_mb)
     for more_mb, of_sessions, whole in ((200.0, 200.0, 0), (90.0, 0.0, 0), (20.0, 0.0, 2), (0.0, -200.0, 2)):
         machine.memory_mb += more_mb
         needed_mb += of_sessions
-        machine.now_s += LOOKED_AT_S
-        assert machine.sweep.turn() == whole
+        machine.now_s += MEMORY_CHECK_S
+        assert machine.collector.collect() == whole
 
 
 def test_memory_that_shrinks_is_what_it_grows_from() -> None:
     machine = Machine()
     for held_now, whole in ((290.0, 0), (100.0, 0), (160.0, 2)):
         machine.memory_mb = held_now
-        machine.now_s += LOOKED_AT_S
-        assert machine.sweep.turn() == whole
+        machine.now_s += MEMORY_CHECK_S
+        assert machine.collector.collect() == whole
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="other systems do not say")
 def test_what_a_process_holds() -> None:
     program = (
-        "from service.gc_tuning import held_mb; a = held_mb(); "
-        "b = bytearray(50_000_000); print(held_mb() - a)"
+        "from service.gc_tuning import resident_mb; a = resident_mb(); "
+        "b = bytearray(50_000_000); print(resident_mb() - a)"
     )
     told = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout
     assert 45 < float(told) < 60
-    assert held_mb() > 10
+    assert resident_mb() > 10

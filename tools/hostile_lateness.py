@@ -35,7 +35,7 @@ class _Counting(WheelClock):
 
     def taken(self) -> Lateness:
         samples, self.samples = self.samples, []
-        return Lateness.of(samples)
+        return Lateness.from_samples(samples)
 
 
 async def measured(others: int, seconds: float) -> None:

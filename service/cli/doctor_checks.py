@@ -15,8 +15,8 @@ from pathlib import Path
 from sqlalchemy.engine import make_url
 from sqlalchemy.exc import ArgumentError
 
-from service.llm import MissingExtraError, configured
-from service.llm.prompts import PromptError
+from service.llm import MissingExtraError, create_model
+from service.llm.failures import PromptError
 from service.settings import Settings
 from service.store import StoreError, open_store
 
@@ -85,7 +85,7 @@ def model(settings: Settings) -> Finding:
         missing = "ROADTALK_LLM_BASE_URL" if settings.llm_base_url is None else "ROADTALK_LLM_MODEL"
         return Finding("fault", f"named in part: {missing} is not set, so none is asked", f"Set {missing}.")
     try:
-        configured(settings)
+        create_model(settings)
     except (MissingExtraError, PromptError) as error:
         return Finding("fault", str(error).splitlines()[0], "pip install 'roadtalk[llm]'")
     return Finding("ok", f"{settings.llm_model} will be asked where the grammar refuses")

@@ -124,6 +124,7 @@ class Option:
     cost: float | None
     reason: str
     causes: tuple[str, ...]
+    text: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)

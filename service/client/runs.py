@@ -154,6 +154,7 @@ class End:
     by_hand: bool
     cause: CrashCause | None
     digest: str
+    text: str = ""
 
 
 @dataclass(frozen=True)
@@ -174,3 +175,4 @@ class Counterfactual(Result):
     said_since: int
     real: Side
     changed: Side
+    text: str = ""

@@ -242,7 +242,7 @@ class Verified(Answered):
 class Answer(BaseModel):
     """The answer to a question: facts first, then words made from nothing else."""
 
-    model_config = ConfigDict(extra="allow")
+    model_config = ConfigDict(extra="allow", defer_build=True)
 
     question: str
     about: str

@@ -55,6 +55,7 @@ class End(Answered):
     by_hand: bool = Field(description="Whether a person drives, who asked for nothing.")
     cause: CrashCause | None
     digest: str
+    text: str = Field(description="The end in a few words.")
 
 
 class Side(Answered):
@@ -70,6 +71,7 @@ class Counterfactual(Answered):
 
     at_tick: Tick
     instead_of: Move | None = Field(description="The move that was made, where another is asked about.")
+    text: str = Field(description="What differs, in a sentence or two.")
     said_since: int = Field(description="Actions said after that tick, left out of both.")
     real: Side
     changed: Side

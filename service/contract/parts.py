@@ -26,7 +26,7 @@ PlaybackSpeed = Annotated[
 class Answered(BaseModel):
     """What callers are answered."""
 
-    model_config = ConfigDict(extra="forbid")
+    model_config = ConfigDict(extra="forbid", defer_build=True)
 
 
 if TYPE_CHECKING:
@@ -134,6 +134,7 @@ class Option(Answered):
     cost: float | None
     reason: str
     causes: list[str]
+    text: str = Field(description="What spoke for or against it, in a few words.")
 
 
 class Decision(Answered):

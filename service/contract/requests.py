@@ -5,9 +5,11 @@ The language contract's actions are `service.actions`; what is answered is in `s
 
 from __future__ import annotations
 
+import warnings
 from typing import Annotated, Any, Literal, TypeVar
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
+from pydantic.warnings import UnsupportedFieldAttributeWarning
 
 from service.actions import Action, load
 from service.contract.text import Letters, Name, check_letters
@@ -36,10 +38,15 @@ MAX_ACTIONS = 100
 """Actions that may be sent at once."""
 
 
+# FastAPI gives the field of a body an alias that pydantic has no use for, and silences the warning when it
+# builds the field. A field whose schema is built later warns all the same.
+warnings.filterwarnings("ignore", "The 'alias' attribute", UnsupportedFieldAttributeWarning)
+
+
 class Sent(BaseModel):
     """What callers send: unknown keys and values of another type are refused."""
 
-    model_config = ConfigDict(extra="forbid", strict=True)
+    model_config = ConfigDict(extra="forbid", strict=True, defer_build=True)
 
 
 class RecordedEntry(Sent):

@@ -14,6 +14,7 @@ from service.grammar.numbers import NumberWords
 from service.grammar.patterns import PatternError, read_macros
 from service.grammar.tokens import Contractions
 from service.grammar.typos import TypoRules
+from service.yaml_files import YamlError, read_yaml
 from sim.planner_names import BUILT_IN
 
 MESSAGES = frozenset(
@@ -68,63 +69,88 @@ class LanguageData:
         return self.lexicon.knows(word) or word in self.number_words
 
 
+@dataclass(frozen=True, slots=True)
+class Documents:
+    """The parsed files of a language, the lexicon's aside."""
+
+    words: Mapping[str, Any]
+    numbers: Mapping[str, Any]
+    typos: Mapping[str, Any]
+    sentences: Mapping[str, Any]
+    frames: Mapping[str, Any]
+    """`sets`, `agree`, and the `frames` of all intents together"""
+
+
 def read_language(folder: Path) -> LanguageData:
     """The language in a folder. Raises `LanguageDataError`."""
+    return language_data(*read_parts(folder))
+
+
+def read_parts(folder: Path) -> tuple[Documents, Lexicon]:
+    """What the files of a language hold, and its lexicon. Raises `LanguageDataError`."""
     if not folder.is_dir():
         raise LanguageDataError(f"there is no language in {folder}")
     try:
-        return _read(folder)
+        documents, lexicon = _documents(folder), _lexicon(folder)
+        language_data(documents, lexicon)  # what they hold must also make sense
     except (PatternError, FrameError, KeyError, YamlError) as error:
         raise LanguageDataError(f"{folder}: {type(error).__name__}: {error}") from error
+    return documents, lexicon
 
 
-class YamlError(Exception):
-    """A file that is no YAML."""
+def data_files(folder: Path) -> list[Path]:
+    """The files a language is made of, without its tests; in order of their paths."""
+    return sorted(path for path in folder.rglob("*.yaml") if not path.name.endswith(TEST_SUFFIX))
 
 
-def read_yaml(path: Path) -> Any:
-    """What one YAML file holds. Raises `YamlError`."""
-    import yaml  # with the words themselves, and not where only the types are needed
-
-    try:
-        return yaml.load(path.read_bytes(), Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
-    except yaml.YAMLError as error:
-        raise YamlError(f"{path.name}: {error}") from error
-
-
-def _read(folder: Path) -> LanguageData:
+def _documents(folder: Path) -> Documents:
     words = read_yaml(folder / "words.yaml")
     if missing := MESSAGES - words["messages"].keys():
         raise KeyError(f"words.yaml has no message {', '.join(sorted(missing))}")
+    frames: dict[str, Any] = {**read_yaml(folder / "sets.yaml"), "frames": {}}
+    for path in data_files(folder / "intents"):
+        for name, content in read_yaml(path)["frames"].items():
+            if name in frames["frames"]:
+                raise FrameError(f"frame {name} is there twice")
+            frames["frames"][name] = content
+    said_back = folder / "sentences.yaml"
+    return Documents(
+        words=words,
+        numbers=read_yaml(folder / "numbers.yaml"),
+        typos=read_yaml(folder / "typos.yaml"),
+        sentences=read_yaml(said_back) if said_back.is_file() else {},
+        frames=frames,
+    )
+
+
+def _lexicon(folder: Path) -> Lexicon:
     lexicon = Lexicon(read_macros(read_yaml(folder / "macros.yaml")))
-    for path in sorted((folder / "lexicon").glob("*.yaml")):
-        if not path.name.endswith(TEST_SUFFIX):
-            lexicon.add_section(read_yaml(path))
+    for path in data_files(folder / "intents"):  # first: what a word means to one intent is tried first
+        lexicon.add_section(read_yaml(path).get("phrases", {}))
+    for path in data_files(folder / "lexicon"):
+        lexicon.add_section(read_yaml(path))
     if "planner" in lexicon.concepts:  # one that the language has no words for goes by its name
         unnamed = [name for name in BUILT_IN if ("planner", repr(name)) not in lexicon.typical]
         lexicon.add_section({"planner": {name: f"{name}, {name} planner" for name in unnamed}})
-    frames: dict[str, Any] = {"sets": {}, "agree": {}, "frames": {}}
-    for path in sorted((folder / "frames").glob("*.yaml")):
-        if not path.name.endswith(TEST_SUFFIX):
-            data = read_yaml(path)
-            frames["sets"].update(data.get("sets", {}))
-            frames["agree"].update(data.get("agree", {}))
-            for name, content in data.get("frames", {}).items():
-                if name in frames["frames"]:
-                    raise FrameError(f"frame {name} is there twice")
-                frames["frames"][name] = content
-    numbers = NumberWords.from_data(read_yaml(folder / "numbers.yaml"))
+    lexicon.share_endings()
+    return lexicon
+
+
+def language_data(documents: Documents, lexicon: Lexicon) -> LanguageData:
+    """A language of its parts."""
+    words = documents.words
+    numbers = NumberWords.from_data(documents.numbers)
     return LanguageData(
         lexicon=lexicon,
         numbers=numbers,
         contractions=Contractions.from_data(words["contractions"]),
-        typos=TypoRules.from_data(read_yaml(folder / "typos.yaml")),
+        typos=TypoRules.from_data(documents.typos),
         parameters=Parameters({name: takes.split() for name, takes in words["parameters"].items()}),
-        frames=read_frames(frames),
+        frames=read_frames(documents.frames),
         messages=words["messages"],
         lanes=tuple(words.get("lanes", ())),
-        sentences=read_yaml(folder / "sentences.yaml") if (folder / "sentences.yaml").is_file() else {},
+        sentences=documents.sentences,
         vague=int(words["vague"]),
         number_words=numbers.words(),
-        nouns=frames["agree"],
+        nouns=documents.frames["agree"],
     )

@@ -17,10 +17,11 @@ from typing import Any
 from service.actions import Action, dump
 from service.grammar.cache import Remembered
 from service.grammar.capture import names
+from service.grammar.compiled import checked, load_language
 from service.grammar.correction import corrected, takes_back
-from service.grammar.data import LanguageData, LanguageDataError, read_language
+from service.grammar.data import LanguageData, read_language
 from service.grammar.lattice import Lattice, Name, Scanner
-from service.grammar.linter import defects, flaws
+from service.grammar.linter import defects
 from service.grammar.makes import REPAIR
 from service.grammar.matching import Frames
 from service.grammar.noun_phrases import NOUN
@@ -65,10 +66,9 @@ class Language:
         Everything in it is understood; only what is `offered` is suggested.
         Raises `LanguageDataError`, naming every defect, when the files are unfit.
         """
-        data = read_language((folder or prompts_folder() / "language") / code)
-        if found := flaws(data):
-            raise LanguageDataError("; ".join(found))
-        return cls(data, offered)
+        if folder is not None:
+            return cls(checked(read_language(folder / code)), offered)
+        return cls(load_language(prompts_folder() / "language" / code), offered)
 
     def parse(self, text: str, topic: Topic = ALONE, work: Work | None = None) -> Parse:
         """What a person said: `Understood`, `Refused` or `Ambiguous`. Never raises.

@@ -1,5 +1,6 @@
-"""Words → concepts: a tree of all phrases, and the longest phrase at a place in a sentence.
+"""Words → concepts: a graph of all phrases, and the phrases at a place in a sentence.
 
+The graph is a trie in which equal endings are one node (a DAWG): 230,000 English phrases make 5,500 nodes.
 A phrase may have several senses ("clear" removes things and is a kind of weather); which one is
 meant is for the frames to find out. A concept written `v.add/ing` is `v.add` in the form `ing`,
 which only counts where that form is in place ("would you mind adding").
@@ -30,7 +31,7 @@ Meant = tuple[tuple[Sense, Words], ...]
 
 @dataclass(slots=True)
 class Node:
-    """A place in the tree of phrases."""
+    """A place in the graph of phrases."""
 
     next: dict[str, Node] = field(default_factory=dict)
     senses: list[Sense] | None = None
@@ -60,11 +61,14 @@ class Lexicon:
 
     def __init__(self, macros: Mapping[str, tuple[Words, ...]]) -> None:
         self._macros = macros
-        self._root = Node()
+        self.root = Node()
         self.words: set[str] = set()
         self.concepts: dict[str, set[str]] = {}
         """Concept → its forms."""
         self.collisions: list[str] = []
+        """Phrases with two values of one concept."""
+        self.repeats: list[str] = []
+        """Written phrases that say only what is said already."""
         self.begins: dict[str, set[str]] = {}
         """Concept → the first words of its phrases."""
         self.typical: dict[tuple[str, str], Words] = {}
@@ -75,32 +79,45 @@ class Lexicon:
         for key, content in data.items():
             concept, _, form = key.partition("/")
             self.concepts.setdefault(concept, set()).add(form)
-            if isinstance(content, str):
-                self._add_phrases(content, Sense(concept, None, form))
-            elif isinstance(content, list):
+            if isinstance(content, dict):
+                for value, phrases in content.items():
+                    self._add_phrases(phrases, Sense(concept, value, form))
+            elif isinstance(content, list) and content and isinstance(content[0], dict):
                 for entry in content:
                     self._add_phrases(entry["say"], Sense(concept, entry["is"], form))
             else:
-                for value, phrases in content.items():
-                    self._add_phrases(str(phrases), Sense(concept, value, form))
+                self._add_phrases(content, Sense(concept, None, form))
 
-    def _add_phrases(self, pattern: str, sense: Sense) -> None:
-        for words in expand(pattern, self._macros):
+    def _add_phrases(self, phrases: str | Sequence[str], sense: Sense) -> None:
+        """Add phrases: a list of them, or one string with commas between them."""
+        for pattern in (phrases,) if isinstance(phrases, str) else phrases:
+            self._add_pattern(str(pattern), sense)
+
+    def _add_pattern(self, pattern: str, sense: Sense) -> None:
+        phrases = expand(pattern, self._macros)
+        added = 0
+        for words in phrases:
             self.begins.setdefault(sense.concept, set()).add(words[0])
-            if GAP in words:
-                cut = words.index(GAP)
-                for half, halfsense in ((words[:cut], sense), (words[cut + 1 :], Sense(SECOND))):
-                    node = self._node(half)
-                    if node.split is None:
-                        node.split = {}
-                    senses = node.split.setdefault(words, [])
-                    if halfsense not in senses:
-                        senses.append(halfsense)
-            else:
-                self._add(words, sense)
+            added += self._add_split(words, sense) if GAP in words else self._add(words, sense)
+        if phrases and not added:
+            self.repeats.append(f"{pattern!r} is already among the phrases of {sense.concept}")
+
+    def _add_split(self, words: Words, sense: Sense) -> bool:
+        """Add a phrase of two halves; whether it is new."""
+        cut = words.index(GAP)
+        added = False
+        for half, half_sense in ((words[:cut], sense), (words[cut + 1 :], Sense(SECOND))):
+            node = self._node(half)
+            if node.split is None:
+                node.split = {}
+            senses = node.split.setdefault(words, [])
+            if half_sense not in senses:
+                senses.append(half_sense)
+                added = True
+        return added
 
     def _node(self, words: Words) -> Node:
-        node = self._root
+        node = self.root
         for word in words:
             after = node.next.get(word)
             if after is None:
@@ -109,10 +126,40 @@ class Lexicon:
             node = after
         return node
 
-    def _add(self, words: Words, sense: Sense) -> None:
+    def share_endings(self) -> None:
+        """Make equal parts of the graph one; nothing can be added after this."""
+        senses: dict[int, Any] = {}
+
+        def sense_key(sense: Sense) -> Any:
+            known = senses.get(id(sense))
+            if known is None:
+                known = senses[id(sense)] = sense.concept, repr(sense.value), sense.form
+            return known
+
+        shared: dict[Any, Node] = {}
+
+        def unique(node: Node) -> Node:
+            following = node.next
+            for word, after in following.items():
+                following[word] = unique(after)
+            key = (
+                None if node.senses is None else tuple(map(sense_key, node.senses)),
+                None
+                if node.split is None
+                else tuple((whole, tuple(map(sense_key, each))) for whole, each in node.split.items()),
+                tuple(sorted((word, id(after)) for word, after in following.items())),
+            )
+            return shared.setdefault(key, node)
+
+        unique(self.root)
+
+    def _add(self, words: Words, sense: Sense) -> bool:
+        """Add a phrase; whether it is new."""
         node = self._node(words)
-        if not sense.form and not any(word.startswith("{") for word in words):
-            self.typical.setdefault((sense.concept, repr(sense.value)), words)
+        if not sense.form:
+            best = sense.concept, repr(sense.value)
+            if best not in self.typical and not any(word.startswith("{") for word in words):
+                self.typical[best] = words
         if node.senses is None:
             node.senses = []
         for other in node.senses:
@@ -121,8 +168,10 @@ class Lexicon:
                     self.collisions.append(
                         f"{' '.join(words)!r} is both {other.value!r} and {sense.value!r} of {sense.concept}"
                     )
-                return
+                    return True
+                return False
         node.senses.append(sense)
+        return True
 
     def knows(self, word: str) -> bool:
         """Whether any phrase contains the word."""
@@ -130,7 +179,7 @@ class Lexicon:
 
     def senses_of(self, words: Words) -> tuple[Sense, ...]:
         """The senses of exactly this phrase."""
-        node: Node | None = self._root
+        node: Node | None = self.root
         for word in words:
             node = node.next.get(word) if node else None
         return tuple(node.senses or ()) if node else ()
@@ -145,7 +194,7 @@ class Lexicon:
         """All phrases that start at token `at`; numbers and ordinals are given by their place."""
         found: list[Match] = []
         size = len(tokens)
-        open_paths: list[tuple[Node, int, tuple[Any, ...]]] = [(self._root, at, ())]
+        open_paths: list[tuple[Node, int, tuple[Any, ...]]] = [(self.root, at, ())]
         while open_paths:
             node, here, slots = open_paths.pop()
             if node.senses is not None:
@@ -179,7 +228,7 @@ class Lexicon:
         None where a number, an id or an ordinal may stand in one of them: that is for `matches`.
         """
         found: list[tuple[int, Node]] = []
-        node = self._root
+        node = self.root
         for here in range(at, len(tokens)):
             following = node.next
             token = tokens[here]
@@ -201,12 +250,12 @@ class Lexicon:
 
     def phrases(self) -> Iterator[tuple[Words, tuple[Sense, ...]]]:
         """Every phrase with its senses."""
-        return self._below(self._root, ())
+        return self._below(self.root, ())
 
     def phrases_of(self, concept: str) -> Iterator[tuple[Words, tuple[Sense, ...]]]:
         """Every phrase that begins as one of a concept does: the tree of all takes a fifth of a second."""
         for word in self.begins.get(concept, ()):
-            yield from self._below(self._root.next[word], (word,))
+            yield from self._below(self.root.next[word], (word,))
 
     @staticmethod
     def _below(node: Node, words: Words) -> Iterator[tuple[Words, tuple[Sense, ...]]]:

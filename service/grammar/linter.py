@@ -51,7 +51,7 @@ DIMENSIONS = frozenset({"number", "length", "speed", "seconds", "fraction", "tim
 def flaws(data: LanguageData) -> list[str]:
     """The defects that can be seen without reading a sentence; looked for whenever a language is loaded."""
     empty = (defect for frame in data.frames for defect in _empty(frame))
-    return [*data.lexicon.collisions, *_unreachable(data), *_unused(data), *empty]
+    return [*data.lexicon.collisions, *data.lexicon.repeats, *_unreachable(data), *_unused(data), *empty]
 
 
 def defects(data: LanguageData, parse: Callable[[str], Parse]) -> list[str]:

@@ -1,39 +1,39 @@
-"""What an answer leads to, as links of the OpenAPI document: the id that was made is the id to ask about.
+"""OpenAPI links: which part of an answer is which parameter of another call.
 
-Generated clients and testing tools walk by these from call to call, as a person would.
+Testing tools and generated clients walk by them from call to call, as a person would.
 """
 
 from __future__ import annotations
 
 from typing import Any
 
-MADE = ("sessions_make", "time_fork")
+CREATING = ("create_session", "fork_session")
 """Calls that answer a new session."""
 
 _SAME = "$request.path.session_id"
 _ONWARD: dict[str, dict[str, dict[str, Any]]] = {
-    "sessions_newest": {"sessions_look": {"parameters": {"session_id": "$response.body#/items/0/id"}}},
-    "talking_step": {
-        "watching_decision": {
+    "list_sessions": {"read_session": {"parameters": {"session_id": "$response.body#/items/0/id"}}},
+    "step_session": {
+        "read_decision": {
             "parameters": {"session_id": _SAME, "tick": "$response.body#/decisions/0/tick"},
         },
-        "watching_state": {"parameters": {"session_id": _SAME, "tick": "$response.body#/decisions/0/tick"}},
-        "time_rewind": {
+        "read_state": {"parameters": {"session_id": _SAME, "tick": "$response.body#/decisions/0/tick"}},
+        "rewind_session": {
             "parameters": {"session_id": _SAME},
             "requestBody": {"tick": "$response.body#/decisions/0/tick"},
         },
-        "time_fork": {
+        "fork_session": {
             "parameters": {"session_id": _SAME},
             "requestBody": {"at_tick": "$response.body#/decisions/0/tick"},
         },
     },
-    "time_link": {"sessions_make": {"requestBody": {"link": "$response.body#/link"}}},
-    "watching_recording": {"sessions_make": {"requestBody": {"recording": "$response.body"}}},
+    "read_link": {"create_session": {"requestBody": {"link": "$response.body#/link"}}},
+    "read_recording": {"create_session": {"requestBody": {"recording": "$response.body"}}},
 }
 
 
 def document(paths: dict[str, Any]) -> None:
-    """Put the links where they belong."""
+    """Adds the links to the answers."""
     operations = {
         operation["operationId"]: (path, operation)
         for path, item in paths.items()
@@ -42,7 +42,7 @@ def document(paths: dict[str, Any]) -> None:
     of_a_session = [name for name, (path, _) in operations.items() if "{session_id}" in path]
     own = {name: {"parameters": {"session_id": "$response.body#/id"}} for name in of_a_session}
     for name, (_, operation) in operations.items():
-        onward = own if name in MADE else _ONWARD.get(name)
+        onward = own if name in CREATING else _ONWARD.get(name)
         if onward is None:
             continue
         success = next(answer for status, answer in operation["responses"].items() if status < "3")

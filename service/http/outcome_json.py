@@ -5,16 +5,16 @@ from __future__ import annotations
 from typing import Any
 
 from service import actions as contract
-from service.interpreter.interpreter import Heard
+from service.interpreter.interpreter import ParsedCommand
 from service.sessions.utterance import Outcome
 
 
-def corrections_json(heard: Heard | None) -> list[dict[str, str]]:
+def corrections_json(heard: ParsedCommand | None) -> list[dict[str, str]]:
     """The words that were read as others."""
     return [{"from": each.wrote, "to": each.read} for each in heard.corrections] if heard else []
 
 
-def result_json(outcome: Outcome, heard: Heard | None, dry_run: bool) -> dict[str, Any]:
+def result_json(outcome: Outcome, heard: ParsedCommand | None, dry_run: bool) -> dict[str, Any]:
     """The command result: what was done."""
     return {
         "text": outcome.utterance.text,

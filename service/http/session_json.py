@@ -7,7 +7,7 @@ from typing import Any
 
 from service.contract.encode.decision import decision_json
 from service.refusals import refusals
-from service.sessions.narrator_protocol import Words
+from service.sessions.narrator_protocol import NarratorProtocol
 from service.sessions.session import Session
 from service.store import SessionRecord
 from sim.plan import Decision
@@ -57,7 +57,7 @@ def session_json(session: Session, sentence: str | None) -> dict[str, Any]:
         "name": record.name,
         "created_at": record.created_at.isoformat(),
         "paused": session.paused,
-        "playback_speed": session.pace,
+        "playback_speed": session.playback_speed,
         "mode": run.mode,
         "tick": run.world.tick,
         "episode": run.world.episode,
@@ -98,12 +98,12 @@ def summary_json(record: SessionRecord, live: Session | None) -> dict[str, Any]:
     }
 
 
-def told_decision(words: Words, run: SimState, decision: Decision) -> dict[str, Any]:
+def told_decision(words: NarratorProtocol, run: SimState, decision: Decision) -> dict[str, Any]:
     """A decision, the state it was taken in being `run`, with its narration."""
-    return decision_json(decision, words.decision(decision, run))
+    return decision_json(decision, words.decision(decision, run), words.options(decision))
 
 
-def told_runs(words: Words, timeline: Timeline, first: int, stop: int) -> list[dict[str, Any]]:
+def told_runs(words: NarratorProtocol, timeline: Timeline, first: int, stop: int) -> list[dict[str, Any]]:
     """The decisions taken from tick `first` to before `stop`; where a result stood there is none."""
     decided = ((run, timeline.decided(run)) for run in timeline.between(first, stop))
     return [told_decision(words, run, decision) for run, decision in decided if decision is not None]

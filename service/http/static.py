@@ -1,11 +1,9 @@
-"""Files held ready: each is read, compressed and tagged when it is first asked for and when it has changed.
+"""Static files in memory: read, compressed (gzip) and tagged (`ETag`) once, and again when they change.
 
-A page of many small modules is as quick as its slowest answer, and nothing here waits for a thread or
-compresses anything twice. Browsers ask whether a file has changed (`ETag`) before they use their copy,
-so that an edit shows at once; the page itself names, as `modulepreload`, every module that its scripts
-import, so that a browser asks for all of them together rather than for each when another has named it.
-Notes in modules that stand on lines of their own are for readers of the source: browsers get empty lines,
-so that an error still tells the line it has in the file. No ranges: these files are small.
+Starlette's `StaticFiles` reads from disk in a thread and `GZipMiddleware` compresses for every request; a
+page of many small modules is as slow as its slowest answer (`python -m bench.page`). The page names, as
+`modulepreload`, every module that its scripts import, so that a browser asks for all at once. Comments on
+lines of their own become empty lines, which keeps line numbers. No ranges: these files are small.
 """
 
 from __future__ import annotations
@@ -26,14 +24,14 @@ _SCRIPT = re.compile(r'<script type="module" src="([\w./-]+)"></script>')
 _IMPORT = re.compile(
     r'^(?:import|export)\b[^"\';]*?\bfrom\s+"(\.[\w./-]+)"|^import\s+"(\.[\w./-]+)"', re.MULTILINE
 )
-_NOTE = re.compile(r"^[ \t]*(?:/\*\*(?:(?!\*/).)*\*/|//[^\n]*)[ \t]*$", re.MULTILINE | re.DOTALL)
+_COMMENT = re.compile(r"^[ \t]*(?:/\*\*(?:(?!\*/).)*\*/|//[^\n]*)[ \t]*$", re.MULTILINE | re.DOTALL)
 _LARGE = 200_000
-"""What others have made, and packed tightly, is left alone."""
+"""Bytes; larger modules are other projects' builds and stay as they are."""
 _Times = tuple[tuple[int, int], ...]
 
 
 @dataclass(frozen=True, slots=True)
-class _Held:
+class _Content:
     times: _Times
     plain: bytes
     packed: bytes | None
@@ -41,7 +39,7 @@ class _Held:
     tag: str
 
 
-class ServedFile:
+class StaticFile:
     """One file at one address."""
 
     def __init__(self, file: Path, headers: Mapping[str, str] | None = None) -> None:
@@ -49,60 +47,60 @@ class ServedFile:
         kind = mimetypes.guess_type(file.name)[0] or "application/octet-stream"
         self._kind = f"{kind}; charset=utf-8" if kind.startswith("text/") else kind
         self._headers = _REVALIDATE | dict(headers or {})
-        self._held: _Held | None = None
+        self._content: _Content | None = None
 
-    def answer(self, asked: Headers) -> Response:
-        """The file, packed for those who take that, or that the browser's copy is the newest."""
-        held = self._newest()
-        packed = held.packed if _takes_gzip(asked.get("accept-encoding", "")) else None
-        tag = f'"{held.tag}-gz"' if packed is not None else f'"{held.tag}"'
+    def respond(self, request: Headers) -> Response:
+        """The file, compressed if the client accepts gzip, or a 304 if its copy is the newest."""
+        content = self._newest()
+        packed = content.packed if _accepts_gzip(request.get("accept-encoding", "")) else None
+        tag = f'"{content.tag}-gz"' if packed is not None else f'"{content.tag}"'
         headers = {**self._headers, "ETag": tag}
-        if held.packed is not None:
+        if content.packed is not None:
             headers["Vary"] = "Accept-Encoding"
-        if _matches(asked.get("if-none-match", ""), tag):
+        if _matches(request.get("if-none-match", ""), tag):
             return Response(status_code=304, headers=headers)
         if packed is not None:
             headers["Content-Encoding"] = "gzip"
-        return Response(held.plain if packed is None else packed, headers=headers, media_type=self._kind)
+        return Response(content.plain if packed is None else packed, headers=headers, media_type=self._kind)
 
     def sources(self) -> Iterable[Path]:
-        """What this answer is made of; it is made anew when one of them changes."""
+        """The files it is made of; it is made again when one of them changes."""
         return (self.file,)
 
     def content(self) -> bytes:
-        """What is served."""
+        """The bytes that are served, uncompressed."""
         content = self.file.read_bytes()
         if self.file.suffix == ".js" and self.file.stat().st_size < _LARGE:
-            return without_notes(content.decode()).encode()
+            return without_comments(content.decode()).encode()
         return content
 
-    def _newest(self) -> _Held:
-        if self._held is None or self._held.times != _times(self.sources()):
+    def _newest(self) -> _Content:
+        if self._content is None or self._content.times != _times(self.sources()):
             plain = self.content()
             packed = gzip.compress(plain, 9, mtime=0)
-            self._held = _Held(
+            self._content = _Content(
                 # Asked for after the content: which files those are may have changed with it.
                 times=_times(self.sources()),
                 plain=plain,
                 packed=packed if len(packed) < len(plain) else None,
                 tag=hashlib.blake2b(plain, digest_size=12).hexdigest(),
             )
-        return self._held
+        return self._content
 
 
-class ServedPage(ServedFile):
-    """An HTML page that names the modules of its scripts."""
+class StaticPage(StaticFile):
+    """An HTML page that preloads the modules of its scripts."""
 
     def __init__(self, file: Path) -> None:
         super().__init__(file)
         self._modules: list[Path] = []
 
     def sources(self) -> Iterable[Path]:
-        """The page and all its modules: each may come to import another."""
+        """The page and all its modules: an edit can add an import."""
         return (self.file, *self._modules)
 
     def content(self) -> bytes:
-        """The page, with what it will need told before it asks."""
+        """The page with its preloads."""
         html = self.file.read_text(encoding="utf-8")
         root = self.file.parent
         self._modules = modules_of(root / src for src in _SCRIPT.findall(html))
@@ -113,13 +111,13 @@ class ServedPage(ServedFile):
         return _SCRIPT.sub(lambda found: links + found[0], html, count=1).encode()
 
 
-def without_notes(module: str) -> str:
-    """A module without its notes, as many lines long."""
-    return _NOTE.sub(lambda found: "\n" * found[0].count("\n"), module)
+def without_comments(module: str) -> str:
+    """A module without the comments on lines of their own, as many lines long."""
+    return _COMMENT.sub(lambda found: "\n" * found[0].count("\n"), module)
 
 
 def modules_of(scripts: Iterable[Path]) -> list[Path]:
-    """Scripts and whatever they import at once, each once; what is imported on demand is left to its time."""
+    """Scripts and the modules they import statically, each once."""
     found: dict[Path, None] = {}
     waiting = [script.resolve() for script in scripts]
     while waiting:
@@ -127,7 +125,7 @@ def modules_of(scripts: Iterable[Path]) -> list[Path]:
         if module in found or not module.is_file():
             continue
         found[module] = None
-        names = _IMPORT.findall(without_notes(module.read_text(encoding="utf-8")))
+        names = _IMPORT.findall(without_comments(module.read_text(encoding="utf-8")))
         waiting.extend((module.parent / (one or other)).resolve() for one, other in names)
     return list(found)
 
@@ -144,7 +142,7 @@ def _times(files: Iterable[Path]) -> _Times:
     return tuple(times)
 
 
-def _takes_gzip(accepted: str) -> bool:
+def _accepts_gzip(accepted: str) -> bool:
     for each in accepted.lower().split(","):
         coding, _, weight = each.partition(";")
         if coding.strip() == "gzip":

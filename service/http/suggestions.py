@@ -1,7 +1,7 @@
-"""Names that are not known, and what may have been meant: keys of bodies and messages, words, parameters.
+"""Suggestions for unknown keys and words in bodies and messages.
 
-pydantic says which key it did not want and not which it would have taken; that is looked up in the type that
-was wanted, where the key stands. (Its JSON schema knows as well, and takes 40 ms to make.)
+pydantic names the key that it refuses and not those it accepts; they are looked up in the type that it
+validated, at the place of the key. (Its JSON schema knows as well, and takes 40 ms to make.)
 """
 
 from __future__ import annotations
@@ -9,43 +9,35 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import is_dataclass
-from difflib import get_close_matches
 from functools import lru_cache
 from types import UnionType
 from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
 
 from pydantic import BaseModel
 
-MOST_CHARS = 60
-"""Longer names are no slips."""
+from service.suggestions import nearest
+
+MAX_KEY_CHARS = 60
+"""Longer keys are no typing errors."""
 
 _TAGS = ("do", "type")
 """Keys by which the members of a union are told apart."""
 _QUOTED = re.compile(r"'([^']*)'")
 
 
-def near(said: str, known: Iterable[str]) -> str | None:
-    """The known name that is nearest to what was said, if any is near."""
-    if len(said) > MOST_CHARS:
-        return None
-    by_small = {name.lower(): name for name in known}
-    found = get_close_matches(said.lower(), by_small, n=1)
-    return by_small[found[0]] if found else None
-
-
-def meant(said: Any, known: Iterable[str]) -> str:
-    """The end of a sentence that says what may have been meant; nothing where that is not known."""
-    found = near(said, known) if isinstance(said, str) else None
+def suggest(name: Any, known: Iterable[str]) -> str:
+    """The end of a sentence that names what may have been meant; empty if nothing is near."""
+    found = nearest(name, known) if isinstance(name, str) and len(name) <= MAX_KEY_CHARS else None
     return f"; did you mean {found}" if found else ""
 
 
-def meant_of(said: Any, listed: str) -> str:
-    """The same, of words that are listed in quotation marks."""
-    return meant(said, _QUOTED.findall(listed))
+def suggest_quoted(name: Any, listed: str) -> str:
+    """The same, of names that are listed in quotation marks."""
+    return suggest(name, _QUOTED.findall(listed))
 
 
 def keys(kind: Any, sent: Any, path: Sequence[str | int]) -> Collection[str]:
-    """The keys that what was `sent`, which is to be of a type, may have at a place in it."""
+    """The keys that a type accepts at a path in what was `sent`."""
     kinds = list(_alternatives(kind, sent))
     for part in path:
         sent = sent[part]
@@ -55,7 +47,7 @@ def keys(kind: Any, sent: Any, path: Sequence[str | int]) -> Collection[str]:
 
 
 def _alternatives(kind: Any, sent: Any) -> Iterator[Any]:
-    """A type, or those of a union that may be meant."""
+    """A type, or the members of a union that may be meant."""
     origin = get_origin(kind)
     if origin is Annotated:
         yield from _alternatives(get_args(kind)[0], sent)

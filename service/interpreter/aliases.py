@@ -19,9 +19,9 @@ from service.interpreter.languages import Languages
 from service.problems import FieldProblem, NotAvailable, NotSaved, NotTeachable
 from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE
-from service.sessions.availability import refusal
-from service.sessions.facts import Lesson
-from service.store import KeptAnswer, PhraseRecord, Store, StoreError
+from service.sessions.availability import refusal_of
+from service.sessions.facts import AliasChange
+from service.store import PhraseRecord, Store, StoredResponse, StoreError
 from sim.actions import Where
 from sim.types import PLACEABLE, Kind
 
@@ -29,7 +29,7 @@ OWNER = "everyone"
 MAX_PHRASES = 200
 MAX_WORDS = 8
 
-AMID_TALK = Topic(
+RICH_TOPIC = Topic(
     things=tuple(f"{kind}-1" for kind in PLACEABLE),
     added=tuple(f"{kind}-{number}" for kind in PLACEABLE for number in range(1, 11)),
     actions=(Pause(),),
@@ -39,7 +39,7 @@ AMID_TALK = Topic(
 """A talk in which "again", "two more" or "remove them" mean something: they cannot be taught either."""
 
 
-class Phrasebook:
+class Aliases:
     """The phrases of the service's owner, in every language."""
 
     def __init__(self, store: Store, languages: Languages) -> None:
@@ -56,33 +56,33 @@ class Phrasebook:
     def phrases(self, code: str = DEFAULT_LANGUAGE) -> Phrases:
         """The phrases of a language, ready to be found in sentences."""
         if code not in self._ready:
-            taught = {each.phrase: contract.load(each.meaning) for each in self.listed(code)}
+            taught = {each.phrase: contract.load(each.meaning) for each in self.list(code)}
             self._ready[code] = self._languages[code].phrases(taught)
         return self._ready[code]
 
-    def listed(self, code: str = DEFAULT_LANGUAGE) -> list[PhraseRecord]:
+    def list(self, code: str = DEFAULT_LANGUAGE) -> list[PhraseRecord]:
         """What was taught in a language, in the order of the alphabet."""
         return sorted((each for each in self._kept.values() if each.language == code), key=lambda e: e.key)
 
-    async def learn(
+    async def update(
         self,
         action: Teach | Forget,
         code: str,
         *,
         dry_run: bool,
-        answer: Callable[[Lesson], KeptAnswer] | None = None,
-    ) -> Lesson:
+        answer: Callable[[AliasChange], StoredResponse] | None = None,
+    ) -> AliasChange:
         """Teach or forget, and keep an `answer` with it.
 
         Raises `NotTeachable`, `NotAvailable` or `NotSaved`; nothing is then changed.
         """
         key = " ".join(self._languages[code].words_of(action.phrase))
         before = self._kept.get((code, key))
-        told = None if before is None else self.told(contract.load(before.meaning), code)
+        told = None if before is None else self.describe(contract.load(before.meaning), code)
         if isinstance(action, Forget):
             if before is None:
                 raise _not_teachable(refusals(code).said("never_taught", phrase=action.phrase))
-            lesson = Lesson(action.phrase, told or "", taught=False, before=told)
+            lesson = AliasChange(action.phrase, told or "", taught=False, before=told)
             if not dry_run:
                 await self._forget(before, None if answer is None else answer(lesson))
             return lesson
@@ -90,12 +90,12 @@ class Phrasebook:
         record = PhraseRecord(
             owner=OWNER, language=code, key=key, phrase=action.phrase, meaning=contract.dump(action.meaning)
         )
-        lesson = Lesson(action.phrase, self.told(action.meaning, code), taught=True, before=told)
+        lesson = AliasChange(action.phrase, self.describe(action.meaning, code), taught=True, before=told)
         if not dry_run:
             await self._teach(record, None if answer is None else answer(lesson))
         return lesson
 
-    def told(self, actions: tuple[Action, ...], code: str) -> str:
+    def describe(self, actions: tuple[Action, ...], code: str) -> str:
         """The actions as a sentence, or by their names where the language has none."""
         try:
             return self._languages[code].sentence(actions)
@@ -110,26 +110,26 @@ class Phrasebook:
             raise _not_teachable(said("too_many_words", most=MAX_WORDS))
         if new and len(self._kept) >= MAX_PHRASES:
             raise _not_teachable(said("too_many_phrases", most=MAX_PHRASES))
-        others = {each.phrase: contract.load(each.meaning) for each in self.listed(code) if each.key != key}
-        amid = replace(AMID_TALK, phrases=self._languages[code].phrases(others))
+        others = {each.phrase: contract.load(each.meaning) for each in self.list(code) if each.key != key}
+        amid = replace(RICH_TOPIC, phrases=self._languages[code].phrases(others))
         alone = self._languages[code].parse(action.phrase, amid)
         if not isinstance(alone, Refused) or alone.reason != "not_understood":
             raise _not_teachable(said("means_something", phrase=action.phrase))
         for meant in action.meaning:
-            if (sentence := refusal(meant, code)) is not None:
+            if (sentence := refusal_of(meant, code)) is not None:
                 raise NotAvailable(sentence, errors=[FieldProblem("meaning", sentence)])
 
-    async def _teach(self, record: PhraseRecord, answer: KeptAnswer | None) -> None:
+    async def _teach(self, record: PhraseRecord, answer: StoredResponse | None) -> None:
         try:
-            await self._store.teach(record, answer)
+            await self._store.save_phrase(record, answer)
         except StoreError as error:
             raise NotSaved from error
         self._kept[record.language, record.key] = record
         self._ready.pop(record.language, None)
 
-    async def _forget(self, record: PhraseRecord, answer: KeptAnswer | None) -> None:
+    async def _forget(self, record: PhraseRecord, answer: StoredResponse | None) -> None:
         try:
-            await self._store.forget(record.owner, record.language, record.key, answer)
+            await self._store.delete_phrase(record.owner, record.language, record.key, answer)
         except StoreError as error:
             raise NotSaved from error
         self._kept.pop((record.language, record.key), None)

@@ -18,15 +18,20 @@ from service.grammar.corpus import sentences
 from service.grammar.parse_types import Understood
 from service.grammar.topic import Topic
 from service.resources import DEFAULT_LANGUAGE
-from service.sessions.availability import refusal
-from service.sessions.scheduler.playback_speed import Pace, PaceError, pace_after, sets_pace
+from service.sessions.availability import refusal_of
+from service.sessions.scheduler.playback_speed import (
+    PlaybackSpeed,
+    PlaybackSpeedError,
+    change_playback_speed,
+    sets_playback_speed,
+)
 from service.sessions.session import Session
 from sim.actions import Adjust, Set
 from sim.config import Config
 from sim.session.errors import EditError
 from sim.session.settings import change_setting
 
-MOST_AT_ONCE = 40
+MAX_INLINE_CHARS = 40
 """Characters of the longest prefix that is completed where it came in: each completion is read as a whole."""
 
 EXAMPLES = 6
@@ -70,17 +75,19 @@ class Guide:
         found = [_intent(name, examples, self._language) for name, examples in by_name.items()]
         return tuple(sorted(found, key=lambda intent: not intent.available))
 
-    def completions(self, prefix: str, session: Session | None, topic: Topic, taught: list[str]) -> list[str]:
+    def completions_here(
+        self, prefix: str, session: Session | None, topic: Topic, taught: list[str]
+    ) -> list[str]:
         """Whole sentences that begin with `prefix` and would work, in the session if one is given."""
         extra = [*taught, *self._by_id(topic)]
         return self._completer.complete(prefix, topic, extra=extra, possible=partial(_possible, session))
 
-    async def completed(
+    async def completions(
         self, prefix: str, session: Session | None, topic: Topic, taught: list[str]
     ) -> list[str]:
         """`completions`; those of a longer prefix are looked for in a thread, and the session asked here."""
-        if len(prefix) <= MOST_AT_ONCE:
-            return self.completions(prefix, session, topic, taught)
+        if len(prefix) <= MAX_INLINE_CHARS:
+            return self.completions_here(prefix, session, topic, taught)
         extra = [*taught, *self._by_id(topic)]
 
         def possible(actions: tuple[Action, ...]) -> bool:
@@ -114,31 +121,31 @@ class Guide:
 def _possible(session: Session | None, actions: tuple[Action, ...]) -> bool:
     """Whether actions would work now, in the session if one is given."""
     if session is not None:
-        return session.possible(actions) and _settable(actions, session.run.config, session.pace)
-    return all(refusal(action) is None for action in actions)
+        return session.is_possible(actions) and _settable(actions, session.run.config, session.playback_speed)
+    return all(refusal_of(action) is None for action in actions)
 
 
 def _name(action: Action) -> str:
     return f"ask {action.about}" if isinstance(action, Ask) else action.do
 
 
-def _settable(actions: tuple[Action, ...], config: Config, pace: Pace) -> bool:
+def _settable(actions: tuple[Action, ...], config: Config, speed: PlaybackSpeed) -> bool:
     """Whether settings can be set so, one after the other; cheap, where a new road would not be."""
     try:
         for action in actions:
             if isinstance(action, Set | Adjust):
-                if sets_pace(action):
-                    pace = pace_after(pace, action)
+                if sets_playback_speed(action):
+                    speed = change_playback_speed(speed, action)
                 else:
                     config = change_setting(config, action)
-    except (EditError, PaceError):
+    except (EditError, PlaybackSpeedError):
         return False
     return True
 
 
 def _intent(name: str, examples: list[Example], language: str) -> Intent:
-    working = [each for each in examples if all(refusal(action) is None for action in each.actions)]
+    working = [each for each in examples if all(refusal_of(action) is None for action in each.actions)]
     shown = (working or examples)[:EXAMPLES]
-    reasons = [] if working else [refusal(action, language) for action in examples[0].actions]
+    reasons = [] if working else [refusal_of(action, language) for action in examples[0].actions]
     why_not = next(filter(None, reasons), None)
     return Intent(name, bool(working), why_not, tuple(shown))

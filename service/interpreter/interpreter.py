@@ -19,7 +19,7 @@ from service.grammar.parse_types import Correction, Parse, Refused, Understood
 from service.grammar.references import heard
 from service.grammar.sentences import Unsayable
 from service.grammar.topic import ALONE, Topic
-from service.interpreter.aliases import Phrasebook
+from service.interpreter.aliases import Aliases
 from service.interpreter.languages import Languages
 from service.interpreter.preview import Preview, preview
 from service.llm.protocol import LanguageModel
@@ -27,9 +27,9 @@ from service.problems import Ambiguous, FieldProblem, Invalid, NotAQuestion, Not
 from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE
 from service.server_timing import part
-from service.sessions.facts import Lesson
-from service.sessions.narrator_protocol import Words
-from service.sessions.preconditions import ANY_TERMS, Terms
+from service.sessions.facts import AliasChange
+from service.sessions.narrator_protocol import NarratorProtocol
+from service.sessions.preconditions import NO_PRECONDITIONS, Preconditions
 from service.sessions.session import Session
 from service.sessions.utterance import Outcome, Utterance
 from sim.actions import Add, Adjust, Drive, Prefer, Remove, Scenario, Set, SetCount, SetMode
@@ -46,9 +46,9 @@ UNASKED = (
 """What may be done unconfirmed of what a model made out, where the settings allow that at all: all of it
 stays in the session and can be taken back or done again. Never names, phrases, or time itself."""
 
-MOST_SUGGESTED = 3
+MAX_SUGGESTIONS = 3
 
-MOST_AT_ONCE = 120
+MAX_INLINE_CHARS = 120
 """Characters of the longest text that is read where it came in. Longer ones may take some 20 ms and more, in
 which ticks would wait, so a thread reads them."""
 
@@ -56,7 +56,7 @@ Source = Literal["grammar", "llm", "typed"]
 
 
 @dataclass(frozen=True, slots=True)
-class Heard:
+class ParsedCommand:
     """What was understood, and by whom."""
 
     text: str
@@ -72,14 +72,14 @@ class Heard:
         return Utterance(actions=self.actions, text=self.text, supposes=self.supposes, language=self.language)
 
 
-class Listener:
+class Interpreter:
     """Understands and does what is said to sessions."""
 
     def __init__(
         self,
         languages: Languages,
-        phrasebook: Phrasebook,
-        words: Words,
+        aliases: Aliases,
+        words: NarratorProtocol,
         *,
         most_chars: int,
         model: LanguageModel | None = None,
@@ -88,8 +88,8 @@ class Listener:
     ) -> None:
         """`confirm`: whether a change that a model made out is asked about before it is done."""
         self.languages = languages
-        self.phrasebook = phrasebook
-        self._words = words
+        self.aliases = aliases
+        self._narrator = words
         self._most_chars = most_chars
         self._model = model
         self._confirm = confirm
@@ -97,19 +97,19 @@ class Listener:
 
     def topic(self, session: Session | None, code: str = DEFAULT_LANGUAGE) -> Topic:
         """What a sentence may refer to: what the session was told, and what was taught."""
-        phrases = self.phrasebook.phrases(code)
+        phrases = self.aliases.phrases(code)
         if session is None:
             return Topic(phrases=phrases)
-        return session.conversation.topic(session.run.world, phrases, session.history.saved)
+        return session.conversation.topic(session.run.world, phrases, session.undo_stack.bookmarks)
 
-    def sentence(self, config: Config, code: str = DEFAULT_LANGUAGE) -> str | None:
+    def sentence_for(self, config: Config, code: str = DEFAULT_LANGUAGE) -> str | None:
         """The sentence that makes such a road; None where nothing that can be said in the language does."""
         try:
             return self.languages[code].sentence(config_to_actions(config) or (Scenario(),))
         except (UndescribableError, Unsayable):
             return None
 
-    async def foresee(self, text: str, session: Session, code: str | None = None) -> Preview | None:
+    async def preview(self, text: str, session: Session, code: str | None = None) -> Preview | None:
         """What a sentence would do now; None for one that is empty, or too long to be heard."""
         if not text.strip() or len(text) > self._most_chars:
             return None
@@ -118,13 +118,13 @@ class Listener:
 
     async def _read(self, text: str, session: Session | None, code: str) -> Parse:
         parse, topic = self.languages[code].parse, self.topic(session, code)
-        if len(text) <= MOST_AT_ONCE:
+        if len(text) <= MAX_INLINE_CHARS:
             return heard(parse, text, topic)
         return await to_thread.run_sync(heard, parse, text, topic)
 
-    async def hear(
+    async def interpret(
         self, text: str, session: Session | None = None, code: str | None = None, field: str = "text"
-    ) -> Heard:
+    ) -> ParsedCommand:
         """What a sentence means, in a language (by default the session's).
 
         Raises `Invalid`, `NotUnderstood` or `Ambiguous`, naming `field`.
@@ -138,48 +138,52 @@ class Listener:
             parse = await self._read(text, session, code)
         match parse:
             case Understood():
-                return Heard(text, parse.actions, parse.corrections, language=code, supposes=parse.supposes)
+                return ParsedCommand(
+                    text, parse.actions, parse.corrections, language=code, supposes=parse.supposes
+                )
             case AmbiguousParse():
                 choices = [(choice.text, choice.actions) for choice in parse.choices]
-                raise _asked(parse.question, choices, "grammar")
+                raise _ambiguous(parse.question, choices, "grammar")
             case Refused():
                 refusal = self._refusal(parse, session, field, code)
                 if self._model is None or parse.reason != "not_understood":
                     raise refusal
-                return await self._interpreted(self._model, text, refusal, code)
+                return await self._ask_model(self._model, text, refusal, code)
 
-    async def hear_question(self, text: str, session: Session | None, code: str | None = None) -> Heard:
+    async def interpret_question(
+        self, text: str, session: Session | None, code: str | None = None
+    ) -> ParsedCommand:
         """What a question means. Raises also `NotAQuestion` where something else was said."""
-        found = await self.hear(text, session, code, "question")
+        found = await self.interpret(text, session, code, "question")
         if not all(isinstance(action, Ask | Advise) for action in found.actions):
             raise NotAQuestion(refusals(found.language).said("no_question"))
         return found
 
-    async def do(
+    async def execute(
         self,
         session: Session,
         utterance: Utterance,
         *,
         dry_run: bool = False,
-        terms: Terms = ANY_TERMS,
+        preconditions: Preconditions = NO_PRECONDITIONS,
     ) -> Outcome:
         """Do an utterance, all or nothing; a taught phrase is kept with its owner. Raises a problem."""
         if not any(isinstance(action, Teach | Forget) for action in utterance.actions):
-            outcome = await session.change(utterance, dry_run=dry_run, terms=terms)
+            outcome = await session.change(utterance, dry_run=dry_run, preconditions=preconditions)
             # An answer that is kept is kept as it was made: in our own words.
-            return outcome if terms.answer else await self._reworded(outcome, session)
+            return outcome if preconditions.answer else await self._rephrase_answer(outcome, session)
         code = utterance.language or session.language
         if len(utterance.actions) > 1:
             sentence = refusals(code).said("taught_alone")
             raise Invalid(sentence, errors=[FieldProblem("actions", sentence)])
         (action,) = utterance.actions
         assert isinstance(action, Teach | Forget)
-        terms.check(session.sequence)
+        preconditions.check(session.sequence)
         made: list[Outcome] = []
 
-        def outcome_of(lesson: Lesson) -> Outcome:
+        def outcome_of(lesson: AliasChange) -> Outcome:
             if not made:
-                reply = self._words.in_language(code).lesson(lesson)
+                reply = self._narrator.in_language(code).alias_change(lesson)
                 made.append(
                     Outcome(
                         utterance=utterance,
@@ -192,15 +196,15 @@ class Listener:
                 )
             return made[0]
 
-        answer = terms.answer
+        answer = preconditions.answer
         kept = None if answer is None else lambda lesson: answer(outcome_of(lesson))
-        lesson = await self.phrasebook.learn(action, code, dry_run=dry_run, answer=kept)
+        lesson = await self.aliases.update(action, code, dry_run=dry_run, answer=kept)
         outcome = outcome_of(lesson)
         if not dry_run:
-            session.tell("taught" if lesson.taught else "forgotten", utterance.text, outcome.reply)
+            session.announce("taught" if lesson.taught else "forgotten", utterance.text, outcome.reply)
         return outcome
 
-    async def _reworded(self, outcome: Outcome, session: Session) -> Outcome:
+    async def _rephrase_answer(self, outcome: Outcome, session: Session) -> Outcome:
         """The answer in a model's words, where one may reword and its words are true to the facts.
 
         Only where it is English: what a text claims is known for no other language.
@@ -221,33 +225,35 @@ class Listener:
             reason=parse.reason,
             unparsed=parse.unparsed,
             understood=parse.understood,
-            suggestions=tuple(suggestions[:MOST_SUGGESTED]),
+            suggestions=tuple(suggestions[:MAX_SUGGESTIONS]),
         )
 
     def _would_work(self, say: str, session: Session | None, code: str) -> bool:
         if session is None:
             return True
         parse = self.languages[code].parse(say, ALONE)
-        return not isinstance(parse, Understood) or session.possible(parse.actions)
+        return not isinstance(parse, Understood) or session.is_possible(parse.actions)
 
-    async def _interpreted(self, model: LanguageModel, text: str, refusal: NotUnderstood, code: str) -> Heard:
+    async def _ask_model(
+        self, model: LanguageModel, text: str, refusal: NotUnderstood, code: str
+    ) -> ParsedCommand:
         """What a model makes of a sentence the grammar refused. Raises the refusal, or asks."""
-        reading = await model.interpret(text)
+        reading, words = await model.interpret(text), refusals(code)
         if not reading.actions:
-            failure = reading.failure
-            told = reading.told if failure is None else refusals(code).model(failure.reason, failure.parts)
+            failure, told = reading.failure, reading.explanation
+            if failure is not None:
+                told = words.model(failure.reason, failure.parts)
             refusal.detail = f"{refusal.detail} {told}".strip()
             raise refusal
         at_once = HARMLESS if self._confirm else UNASKED
         if all(isinstance(action, at_once) for action in reading.actions):
-            return Heard(text, reading.actions, source="llm", language=code)
-        words = refusals(code)
+            return ParsedCommand(text, reading.actions, source="llm", language=code)
         try:
             said = self.languages[code].sentence(reading.actions)
         except Unsayable:
             refusal.detail += f" {words.said('not_confirmable')}"
             raise refusal from None
-        raise _asked(words.said("confirm"), [(said, reading.actions)], "llm")
+        raise _ambiguous(words.said("confirm"), [(said, reading.actions)], "llm")
 
 
 def language_of(session: Session | None) -> str:
@@ -255,6 +261,6 @@ def language_of(session: Session | None) -> str:
     return DEFAULT_LANGUAGE if session is None else session.language
 
 
-def _asked(question: str, choices: list[tuple[str, tuple[Action, ...]]], source: Source) -> Ambiguous:
+def _ambiguous(question: str, choices: list[tuple[str, tuple[Action, ...]]], source: Source) -> Ambiguous:
     told = [{"text": text, "actions": contract.dump(actions)} for text, actions in choices]
     return Ambiguous(question, choices=told, source=source)

@@ -13,7 +13,7 @@ from service.interpreter.guide import Guide
 from service.problems import FieldProblem, Invalid
 from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE, prompts_folder
-from service.sessions.availability import refusal
+from service.sessions.availability import refusal_of
 
 
 class Language(Protocol):
@@ -50,11 +50,18 @@ class Languages:
     def load(cls) -> Languages:
         """All there are. Raises `LanguageDataError`, naming every defect, when one is unfit."""
         codes = sorted(path.name for path in (prompts_folder() / "language").iterdir() if path.is_dir())
-        loaded = {code: Grammar.load(code, offered=lambda action: refusal(action) is None) for code in codes}
-        for code, grammar in loaded.items():
+        loaded = {
+            code: Grammar.load(code, offered=lambda action: refusal_of(action) is None) for code in codes
+        }
+        for code in codes:
             refusals(code)  # read at the start as well
-            grammar.suggestions.nearest("", frozenset())  # ready before anyone is refused
         return cls(loaded)
+
+    def prepare(self) -> None:
+        """Make what the first refusal needs, so that nobody waits for it. For any thread."""
+        for language in self._by_code.values():
+            if isinstance(language, Grammar):
+                language.suggestions.nearest("", frozenset())
 
     @property
     def codes(self) -> tuple[str, ...]:

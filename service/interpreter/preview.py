@@ -14,15 +14,15 @@ from service.actions import Action, Advise, Ask, Forget, Teach
 from service.grammar.parse_types import Ambiguous, Parse, Refused, Understood
 from service.problems import ProblemError
 from service.resources import DEFAULT_LANGUAGE
-from service.sessions.facts import changes_of
+from service.sessions.facts import merge_changes
 from service.sessions.session import Session
-from service.sessions.transaction import Draft
+from service.sessions.transaction import Transaction
 from sim.session.edits import Change
 
-MOST_TICKS = 64
+MAX_TICKS = 64
 """More ticks than this are not run for a preview."""
 
-Standing = Literal["does", "asks", "ambiguous", "not_understood", "refused"]
+PreviewStatus = Literal["does", "asks", "ambiguous", "not_understood", "refused"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +32,7 @@ class Preview:
     `actions` is what it means; `detail` the sentence it would be refused or asked about with.
     """
 
-    standing: Standing
+    standing: PreviewStatus
     actions: tuple[Action, ...] = ()
     changes: tuple[Change, ...] = ()
     detail: str | None = None
@@ -43,7 +43,7 @@ def preview(parse: Parse, session: Session, language: str = DEFAULT_LANGUAGE) ->
     """What a parsed sentence would do to a session, which stays as it is; refused in a language."""
     match parse:
         case Refused():
-            standing: Standing = "not_understood" if parse.reason == "not_understood" else "refused"
+            standing: PreviewStatus = "not_understood" if parse.reason == "not_understood" else "refused"
             return Preview(standing, detail=parse.message, unparsed=parse.unparsed)
         case Ambiguous():
             return Preview("ambiguous", detail=parse.question)
@@ -55,11 +55,13 @@ def _try(actions: tuple[Action, ...], session: Session, language: str) -> Previe
     doing = tuple(action for action in actions if not isinstance(action, Ask | Advise))
     if not doing:
         return Preview("asks", actions)
-    draft = Draft(session.timeline, session.paused, session.history, session.pace, language)
-    long = draft.asks_others(doing) or draft.work_ticks(doing) > MOST_TICKS
+    transaction = Transaction(
+        session.timeline, session.paused, session.undo_stack, session.playback_speed, language
+    )
+    long = transaction.needs_external_planner(doing) or transaction.estimate_ticks(doing) > MAX_TICKS
     if isinstance(doing[0], Teach | Forget) or long:
         return Preview("does", actions)
     try:
-        return Preview("does", actions, changes_of(draft.perform(session.sequence + 1, doing)))
+        return Preview("does", actions, merge_changes(transaction.perform(session.sequence + 1, doing)))
     except ProblemError as problem:
         return Preview("refused", actions, detail=problem.detail)

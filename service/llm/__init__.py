@@ -1,6 +1,6 @@
 """The optional language model: asked when the grammar refuses, and believed in nothing.
 
-Importing this package loads no model library; only `configured` does, and only where a model is named.
+Importing this package loads no model library; only `create_model` does, and only where a model is named.
 """
 
 from __future__ import annotations
@@ -8,7 +8,7 @@ from __future__ import annotations
 from service.llm.protocol import Facts, Interpretation, LanguageModel
 from service.settings import Settings
 
-__all__ = ["Facts", "Interpretation", "LanguageModel", "MissingExtraError", "configured"]
+__all__ = ["Facts", "Interpretation", "LanguageModel", "MissingExtraError", "create_model"]
 
 _LIBRARIES = ("pydantic_ai", "openai", "httpx2")
 """What the extra `llm` brings."""
@@ -18,7 +18,7 @@ class MissingExtraError(RuntimeError):
     """A language model is configured, but the library for it is not installed."""
 
 
-def configured(settings: Settings) -> LanguageModel | None:
+def create_model(settings: Settings) -> LanguageModel | None:
     """The language model the settings name; None without an address or a model.
 
     Raises `MissingExtraError` where one is named and the extra `llm` is not installed, and

@@ -26,7 +26,7 @@ MAX_ACTIONS: Final = 8
 _FENCED = re.compile(r"```[a-zA-Z]*\n?(.*?)```", re.DOTALL)
 
 
-def read(answer: str, said: str) -> tuple[Action, ...]:
+def parse_answer(answer: str, said: str) -> tuple[Action, ...]:
     """The actions in an answer to what was said. Raises `ModelFailure`."""
     try:
         values = from_json(_object_in(answer), allow_inf_nan=False)

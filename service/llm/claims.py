@@ -52,20 +52,20 @@ class Claims:
         numbers = {str(word): str(number) for word, number in values["numbers"].items()}
         return cls(groups, numbers, frozenset(values["neutral"]))
 
-    def of(self, text: str) -> tuple[Claim, ...]:
+    def claims_in(self, text: str) -> tuple[Claim, ...]:
         """The claims of a text, in order."""
         return tuple(self._claims(text))
 
-    def faithful(self, answer: str, text: str, facts: Facts) -> bool:
+    def is_faithful(self, answer: str, text: str, facts: Facts) -> bool:
         """Whether an answer may stand for a text that was made from these facts."""
-        claims = self.of(text)
+        claims = self.claims_in(text)
         named = {value for sort, value in claims if sort == "id"}
         return (
             named <= set(_strings(facts))
             and 0 < len(answer) <= 2 * len(text) + EXTRA_CHARS
             and all(_plain(char) or char in text for char in answer)
             and _ADDRESS.search(answer.lower()) is None
-            and self.of(answer) == claims
+            and self.claims_in(answer) == claims
             and self._foreign(answer, text) == set()
         )
 

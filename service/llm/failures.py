@@ -27,6 +27,10 @@ Reason: TypeAlias = Literal[
 ]
 
 
+class PromptError(RuntimeError):
+    """A file of `prompts/llm` is missing or has a defect."""
+
+
 class ModelFailure(Exception):  # noqa: N818 -- read as what went wrong
     """A model's answer is not there, or is not fit. `again`: whether asking once more may help."""
 

@@ -25,7 +25,7 @@ class FakeModel:
         self.asked.append(text)
         nothing = ModelFailure("nothing")
         told = refusals().model(nothing.reason, nothing.parts)
-        return self.interpretations.get(text, Interpretation(told=told, failure=nothing))
+        return self.interpretations.get(text, Interpretation(explanation=told, failure=nothing))
 
     async def rephrase(self, text: str, facts: Facts) -> str:  # noqa: ARG002 -- the interface has it
         """What was written down for the text."""

@@ -26,13 +26,13 @@ from pydantic_ai.settings import ModelSettings
 from pydantic_core import to_json
 
 from service.actions import Action
-from service.llm.answer_parser import read
+from service.llm.answer_parser import parse_answer
 from service.llm.claims import Claims
 from service.llm.failures import ModelFailure
 from service.llm.prompts import load_prompt
 from service.llm.protocol import Facts, Interpretation
-from service.llm.rate_limit import Bucket
 from service.llm.transport import GuardedTransport
+from service.rate_limit import TokenBucket
 from service.refusals import refusals
 from service.settings import Settings
 
@@ -52,7 +52,7 @@ class OpenAIModel:
         self._settings = settings
         self._interpret, self._rephrase = load_prompt("interpret"), load_prompt("rephrase")
         self._claims = Claims.load()
-        bucket = Bucket(settings.llm_per_minute, clock)
+        bucket = TokenBucket(settings.llm_per_minute, clock)
         self._http = httpx2.AsyncClient(
             transport=GuardedTransport(base_url, settings.llm_api_key, bucket),
             follow_redirects=False,
@@ -90,7 +90,7 @@ class OpenAIModel:
         except ModelFailure as error:
             failure = error
         _LOG.info("language model not used", reason=failure.reason, model=self.name)
-        return Interpretation(told=refusals().model(failure.reason, failure.parts), failure=failure)
+        return Interpretation(explanation=refusals().model(failure.reason, failure.parts), failure=failure)
 
     async def rephrase(self, text: str, facts: Facts) -> str:
         """The text in the model's words, if these claim the same; else the text."""
@@ -102,7 +102,7 @@ class OpenAIModel:
         except (TimeoutError, ModelFailure):
             return text
         words = " ".join(answer.split())
-        return words if self._claims.faithful(words, text, facts) else text
+        return words if self._claims.is_faithful(words, text, facts) else text
 
     async def aclose(self) -> None:
         """Close the connections."""
@@ -112,12 +112,12 @@ class OpenAIModel:
         """What the model reads in a sentence, asked twice at most. Raises `ModelFailure`."""
         prompt, said = self._interpret, _message("said", text)
         try:
-            return read(await self._ask(prompt.text, said), text)
+            return parse_answer(await self._ask(prompt.text, said), text)
         except ModelFailure as failure:
             if not failure.again:
                 raise
         # The unfit answer is not sent along: some servers want turns to alternate, and it may be hostile.
-        return read(await self._ask(prompt.text, f"{said}\n{prompt.again}"), text)
+        return parse_answer(await self._ask(prompt.text, f"{said}\n{prompt.again}"), text)
 
     async def _ask(self, system: str, user: str) -> str:
         """One request, and the text of its answer. Raises `ModelFailure`."""

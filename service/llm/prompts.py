@@ -12,15 +12,12 @@ from typing import Any, Final
 
 import yaml
 
+from service.llm.failures import PromptError
 from service.llm.schema import schema
 from service.resources import prompts_folder
 
 SCHEMA_MARK: Final = "{{actions}}"
 """Stands in a prompt where the actions are described."""
-
-
-class PromptError(RuntimeError):
-    """A file of `prompts/llm` is missing or has a defect."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,7 +23,7 @@ class Interpretation:
     """What a model made of a sentence: actions, or one sentence on why there are none."""
 
     actions: tuple[Action, ...] = ()
-    told: str = ""
+    explanation: str = ""
     failure: ModelFailure | None = field(default=None, compare=False)
     """what went wrong, to be told in another language"""
 

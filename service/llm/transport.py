@@ -15,7 +15,7 @@ from pydantic import BaseModel, SecretStr, ValidationError
 from pydantic_core import to_json
 
 from service.llm.failures import ModelFailure
-from service.llm.rate_limit import Bucket
+from service.rate_limit import TokenBucket
 
 MAX_ANSWER_BYTES: Final = 262_144
 """The size of a response that is read; what a model may say is a hundredth of it."""
@@ -44,7 +44,7 @@ class GuardedTransport(httpx2.AsyncBaseTransport):
         self,
         base_url: str,
         key: SecretStr | None,
-        bucket: Bucket,
+        bucket: TokenBucket,
         inner: httpx2.AsyncBaseTransport | None = None,
     ) -> None:
         """`inner` does the asking; by default, connections that heed no proxy of the environment."""
@@ -55,8 +55,9 @@ class GuardedTransport(httpx2.AsyncBaseTransport):
 
     async def handle_async_request(self, request: httpx2.Request) -> httpx2.Response:
         """The request's body, posted; the answer's text, in a body of our own."""
-        if not self._bucket.take():
-            raise ModelFailure("too_often", wait=self._bucket.wait_s)
+        wait_s = self._bucket.take()
+        if wait_s:
+            raise ModelFailure("too_often", wait=wait_s)
         sent = httpx2.Request(
             "POST",
             self._url,
@@ -68,7 +69,7 @@ class GuardedTransport(httpx2.AsyncBaseTransport):
             answer = await self._inner.handle_async_request(sent)
             try:
                 _check_head(answer)
-                body = await _bounded(answer)
+                body = await _read_bounded(answer)
             finally:
                 await answer.aclose()
         except (httpx2.ConnectError, httpx2.ConnectTimeout, httpx2.UnsupportedProtocol) as error:
@@ -108,7 +109,7 @@ def _check_head(answer: httpx2.Response) -> None:
         raise ModelFailure("no_answer")
 
 
-async def _bounded(answer: httpx2.Response) -> bytes:
+async def _read_bounded(answer: httpx2.Response) -> bytes:
     """The body as it is sent, unless it is too large. Nothing is unpacked: what is packed is no JSON."""
     body = bytearray()
     async for chunk in answer.aiter_raw():

@@ -6,6 +6,7 @@ from service.contract.encode.explanation import crash_json
 from service.narration.explanation import called
 from service.narration.inflection import capital
 from service.narration.naming import Naming
+from service.narration.options import Options
 from service.narration.question_handler import Json, not_so, plain
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
@@ -26,6 +27,7 @@ class Crashes:
     def __init__(self, sayings: Sayings) -> None:
         """`sayings`: the language's."""
         self._sayings = sayings
+        self._options = Options(sayings)
 
     def answer(self, asked: Asked) -> Json:
         """See `Answerer.answer`. Where there was no crash, that is the answer."""
@@ -35,7 +37,9 @@ class Crashes:
         except QuestionError as error:
             told = plain(self._sayings, asked.ask, asked.timeline.state, self._not_so(error))
         else:
-            told = plain(self._sayings, asked.ask, asked.timeline.state, self.text(crash)) | crash_json(crash)
+            texts = self._options.texts(crash.explanation.decision)
+            told = plain(self._sayings, asked.ask, asked.timeline.state, self.text(crash))
+            told |= crash_json(crash, texts)
         return told | {"question": self._say("question" if tick is None else "question_at", tick=tick)}
 
     def text(self, crash: Crash) -> str:

@@ -10,14 +10,17 @@ from typing import Any
 from service.narration.answers import Answers
 from service.narration.episode_end import Ends
 from service.narration.naming import Naming
+from service.narration.options import Options
 from service.narration.outlook import outlook
 from service.narration.replies import Replies, speed
 from service.narration.sayings import Sayings
+from service.narration.side_by_side import SidesBySide
 from service.resources import DEFAULT_LANGUAGE
-from service.sessions.facts import Answerable, Fact, Lesson
-from service.sessions.scheduler.playback_speed import Pace
+from service.sessions.facts import AliasChange, Answerable, Fact, SideBySideTexts
+from service.sessions.scheduler.playback_speed import PlaybackSpeed
 from sim.decide import sense
 from sim.events import Event, EventType
+from sim.explain.side_by_side import SideBySide
 from sim.forecast import Forecast
 from sim.perceive import sensor_named
 from sim.plan import Decision, Measure, Option
@@ -39,6 +42,8 @@ class Narrator:
         self._replies = Replies(sayings)
         self._answers = Answers(sayings)
         self._ends = Ends(sayings)
+        self._options = Options(sayings)
+        self._sides = SidesBySide(sayings)
         self._first_choice = self._say("first_choice")
         self._told: dict[Hashable, str] = {}
         """Sentences said before, by all they are made of: the same few are said again and again."""
@@ -130,7 +135,15 @@ class Narrator:
                 self._told.clear()
             self._told[key] = told
 
-    def lesson(self, lesson: Lesson) -> str:
+    def options(self, decision: Decision) -> list[str]:
+        """A few words for each option of a decision, in their order."""
+        return self._options.texts(decision)
+
+    def side_by_side(self, found: SideBySide) -> SideBySideTexts:
+        """A counterfactual beside the real run: what differs, and how each of the two ends."""
+        return self._sides.texts(found)
+
+    def alias_change(self, lesson: AliasChange) -> str:
         """The reply to a phrase that was taught or forgotten."""
         return self._replies.lesson(lesson)
 
@@ -166,7 +179,7 @@ class Narrator:
         form = "one" if len(event.ids) == 1 else "many"
         return self._sayings.say("log", "no_way", "without", form, who=self._sayings.joined(event.ids))
 
-    def speed(self, pace: Pace) -> str:
+    def speed(self, pace: PlaybackSpeed) -> str:
         """A playback speed."""
         return speed(self._sayings, pace)
 
@@ -174,13 +187,13 @@ class Narrator:
         """A planner as people know it."""
         return self._sayings.planner(name)
 
-    def silent(self, planner: str, fault: str) -> str:
+    def planner_timeout(self, planner: str, fault: str) -> str:
         """What is said when a planner did not answer in time and a person is to drive."""
         return self._sayings.say(
             "log", "events", "planner_silent", planner=planner, fault=self._sayings.fault(fault)
         )
 
-    def done(self, facts: tuple[Fact, ...]) -> str:
+    def reply(self, facts: tuple[Fact, ...]) -> str:
         """The reply: what was done, in a sentence for each fact."""
         return self._replies.done(facts)
 

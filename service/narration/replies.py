@@ -3,9 +3,19 @@
 from __future__ import annotations
 
 from service.narration.sayings import Sayings
-from service.sessions.bookmarks import Kept, Went
-from service.sessions.facts import Advised, Asked, Fact, Lesson, PauseSet, Stepped, Undone, Viewed, changes_of
-from service.sessions.scheduler.playback_speed import MAX, Pace, PaceSet
+from service.sessions.bookmarks import Bookmarked, Jumped
+from service.sessions.facts import (
+    Advised,
+    AliasChange,
+    Asked,
+    Fact,
+    PauseSet,
+    Stepped,
+    Undone,
+    Viewed,
+    merge_changes,
+)
+from service.sessions.scheduler.playback_speed import MAX, PlaybackSpeed, PlaybackSpeedSet
 from sim.actions import Add, Adjust, Drive, Prefer, Remove, Reset, Scenario, Set, SetCount, SetMode
 from sim.events import EventType
 from sim.plan import traits_of
@@ -30,7 +40,7 @@ class Replies:
         ]
         return " ".join(sentence for sentence in told if sentence)
 
-    def lesson(self, lesson: Lesson) -> str:
+    def lesson(self, lesson: AliasChange) -> str:
         """What was taught or forgotten, as the sentence that says the same."""
         key = "taught" if lesson.taught else "forgotten"
         said = self._say(key, phrase=lesson.phrase, sentence=lesson.sentence)
@@ -45,7 +55,7 @@ class Replies:
             case PauseSet(before=before, paused=paused):
                 key = "pause" if paused else "resume"
                 return self._say(f"{key}_already" if before is paused else key)
-            case PaceSet(before=before, after=after):
+            case PlaybackSpeedSet(before=before, after=after):
                 key = "pace_already" if before == after else "pace"
                 return self._say(key, before=speed(self._sayings, before), after=speed(self._sayings, after))
             case Stepped(ticks=ticks):
@@ -57,9 +67,9 @@ class Replies:
                 said = self._say(key, diff=told) if told else self._say(f"{key}_plain")
                 clock = [change.after for change in fact.changes if change.path == "paused"]
                 return f"{said} {self._say('pause' if clock[0] else 'resume')}" if clock else said
-            case Kept(name=name, tick=tick, again=again):
+            case Bookmarked(name=name, tick=tick, again=again):
                 return self._say("saved_again" if again else "saved", name=name, tick=tick)
-            case Went(name=name, tick=tick):
+            case Jumped(name=name, tick=tick):
                 return (
                     self._say("rewound", tick=tick)
                     if name is None
@@ -153,7 +163,7 @@ class Replies:
         things = [thing for fact in group if isinstance(fact, Applied) for thing in fact.removed]
         kinds = {thing.kind for thing in things}
         named = self._sayings.things(next(iter(kinds)) if len(kinds) == 1 else "everything", len(things))
-        diff = self._diff(changes_of(tuple(group)))
+        diff = self._diff(merge_changes(tuple(group)))
         return self._say("remove_many", count=len(things), things=named, diff=diff)
 
     def _scenario(self, run: SimState) -> str:
@@ -189,7 +199,7 @@ class Replies:
         return self._sayings.say("replies", key, **parts)
 
 
-def speed(sayings: Sayings, pace: Pace) -> str:
+def speed(sayings: Sayings, pace: PlaybackSpeed) -> str:
     """A playback speed: `4×`."""
     if pace == MAX:
         return sayings.say("replies", "speed", "max")

@@ -7,11 +7,10 @@ from copy import deepcopy
 from pathlib import Path
 from typing import Any, Final, Protocol
 
-import yaml
-
 from service.narration.inflection import Inflected, capital, join_forms, of_forms
 from service.refusals import fault_of
 from service.resources import DEFAULT_LANGUAGE, prompts_folder
+from service.yaml_files import read_cached_yaml, read_yaml
 from sim.plan import Option
 from sim.planner_names import canonical
 from sim.types import KINDS, PLACEABLE, Cell, Kind, Move, kind_of
@@ -92,7 +91,8 @@ class Sayings:
         paths = sorted(place.glob("*.yaml"))
         if not paths:
             raise FileNotFoundError(f"there are no sayings in {place}")
-        return cls({path.stem: yaml.safe_load(path.read_text(encoding="utf-8")) for path in paths}, code)
+        read = read_cached_yaml(paths) if folder is None else [read_yaml(path) for path in paths]
+        return cls({path.stem: held for path, held in zip(paths, read, strict=True)}, code)
 
     def say(self, file: str, *keys: str, **parts: object) -> str:
         """A template, filled, in all its forms. Raises `KeyError` where the language lacks it."""

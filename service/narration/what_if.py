@@ -10,7 +10,7 @@ from service.narration.replies import value_of
 from service.narration.sayings import Sayings
 from service.refusals import refusals
 from service.sessions.facts import Asked
-from service.sessions.scheduler.playback_speed import sets_pace
+from service.sessions.scheduler.playback_speed import sets_playback_speed
 from sim.actions import (
     Add,
     Adjust,
@@ -52,7 +52,11 @@ class WhatIfs:
         """See `Answerer.answer`. What cannot be done is answered too, and nothing is run for it."""
         ask, timeline = asked.ask, asked.timeline
         change = ask.change or ()
-        actions = [action for action in change if isinstance(action, WORLD_ACTIONS) and not sets_pace(action)]
+        actions = [
+            action
+            for action in change
+            if isinstance(action, WORLD_ACTIONS) and not sets_playback_speed(action)
+        ]
         if not actions:
             return plain(self._sayings, ask, timeline.state, self._say("only_road"))
         try:

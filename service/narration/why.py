@@ -5,6 +5,7 @@ from __future__ import annotations
 from service.contract.encode.explanation import explanation_json
 from service.narration.crash import Crashes
 from service.narration.explanation import Explained
+from service.narration.options import Options
 from service.narration.question_handler import Json, not_so, plain
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
@@ -20,6 +21,7 @@ class Whys:
         self._sayings = sayings
         self._explained = Explained(sayings)
         self._crashes = Crashes(sayings)
+        self._options = Options(sayings)
 
     def answer(self, asked: Asked) -> Json:
         """See `Answerer.answer`. A question about what is not so is answered too, without causes.
@@ -37,7 +39,9 @@ class Whys:
         except QuestionError as error:
             return plain(self._sayings, ask, timeline.state, not_so(self._sayings, error.code, error.facts))
         text = self._explained.text(explanation)
-        return plain(self._sayings, ask, timeline.state, text) | explanation_json(explanation)
+        return plain(self._sayings, ask, timeline.state, text) | explanation_json(
+            explanation, self._options.texts(explanation.decision)
+        )
 
     def _about_a_crash(self, asked: Asked) -> bool:
         return asked.supposes == "crash" or led_to_crash(asked.timeline, asked.ask.tick)

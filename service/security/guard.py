@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any, cast
+from typing import Any
 
-from starlette.requests import HTTPConnection
-
-from service.problems import TooManyChanges
+from service.problems import RateLimited
 from service.security.api_key import Key
 from service.security.hosts import Hosts, loopback
 from service.security.quotas import Quotas
-from service.security.rate_limit import Buckets
+from service.security.rate_limit import RateLimiter
 from service.security.ws_tickets import Tickets
 from service.settings import Settings
 
@@ -28,19 +26,14 @@ class Guard:
         per_minute = settings.changes_per_minute
         if per_minute is None and self.key.asked:
             per_minute = STRANGERS_PER_MINUTE
-        self.buckets = Buckets(per_minute)
+        self.rate_limiter = RateLimiter(per_minute)
         self.quotas = Quotas(settings.max_client_sessions, settings.max_client_cells)
 
     def count_change(self, client: str) -> None:
-        """One more change of a client. Raises `TooManyChanges`."""
-        wait = self.buckets.take(client)
+        """One more change of a client. Raises `RateLimited`."""
+        wait = self.rate_limiter.take(client)
         if wait:
-            raise TooManyChanges(wait)
-
-
-def guard_of(connection: HTTPConnection) -> Guard:
-    """The guard of the service that a request or socket belongs to."""
-    return cast(Guard, connection.app.state.guard)
+            raise RateLimited(wait)
 
 
 def client_of(scope: Any) -> str:

@@ -1,34 +1,33 @@
-"""How often each client may change something: a bucket for each that fills as time goes by."""
+"""Rate limit of changes: a token bucket for each client."""
 
 from __future__ import annotations
 
-import math
 import time
 from collections import OrderedDict
 from collections.abc import Callable
 
-MOST_CLIENTS = 10_000
-"""Clients that are remembered; whoever was longest silent is forgotten, by then with a full bucket."""
+from service.rate_limit import TokenBucket
+
+MAX_CLIENTS = 10_000
+"""Clients that are remembered; the one silent longest is forgotten, by then with a full bucket."""
 
 
-class Buckets:
-    """Lets `per_minute` of each client through in a minute, and at most as many at once; None lets all."""
+class RateLimiter:
+    """Lets `per_minute` changes of each client through; None lets all through."""
 
     def __init__(self, per_minute: int | None, now: Callable[[], float] = time.monotonic) -> None:
-        self._most = per_minute
+        self._per_minute = per_minute
         self._now = now
-        self._left: OrderedDict[str, tuple[float, float]] = OrderedDict()
+        self._buckets: OrderedDict[str, TokenBucket] = OrderedDict()
 
     def take(self, client: str) -> int:
-        """0 where one more may pass, which is counted; else the whole seconds until one may."""
-        if self._most is None:
+        """0 if one more change may pass, which is counted; otherwise the whole seconds until one may."""
+        if self._per_minute is None:
             return 0
-        now = self._now()
-        left, seen = self._left.get(client, (float(self._most), now))
-        left = min(float(self._most), left + (now - seen) * self._most / 60)
-        wait = 0 if left >= 1 else max(1, math.ceil((1 - left) * 60 / self._most))
-        self._left[client] = (left if wait else left - 1, now)
-        self._left.move_to_end(client)
-        if len(self._left) > MOST_CLIENTS:
-            self._left.popitem(last=False)
-        return wait
+        bucket = self._buckets.get(client)
+        if bucket is None:
+            bucket = self._buckets[client] = TokenBucket(self._per_minute, self._now)
+            if len(self._buckets) > MAX_CLIENTS:
+                self._buckets.popitem(last=False)
+        self._buckets.move_to_end(client)
+        return bucket.take()

@@ -9,7 +9,7 @@ from __future__ import annotations
 from service.actions import Action, Ask, Hide, Show
 from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE
-from service.sessions.scheduler.playback_speed import sets_pace
+from service.sessions.scheduler.playback_speed import sets_playback_speed
 from sim.actions import Add, Adjust, Drive, Remove, Reset, Scenario, Set, SetCount, SetMode
 from sim.session.scenario import find_unavailable
 from sim.session.settings import is_available
@@ -49,7 +49,7 @@ _WITH_UNITS = {"target_speed_kmh": ("target speed", " km/h"), "sensor_range_m": 
 """Parameters whose spelling ends in their unit, in words."""
 
 
-def refusal(action: Action, language: str = DEFAULT_LANGUAGE) -> str | None:
+def refusal_of(action: Action, language: str = DEFAULT_LANGUAGE) -> str | None:
     """Why an action is not offered by this version, as a sentence; None if it is."""
     words = refusals(language)
     if isinstance(action, Ask):
@@ -66,7 +66,7 @@ def refusal(action: Action, language: str = DEFAULT_LANGUAGE) -> str | None:
         case Scenario():
             missing = find_unavailable(action)
             return None if missing is None else words.problem(missing)
-        case Set() | Adjust() if sets_pace(action):
+        case Set() | Adjust() if sets_playback_speed(action):
             return None
         case Set() | Adjust() if not is_available(action):
             name, unit = _WITH_UNITS.get(action.parameter, (action.parameter.replace("_", " "), ""))
@@ -81,4 +81,4 @@ def _refuse_imagined(action: Action, language: str) -> str | None:
     """Why nobody can be asked what if to an action; what touches no world may be, and makes no difference."""
     if action.do in ("undo", "redo", "rewind", "load"):
         return refusals(language).session("what_if_back")
-    return None if action.do in _NO_WORLD else refusal(action, language)
+    return None if action.do in _NO_WORLD else refusal_of(action, language)

@@ -10,8 +10,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
-from rapidfuzz import process
-
 from service.actions import Action, Load
 from service.problems import FieldProblem, UnknownName
 from service.refusals import refusals
@@ -19,15 +17,15 @@ from service.store import EntryRecord, Store, StoreError
 from sim.session.edits import Change
 from sim.session.timeline import Timeline
 
-MOST_NAMES = 100
+MAX_BOOKMARKS = 100
 """Names that a session may hold: each keeps a whole timeline, though states are shared."""
 
-MOST_TOLD = 3
+MAX_SUGGESTIONS = 3
 """How many names are told to whoever asks for one that is not there."""
 
 
 @dataclass(frozen=True, slots=True)
-class Moment:
+class Bookmark:
     """A named moment: how many changes had been accepted, and the timeline as it was."""
 
     name: str
@@ -41,7 +39,7 @@ class Moment:
 
 
 @dataclass(frozen=True, slots=True)
-class Kept:
+class Bookmarked:
     """The present was given a name; `again` if the name was another moment's before."""
 
     name: str
@@ -50,7 +48,7 @@ class Kept:
 
 
 @dataclass(frozen=True, slots=True)
-class Went:
+class Jumped:
     """The session went to another tick, by going back or (with a `name`) to a named moment."""
 
     before: int
@@ -59,7 +57,7 @@ class Went:
     name: str | None = None
 
 
-def with_names(entries: Sequence[EntryRecord], saved: Iterable[Moment]) -> Sequence[EntryRecord]:
+def attach_names(entries: Sequence[EntryRecord], saved: Iterable[Bookmark]) -> Sequence[EntryRecord]:
     """Entries that were replayed, each with the names it gave."""
     names: dict[int, dict[str, int]] = {}
     for moment in saved:
@@ -69,14 +67,14 @@ def with_names(entries: Sequence[EntryRecord], saved: Iterable[Moment]) -> Seque
     return [replace(entry, names=names.get(entry.sequence, {})) for entry in entries]
 
 
-async def told_where(
+async def add_other_session(
     store: Store, problem: UnknownName, actions: Sequence[Action], language: str
 ) -> UnknownName:
     """The problem, telling also of another session in which there is such a moment."""
     (error,) = problem.errors
     action = actions[int(error.field.split(".")[1])]
     try:
-        found = await store.moments(1, name=action.name) if isinstance(action, Load) else ()
+        found = await store.bookmarks(1, name=action.name) if isinstance(action, Load) else ()
     except StoreError:
         return problem
     if not found:
@@ -87,9 +85,11 @@ async def told_where(
     return UnknownName(sentence, errors=[FieldProblem(error.field, sentence)], **problem.more)
 
 
-def unknown(name: str, names: Iterable[str], where: str, language: str) -> UnknownName:
+def unknown_bookmark(name: str, names: Iterable[str], where: str, language: str) -> UnknownName:
     """The problem of a name that nothing was saved under, with the nearest there are."""
-    near = [found for found, _, _ in process.extract(name, list(names), limit=MOST_TOLD)]
+    from rapidfuzz import process  # at the first name that is not there
+
+    near = [found for found, _, _ in process.extract(name, list(names), limit=MAX_SUGGESTIONS)]
     words = refusals(language)
     if near:
         sentence = words.session("not_saved_near", name=name, near=tuple(near))

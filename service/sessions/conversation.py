@@ -22,7 +22,7 @@ from sim.actions import Add, Remove, Reset, SetCount, Where
 from sim.session.edits import Applied
 from sim.world import World
 
-REMEMBERED = 200
+MAX_REMEMBERED = 200
 """How many added things are remembered by the order they came in."""
 
 Episode: TypeAlias = tuple[int, int]
@@ -34,29 +34,29 @@ class Conversation:
 
     def __init__(self) -> None:
         self._things: tuple[str, ...] = ()
-        self._added: deque[str] = deque(maxlen=REMEMBERED)
+        self._added: deque[str] = deque(maxlen=MAX_REMEMBERED)
         self._actions: tuple[Action, ...] = ()
         self._undone = False
         self._kind: str | None = None
         self._removed = False
         self._where: Where | None = None
         self._episode: Episode | None = None
-        self._kept: Conversation | None = None
+        self._durable: Conversation | None = None
         """the same without what is kept nowhere, where they differ"""
 
     @property
-    def lasting(self) -> Conversation:
+    def durable(self) -> Conversation:
         """What would be remembered after a restart; a copy."""
-        twin = copy(self._kept or self)
+        twin = copy(self._durable or self)
         twin._added = twin._added.copy()
         return twin
 
-    def note(self, outcome: Outcome, *, passing: bool = False) -> None:
+    def record(self, outcome: Outcome, *, passing: bool = False) -> None:
         """Remember what was done, or told about; what is `passing` is kept nowhere."""
         if passing:
-            self._kept = self._kept or self.lasting
-        elif self._kept is not None:
-            self._kept.note(outcome)
+            self._durable = self._durable or self.durable
+        elif self._durable is not None:
+            self._durable.record(outcome)
         actions, facts = outcome.utterance.actions, outcome.facts
         if not any(isinstance(action, Undo | Redo) for action in actions):
             self._actions = actions
@@ -70,16 +70,16 @@ class Conversation:
         if amounts:
             self._things = ()  # "them" are all that the utterance added, not what its last part did
         for fact in amounts:
-            self._note_amount(fact)
+            self._record_change(fact)
         if outcome.answer is not None:
-            self._note_told(outcome.answer, facts)
+            self._record_answer(outcome.answer, facts)
 
-    def _note_amount(self, fact: Applied) -> None:
+    def _record_change(self, fact: Applied) -> None:
         action = fact.action
         if not isinstance(action, Add | Remove | SetCount):
             self._forget_things()
             return
-        self._enter(fact.state.world)
+        self._set_episode(fact.state.world)
         self._things += tuple(thing.id for thing in fact.added)
         for thing in fact.added:
             if thing.id in self._added:
@@ -88,16 +88,16 @@ class Conversation:
         self._removed = isinstance(action, Remove) or bool(fact.removed)
         if action.kind != "everything":
             self._kind = action.kind
-        self._where = None if isinstance(action, SetCount) else _spot(action.where, fact)
+        self._where = None if isinstance(action, SetCount) else _fixed_place(action.where, fact)
 
-    def _note_told(self, answer: Mapping[str, Any], facts: tuple[Fact, ...]) -> None:
+    def _record_answer(self, answer: Mapping[str, Any], facts: tuple[Fact, ...]) -> None:
         told = tuple(cause["id"] for cause in answer.get("causes", ()) if cause.get("id"))
         asked = [fact for fact in facts if isinstance(fact, Asked)]
         if told and asked:
-            self._enter(asked[-1].timeline.state.world)
+            self._set_episode(asked[-1].timeline.state.world)
             self._things = told
 
-    def _enter(self, world: World) -> None:
+    def _set_episode(self, world: World) -> None:
         """What follows is about the episode of this world."""
         if self._episode != _episode(world):
             self._forget_things()
@@ -107,7 +107,7 @@ class Conversation:
         self._things = ()
         self._added.clear()
 
-    def values(self) -> dict[str, Any]:
+    def to_json(self) -> dict[str, Any]:
         """All of it as JSON values."""
         return {
             "things": [*self._things],
@@ -121,7 +121,7 @@ class Conversation:
         }
 
     @classmethod
-    def of(cls, values: Mapping[str, Any]) -> Conversation:
+    def from_json(cls, values: Mapping[str, Any]) -> Conversation:
         """The same from JSON values. Raises `ValueError`, `TypeError` or `LookupError`."""
         new, where = cls(), values["where"]
         new._things = tuple(values["things"])
@@ -160,7 +160,7 @@ def _moves_things(fact: Applied) -> bool:
     return isinstance(fact.action, Add | Remove | SetCount | Reset)
 
 
-def _spot(where: Where | None, fact: Applied) -> Where | None:
+def _fixed_place(where: Where | None, fact: Applied) -> Where | None:
     """The place of an action in terms that mean the same when the vehicle has moved on."""
     if where is None or (where.distance_m, where.cells, where.nearest, where.id) == (None,) * 4:
         return where

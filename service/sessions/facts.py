@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from service.actions import Ask
-from service.sessions.bookmarks import Kept, Went
-from service.sessions.scheduler.playback_speed import PaceSet
+from service.sessions.bookmarks import Bookmarked, Jumped
+from service.sessions.scheduler.playback_speed import PlaybackSpeedSet
 from sim.hazard_advice import Advice
 from sim.session.edits import Applied, Change
 from sim.session.timeline import Timeline
@@ -66,7 +66,7 @@ class Viewed:
 
 
 @dataclass(frozen=True, slots=True)
-class Lesson:
+class AliasChange:
     """A phrase that was taught or forgotten, and the sentence that says the same."""
 
     phrase: str
@@ -79,10 +79,12 @@ class Lesson:
 Answerable: TypeAlias = Asked | Advised
 """What is answered, and changes nothing."""
 
-Fact: TypeAlias = Applied | PauseSet | PaceSet | Stepped | Undone | Kept | Went | Viewed | Answerable
+Fact: TypeAlias = (
+    Applied | PauseSet | PlaybackSpeedSet | Stepped | Undone | Bookmarked | Jumped | Viewed | Answerable
+)
 
 
-def changes_of(facts: tuple[Fact, ...]) -> tuple[Change, ...]:
+def merge_changes(facts: tuple[Fact, ...]) -> tuple[Change, ...]:
     """What differs after all facts together, each figure once, in the order first touched."""
     merged: dict[str, Change] = {}
     for fact in facts:
@@ -92,17 +94,17 @@ def changes_of(facts: tuple[Fact, ...]) -> tuple[Change, ...]:
     return tuple(change for change in merged.values() if change.before != change.after)
 
 
-def views_of(facts: tuple[Fact, ...]) -> dict[str, bool]:
+def merge_views(facts: tuple[Fact, ...]) -> dict[str, bool]:
     """Which views are to be shown and which hidden; of one that is named twice, the last word."""
     return {fact.view: fact.shown for fact in facts if isinstance(fact, Viewed)}
 
 
-def asked_about(facts: tuple[Fact, ...]) -> list[Timeline]:
+def question_timelines(facts: tuple[Fact, ...]) -> list[Timeline]:
     """The timelines that questions are about."""
     return [fact.timeline for fact in facts if isinstance(fact, Asked)]
 
 
-def happened_in(facts: tuple[Fact, ...]) -> list[tuple[SimState, Applied | StepResult]]:
+def parts_with_events(facts: tuple[Fact, ...]) -> list[tuple[SimState, Applied | StepResult]]:
     """The parts that bring events, each with the run they happened in, in order."""
     parts: list[tuple[SimState, Applied | StepResult]] = []
     for fact in facts:
@@ -119,11 +121,20 @@ def _changes(fact: Fact) -> tuple[Change, ...]:
             return fact.changes
         case PauseSet():
             return (Change("paused", fact.before, fact.paused),)
-        case PaceSet():
+        case PlaybackSpeedSet():
             return (Change("playback_speed", fact.before, fact.after),)
         case Stepped():
             return (Change("tick", fact.first_tick, fact.first_tick + len(fact.ticks)),)
-        case Went():
+        case Jumped():
             return (Change("tick", fact.before, fact.tick), *fact.changes)
-        case Asked() | Advised() | Kept() | Viewed():
+        case Asked() | Advised() | Bookmarked() | Viewed():
             return ()
+
+
+@dataclass(frozen=True, slots=True)
+class SideBySideTexts:
+    """Two runs beside each other in words: what differs, and how each of the two ends."""
+
+    difference: str
+    real_end: str
+    changed_end: str

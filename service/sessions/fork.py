@@ -15,16 +15,16 @@ from itertools import groupby
 
 from service import actions as contract
 from service.actions import Action
-from service.sessions.scheduler.playback_speed import sets_pace
+from service.sessions.scheduler.playback_speed import sets_playback_speed
 from service.sessions.transaction import WORLD_ACTIONS
-from service.sessions.undo_stack import History
+from service.sessions.undo_stack import UndoStack
 from service.store import Branch, EntryRecord
-from service.store.fork_log import standing
+from service.store.fork_log import encode_standing
 from sim.session.timeline import Entry, Timeline
 
 
 @dataclass(frozen=True, slots=True)
-class Way:
+class ForkPoint:
     """How a state was come to: a timeline that ends in it, and where it leaves the log it was taken from."""
 
     timeline: Timeline
@@ -32,21 +32,21 @@ class Way:
     steps: int
     """changes on it"""
 
-    def history(self, paused: bool) -> History:
+    def undo_stack(self, paused: bool) -> UndoStack:
         """What can be undone of it, in a session that begins so."""
-        return History(ground=len(self.timeline.entries), ground_steps=self.steps, ground_paused=paused)
+        return UndoStack(base_entries=len(self.timeline.entries), base_steps=self.steps, base_paused=paused)
 
 
-def way_to(timeline: Timeline, tick: int) -> Timeline:
+def timeline_until(timeline: Timeline, tick: int) -> Timeline:
     """A timeline up to a past tick. Raises `IndexError`; the timeline itself stays as it is."""
     own = timeline.copy()
     own.rewind(tick)
     return own
 
 
-def way_of(session_id: str, mixed: Collection[int], timeline: Timeline, tick: int) -> Way:
+def fork_point(session_id: str, mixed: Collection[int], timeline: Timeline, tick: int) -> ForkPoint:
     """The way of a session to a past tick; `mixed` are the changes that the log has a part of only."""
-    own = way_to(timeline, tick)
+    own = timeline_until(timeline, tick)
     numbers = [entry.sequence for entry in own.entries]
     last = numbers[-1] if numbers else 0
     written = {each for each in numbers if each in mixed} if mixed else set()
@@ -55,23 +55,25 @@ def way_of(session_id: str, mixed: Collection[int], timeline: Timeline, tick: in
         {"sequence": record.sequence, "tick": record.tick, "actions": record.actions}
         for record in _records(parts)
     ]
-    common = standing((each for each in numbers if each not in written) if written else numbers, last)
+    common = encode_standing((each for each in numbers if each not in written) if written else numbers, last)
     branch = Branch(parent=session_id, sequence=last, tick=tick, standing=common, instead=instead)
-    return Way(own, branch, int(common, 16).bit_count() + len(instead))
+    return ForkPoint(own, branch, int(common, 16).bit_count() + len(instead))
 
 
-def is_mixed(actions: Sequence[Action]) -> bool:
+def is_partly_of_world(actions: Sequence[Action]) -> bool:
     """Whether such a change is in the log of the road with part of its actions only."""
-    changing = sum(isinstance(action, WORLD_ACTIONS) and not sets_pace(action) for action in actions)
+    changing = sum(
+        isinstance(action, WORLD_ACTIONS) and not sets_playback_speed(action) for action in actions
+    )
     return 0 < changing < len(actions)
 
 
-def written_out(timeline: Timeline) -> list[EntryRecord]:
+def flatten_log(timeline: Timeline) -> list[EntryRecord]:
     """The log of a timeline as changes of a session, numbered from 1."""
-    return numbered(_records(timeline.entries))
+    return renumber(_records(timeline.entries))
 
 
-def numbered(entries: Sequence[EntryRecord]) -> list[EntryRecord]:
+def renumber(entries: Sequence[EntryRecord]) -> list[EntryRecord]:
     """The same, numbered from 1 without gaps: a recording has no parent."""
     return [
         EntryRecord(sequence=number, tick=each.tick, text=each.text, actions=each.actions, digest=each.digest)

@@ -26,29 +26,29 @@ class LogEvent:
     cell: Cell | None = None
 
 
-class Log:
+class EventLog:
     """The latest events, oldest first."""
 
     def __init__(self, kept: int) -> None:
         self._events: deque[LogEvent] = deque(maxlen=kept)
         self._last = 0
-        self._passed = 0
-        self._passing: set[int] = set()
+        self._transient_count = 0
+        self._transient: set[int] = set()
         self._before: deque[LogEvent] = deque()
         """lines that would still be held if there were no passing ones"""
 
     @property
-    def last(self) -> int:
+    def last_number(self) -> int:
         """Number of the newest line; 0 before the first."""
         return self._last
 
     @property
-    def first_kept(self) -> int:
+    def first_number(self) -> int:
         """Number of the oldest line that can still be read."""
         return self._last - len(self._events) + 1
 
     @property
-    def kept(self) -> int:
+    def capacity(self) -> int:
         """How many lines are kept at most."""
         return self._events.maxlen or 0
 
@@ -58,7 +58,7 @@ class Log:
             self._last += lines
             self._events.clear()
             self._before.clear()
-            self._passing.clear()
+            self._transient.clear()
 
     def add(
         self,
@@ -74,31 +74,31 @@ class Log:
         self._last += 1
         event = LogEvent(self._last, tick, kind, text, ids, cell)
         if passing:
-            self._passed += 1
-            self._passing.add(event.number)
-        if self._passing:
-            self._drop_for_one()
+            self._transient_count += 1
+            self._transient.add(event.number)
+        if self._transient:
+            self._make_room()
         self._events.append(event)
         return event
 
-    def lasting(self) -> tuple[int, list[LogEvent]]:
+    def durable_lines(self) -> tuple[int, list[LogEvent]]:
         """How many lines there would be without passing ones, and those of them that would be held."""
-        held = [*self._before, *(event for event in self._events if event.number not in self._passing)]
-        return self._last - self._passed, held
+        held = [*self._before, *(event for event in self._events if event.number not in self._transient)]
+        return self._last - self._transient_count, held
 
-    def _drop_for_one(self) -> None:
+    def _make_room(self) -> None:
         if len(self._events) == self._events.maxlen:
             oldest = self._events[0]
-            if oldest.number in self._passing:
-                self._passing.remove(oldest.number)
+            if oldest.number in self._transient:
+                self._transient.remove(oldest.number)
             else:
                 self._before.append(oldest)
-        while len(self._before) > len(self._passing):
+        while len(self._before) > len(self._transient):
             self._before.popleft()
 
     def after(self, number: int, limit: int) -> list[LogEvent]:
         """Up to `limit` lines that follow `number`, oldest first."""
-        skipped = max(0, number - self.first_kept + 1)
+        skipped = max(0, number - self.first_number + 1)
         return list(islice(self._events, skipped, skipped + limit))
 
     def latest(self, limit: int) -> list[LogEvent]:

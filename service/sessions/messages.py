@@ -6,11 +6,13 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import lru_cache
 from typing import Any, Final
 
+import orjson
+
 from service.contract.encode.decision import brief_decision_json
 from service.contract.encode.json import encoded
-from service.contract.encode.state import Json, Standing, metrics_json, state_json
+from service.contract.encode.state import Json, SessionStatus, metrics_json, state_json
 from service.sessions.log import LogEvent
-from service.sessions.subscribers import Missed
+from service.sessions.subscribers import MissedTicks
 from sim.plan import Decision
 from sim.session.edits import Change
 from sim.state import SimState
@@ -28,15 +30,15 @@ _SMALL_ROAD: Final = 512
 
 
 def hello_message(
-    session: Json, state: Json, log: Sequence[LogEvent], decision: Json | None, sequence: int
+    session: Json, state: bytes, log: Sequence[LogEvent], decision: Json | None, sequence: int
 ) -> bytes:
-    """The first message on a socket."""
+    """The first message on a socket; `state` is JSON text."""
     return encoded(
         {
             "type": "hello",
             "protocol": PROTOCOL,
             "session": session,
-            "state": state,
+            "state": orjson.Fragment(state),
             "log": log,
             "decision": decision,
             "sequence": sequence,
@@ -46,7 +48,7 @@ def hello_message(
 
 def tick_message(
     sequence: int,
-    standing: Callable[[], Standing],
+    status: Callable[[], SessionStatus],
     before: SimState,
     after: SimState,
     decision: Decision | None,
@@ -56,7 +58,7 @@ def tick_message(
     """One tick: what moved, or the whole state, `standing` included, where a new road began."""
     world = after.world
     if world.episode != before.world.episode:
-        seen: Json = {"state": state_json(standing(), after)}
+        seen: Json = {"state": state_json(status(), after)}
     else:
         seen = motion_json(before.world, world)
     return encoded(
@@ -77,7 +79,7 @@ def tick_message(
 
 
 def changed_message(
-    standing: Standing,
+    status: SessionStatus,
     run: SimState,
     text: str | None,
     reply: str,
@@ -89,22 +91,22 @@ def changed_message(
     # The type stands first: readers of events take its name from there.
     told: Json = {
         "type": "changed",
-        "sequence": standing.sequence,
+        "sequence": status.sequence,
         "text": text,
         "reply": reply,
         "changes": changes,
         "events": lines,
-        "state": state_json(standing, run),
+        "state": state_json(status, run),
     }
     if views:
         told["views"] = views
     return encoded(told)
 
 
-def state_message(standing: Standing, run: SimState, missed: Missed | None) -> bytes:
-    """All there is to go on from, for a reader that missed some ticks."""
-    told = None if missed is None else [missed.first_tick, missed.last_tick]
-    return encoded({"type": "state", "missed": told, "state": state_json(standing, run)})
+def state_message(state: bytes, missed: MissedTicks | None) -> bytes:
+    """The whole state, as JSON text, for a reader that missed some ticks."""
+    ticks = None if missed is None else [missed.first_tick, missed.last_tick]
+    return encoded({"type": "state", "missed": ticks, "state": orjson.Fragment(state)})
 
 
 def motion_json(before: World, after: World) -> dict[str, Any]:

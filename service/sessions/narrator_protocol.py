@@ -4,22 +4,23 @@ from __future__ import annotations
 
 from typing import Any, Protocol
 
-from service.sessions.facts import Answerable, Fact, Lesson
-from service.sessions.scheduler.playback_speed import Pace
+from service.sessions.facts import AliasChange, Answerable, Fact, SideBySideTexts
+from service.sessions.scheduler.playback_speed import PlaybackSpeed
 from sim.events import Event
+from sim.explain.side_by_side import SideBySide
 from sim.forecast import Forecast
 from sim.plan import Decision
 from sim.state import SimState
 
 
-class Words(Protocol):
+class NarratorProtocol(Protocol):
     """Facts → words; nothing is said that is not in the facts."""
 
     @property
     def language(self) -> str:
         """The code of the language."""
 
-    def in_language(self, code: str) -> Words:
+    def in_language(self, code: str) -> NarratorProtocol:
         """The same in another language."""
 
     def failed(self) -> str:
@@ -31,22 +32,28 @@ class Words(Protocol):
         `forecast`: what it was decided by, where that is known already.
         """
 
+    def options(self, decision: Decision) -> list[str]:
+        """A few words for each option of a decision, in their order."""
+
+    def side_by_side(self, found: SideBySide) -> SideBySideTexts:
+        """A counterfactual beside the real run: what differs, and how each of the two ends."""
+
     def event(self, event: Event, run: SimState) -> str:
         """One line of the log."""
 
-    def speed(self, pace: Pace) -> str:
+    def speed(self, pace: PlaybackSpeed) -> str:
         """A playback speed: `4×`."""
 
     def planner(self, name: str) -> str:
         """A planner as people know it."""
 
-    def silent(self, planner: str, fault: str) -> str:
+    def planner_timeout(self, planner: str, fault: str) -> str:
         """What is said when a planner did not answer in time and a person is to drive."""
 
-    def done(self, facts: tuple[Fact, ...]) -> str:
+    def reply(self, facts: tuple[Fact, ...]) -> str:
         """The reply: what was done, in a sentence or two."""
 
-    def lesson(self, lesson: Lesson) -> str:
+    def alias_change(self, lesson: AliasChange) -> str:
         """The reply to a phrase that was taught or forgotten."""
 
     def answer(self, asked: Answerable) -> dict[str, Any]:

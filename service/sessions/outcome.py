@@ -7,38 +7,40 @@ from dataclasses import replace
 from typing import Any
 
 from service import actions as contract
-from service.sessions.facts import Answerable, Asked, Fact, asked_about, changes_of
-from service.sessions.narrator_protocol import Words
-from service.sessions.transaction import Draft
-from service.sessions.utterance import Notice, Outcome, Utterance
+from service.sessions.facts import Answerable, Asked, Fact, merge_changes, question_timelines
+from service.sessions.narrator_protocol import NarratorProtocol
+from service.sessions.transaction import Transaction
+from service.sessions.utterance import Outcome, ReachabilityNotice, Utterance
 from service.store import EntryRecord
 from sim.plan import traits_of
 from sim.state import SimState
 
-LONG_QUESTIONS = frozenset(("what_if", "why_not", "confidence"))
+SLOW_QUESTIONS = frozenset(("what_if", "why_not", "confidence"))
 """Questions for which whole episodes are run, with whatever planner."""
 
 
-def outcome_of(
-    words: Words,
+def make_outcome(
+    narrator: NarratorProtocol,
     before: SimState,
     utterance: Utterance,
     facts: tuple[Fact, ...],
     sequence: int,
-    notice: Notice | None = None,
+    notice: ReachabilityNotice | None = None,
 ) -> Outcome:
     """The outcome of an utterance that was said in a state; `notice` is told after what was done.
 
-    `words`: the session's; the reply is in the language of the utterance, the log in that of the session.
+    `narrator`: the session's; the reply is in the language of the utterance, the log in that of the session.
     """
-    own = words if utterance.language is None else words.in_language(utterance.language)
+    own = narrator if utterance.language is None else narrator.in_language(utterance.language)
     if utterance.supposes is not None:
         facts = tuple(
             replace(fact, supposes=utterance.supposes) if isinstance(fact, Asked) else fact for fact in facts
         )
-    answers, said = _told(own, facts)
-    done = said if own is words or not _changing(facts) else _told(words, facts)[1]
-    noticed = "" if notice is None else notice.text if own is words else own.event(notice.event, notice.run)
+    answers, said = _narrate(own, facts)
+    done = said if own is narrator or not _changing(facts) else _narrate(narrator, facts)[1]
+    noticed = "" if notice is None else notice.text
+    if notice is not None and own is not narrator:
+        noticed = own.event(notice.event, notice.run)
     return Outcome(
         utterance=utterance,
         facts=facts,
@@ -47,15 +49,15 @@ def outcome_of(
         notice=notice,
         answer=answers[-1] if answers else None,
         sequence=sequence,
-        changes=changes_of(facts),
+        changes=merge_changes(facts),
         before=before,
     )
 
 
-def _told(words: Words, facts: tuple[Fact, ...]) -> tuple[list[dict[str, Any]], str]:
+def _narrate(narrator: NarratorProtocol, facts: tuple[Fact, ...]) -> tuple[list[dict[str, Any]], str]:
     """The answers, and all that is said."""
-    answers = [words.answer(fact) for fact in facts if isinstance(fact, Answerable)]
-    return answers, reply(words, facts, answers)
+    answers = [narrator.answer(fact) for fact in facts if isinstance(fact, Answerable)]
+    return answers, compose_reply(narrator, facts, answers)
 
 
 def _changing(facts: tuple[Fact, ...]) -> bool:
@@ -63,34 +65,36 @@ def _changing(facts: tuple[Fact, ...]) -> bool:
     return any(not isinstance(fact, Answerable) for fact in facts)
 
 
-def entry_of(outcome: Outcome, tick: int, draft: Draft) -> EntryRecord:
+def make_entry(outcome: Outcome, tick: int, transaction: Transaction) -> EntryRecord:
     """What is kept of an outcome, said at a tick, that led to a draft's state."""
     return EntryRecord(
         sequence=outcome.sequence,
         tick=tick,
         text=outcome.utterance.text,
         actions=contract.dump(outcome.utterance.actions),
-        digest=draft.timeline.state.world.digest(),
+        digest=transaction.timeline.state.world.digest(),
         names={
             moment.name: moment.tick
-            for moment in draft.history.saved.values()
+            for moment in transaction.undo_stack.bookmarks.values()
             if moment.sequence == outcome.sequence
         },
     )
 
 
-def reply(words: Words, facts: tuple[Fact, ...], answers: Sequence[dict[str, Any]]) -> str:
+def compose_reply(
+    narrator: NarratorProtocol, facts: tuple[Fact, ...], answers: Sequence[dict[str, Any]]
+) -> str:
     """What is said of facts: what was done, then the answers."""
     done = tuple(fact for fact in facts if not isinstance(fact, Answerable))
-    said = [words.done(done)] if done else []
+    said = [narrator.reply(done)] if done else []
     return " ".join([*said, *(answer["text"] for answer in answers)])
 
 
-def long_to_answer(planner: str, facts: tuple[Fact, ...]) -> bool:
+def is_slow_to_answer(planner: str, facts: tuple[Fact, ...]) -> bool:
     """Whether a question has a slow planner run many times, or whole episodes."""
     asked = {fact.ask.about for fact in facts if isinstance(fact, Asked)}
     if not asked:
         return False
-    earlier = {timeline.config.planner for timeline in asked_about(facts)}
+    earlier = {timeline.config.planner for timeline in question_timelines(facts)}
     slow = any(not traits_of(each).quick for each in {planner, *earlier})
-    return slow or bool(LONG_QUESTIONS & asked)
+    return slow or bool(SLOW_QUESTIONS & asked)

@@ -9,13 +9,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from service.problems import Stale
+from service.problems import PreconditionFailed
 from service.sessions.utterance import Outcome
-from service.store import KeptAnswer
+from service.store import StoredResponse
 
 
 @dataclass(frozen=True, slots=True)
-class Terms:
+class Preconditions:
     """The terms of one change; none of them by default.
 
     `sequences`: the session must stand at one of these. `answer`: makes of the outcome what is to be kept
@@ -23,13 +23,13 @@ class Terms:
     """
 
     sequences: frozenset[int] | None = None
-    answer: Callable[[Outcome], KeptAnswer] | None = None
+    answer: Callable[[Outcome], StoredResponse] | None = None
 
     def check(self, sequence: int) -> None:
         """Raise `Stale` where the session stands elsewhere."""
         if self.sequences is not None and sequence not in self.sequences:
-            raise Stale(sequence)
+            raise PreconditionFailed(sequence)
 
 
-ANY_TERMS = Terms()
+NO_PRECONDITIONS = Preconditions()
 """No terms at all."""

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 from anyio import to_thread
 
-from service.sessions.bookmarks import Went
+from service.sessions.bookmarks import Jumped
 from service.sessions.facts import Fact, Undone
 from sim.events import Event, EventType
 from sim.oracle.outlook import OPEN, Outlook, outlook, quickly_open
@@ -26,7 +26,7 @@ _WORKER = ThreadPoolExecutor(max_workers=1, thread_name_prefix="outlook")
 
 
 @dataclass(frozen=True, slots=True)
-class Seen:
+class RoadOutlook:
     """What was found out about a road; None where nothing was."""
 
     road: Hashable
@@ -34,46 +34,46 @@ class Seen:
     found: Outlook | None
 
 
-class Outlooks:
+class ReachabilityMonitor:
     """What is known of one session's road. All methods are for the event loop's thread."""
 
     def __init__(self, present: Callable[[], SimState], tell: Callable[[Event], None]) -> None:
         """`present`: the state now; `tell`: given what is found out about a road that began by itself."""
         self._present = present
         self._tell = tell
-        self._seen: Seen | None = None
-        self._looking: asyncio.Future[Outlook | None] | None = None
+        self._known: RoadOutlook | None = None
+        self._searching: asyncio.Future[Outlook | None] | None = None
         self._waiting: SimState | None = None
 
-    def begun(self, run: SimState) -> None:
+    def start_road(self, run: SimState) -> None:
         """A road has begun with a tick; needs a running loop."""
         if quickly_open(run):
-            self._seen = _seen(run, OPEN)
-        elif self._looking is None:
-            self._look(run)
+            self._known = _road_outlook(run, OPEN)
+        elif self._searching is None:
+            self._search(run)
         else:
             self._waiting = run  # in place of another that waited, which is gone by now
 
-    async def settled(self) -> None:
+    async def wait_until_idle(self) -> None:
         """Wait until nothing is being found out."""
-        while self._looking is not None:
-            await asyncio.wait([self._looking])
+        while self._searching is not None:
+            await asyncio.wait([self._searching])
             await asyncio.sleep(0)
 
-    async def after(self, run: SimState, facts: Sequence[Fact]) -> Seen | None:
+    async def after_change(self, run: SimState, facts: Sequence[Fact]) -> RoadOutlook | None:
         """What is to be known once a change has led here; None where it changes no road."""
-        back = any(isinstance(fact, Undone | Went) for fact in facts)
-        if not back and _road(run) == _road(self._present()):
+        back = any(isinstance(fact, Undone | Jumped) for fact in facts)
+        if not back and _road_key(run) == _road_key(self._present()):
             return None
         if run.world.outcome is not Outcome.RUNNING:
             return None
         if quickly_open(run):
-            return _seen(run, OPEN)
-        return _seen(run, await to_thread.run_sync(outlook, run))
+            return _road_outlook(run, OPEN)
+        return _road_outlook(run, await to_thread.run_sync(outlook, run))
 
-    def notice(self, seen: Seen, run: SimState) -> Event | None:
+    def event_for(self, seen: RoadOutlook, run: SimState) -> Event | None:
         """What is to be told of this, beside what is known; `run` is the state it was found in."""
-        before, found = self._seen, seen.found
+        before, found = self._known, seen.found
         if found is None:
             return None
         was = before.found if before is not None and before.episode == seen.episode else None
@@ -86,35 +86,35 @@ class Outlooks:
         how = "late" if found.late else None
         return Event(world.tick, EventType.NO_WAY, world.episode, found.ids, how=how)
 
-    def know(self, seen: Seen) -> None:
+    def remember(self, seen: RoadOutlook) -> None:
         """This holds from now on."""
-        self._seen = seen
+        self._known = seen
 
-    def _look(self, run: SimState) -> None:
+    def _search(self, run: SimState) -> None:
         looking = asyncio.get_running_loop().run_in_executor(_WORKER, outlook, run)
-        self._looking = looking
-        looking.add_done_callback(lambda done: self._looked(run, done))
+        self._searching = looking
+        looking.add_done_callback(lambda done: self._search_ended(run, done))
 
-    def _looked(self, run: SimState, done: asyncio.Future[Outlook | None]) -> None:
-        self._looking = None
+    def _search_ended(self, run: SimState, done: asyncio.Future[Outlook | None]) -> None:
+        self._searching = None
         waiting, self._waiting = self._waiting, None
         if waiting is not None:
-            self._look(waiting)
+            self._search(waiting)
         if done.cancelled():
             return
-        seen, now = _seen(run, done.result()), self._present()
-        if seen.road == _road(now) and now.world.outcome is Outcome.RUNNING:
-            event = self.notice(seen, now)
-            self.know(seen)
+        seen, now = _road_outlook(run, done.result()), self._present()
+        if seen.road == _road_key(now) and now.world.outcome is Outcome.RUNNING:
+            event = self.event_for(seen, now)
+            self.remember(seen)
             if event is not None:
                 self._tell(event)
 
 
-def _seen(run: SimState, found: Outlook | None) -> Seen:
-    return Seen(_road(run), (run.world.episode, run.world.episode_start), found)
+def _road_outlook(run: SimState, found: Outlook | None) -> RoadOutlook:
+    return RoadOutlook(_road_key(run), (run.world.episode, run.world.episode_start), found)
 
 
-def _road(run: SimState) -> Hashable:
+def _road_key(run: SimState) -> Hashable:
     """Equal for states of one road between two changes that matter to the way."""
     world, config = run.world, run.config
     drawn = (world.episode, world.episode_start, run.edits, world.fixed)

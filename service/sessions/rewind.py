@@ -17,32 +17,32 @@ from service.resources import DEFAULT_LANGUAGE
 from service.sessions.utterance import Utterance
 from sim.session.timeline import Timeline
 
-MOST_TICKS = 10_000
+MAX_TICKS = 10_000
 """How far one action goes back; a longer way is several of them."""
 
 
 @dataclass(frozen=True, slots=True)
-class Jump:
+class TimeJump:
     """The two sides of a step that moved time."""
 
     before: Timeline = field(compare=False)
     after: Timeline = field(compare=False)
 
     @property
-    def reversed(self) -> Jump:
+    def inverse(self) -> TimeJump:
         """The same jump the other way."""
-        return Jump(self.after, self.before)
+        return TimeJump(self.after, self.before)
 
-    def left_before(self, timeline: Timeline) -> Jump:
+    def with_before(self, timeline: Timeline) -> TimeJump:
         """The jump, when it is made anew from where its near side has come to."""
         return replace(self, before=timeline.copy())
 
-    def left_after(self, timeline: Timeline) -> Jump:
+    def with_after(self, timeline: Timeline) -> TimeJump:
         """The jump, when it is taken back from where its far side has come to."""
         return replace(self, after=timeline.copy())
 
 
-def go_back(timeline: Timeline, ticks: int, where: str, language: str) -> None:
+def rewind_timeline(timeline: Timeline, ticks: int, where: str, language: str) -> None:
     """Make an earlier tick the present. Raises `Invalid`, naming `where`, if there are not so many."""
     if ticks > timeline.tick:
         sentence = refusals(language).session("too_far_back", tick=timeline.tick, ticks=ticks)
@@ -50,7 +50,7 @@ def go_back(timeline: Timeline, ticks: int, where: str, language: str) -> None:
     timeline.rewind(timeline.tick - ticks)
 
 
-def to_tick(tick: int, language: str = DEFAULT_LANGUAGE) -> Callable[[Timeline], Utterance]:
+def rewind_to(tick: int, language: str = DEFAULT_LANGUAGE) -> Callable[[Timeline], Utterance]:
     """What goes back to a tick, once it is known where the session stands. It raises `Invalid`."""
 
     def utterance(timeline: Timeline) -> Utterance:
@@ -59,8 +59,8 @@ def to_tick(tick: int, language: str = DEFAULT_LANGUAGE) -> Callable[[Timeline],
             now = timeline.tick
             message = refusals(language).session("tick_not_come" if ticks else "tick_is_now", now=now)
             raise Invalid(f"tick: {message}.", errors=[FieldProblem("tick", message)])
-        whole, rest = divmod(ticks, MOST_TICKS)
-        ways = [MOST_TICKS] * whole + ([rest] if rest else [])
+        whole, rest = divmod(ticks, MAX_TICKS)
+        ways = [MAX_TICKS] * whole + ([rest] if rest else [])
         return Utterance(actions=tuple(Rewind(ticks=each) for each in ways))
 
     return utterance

@@ -18,31 +18,44 @@ import structlog
 from anyio import to_thread
 
 from service.actions import Action, Advise, Ask, Hide, Show
-from service.contract.encode.state import Standing, state_json
+from service.contract.encode.state import SessionStatus
 from service.problems import NotSaved, UnknownName, UnknownSession
 from service.server_timing import part as timed
-from service.sessions.bookmarks import told_where
+from service.sessions.bookmarks import add_other_session
 from service.sessions.conversation import Conversation
-from service.sessions.dry_run import possible
-from service.sessions.facts import Fact, asked_about, happened_in, views_of
-from service.sessions.fork import Way, is_mixed
-from service.sessions.log import Log, LogEvent
+from service.sessions.dry_run import is_possible
+from service.sessions.facts import Fact, merge_views, parts_with_events, question_timelines
+from service.sessions.fork import ForkPoint, is_partly_of_world
+from service.sessions.log import EventLog, LogEvent
 from service.sessions.messages import changed_message, tick_message
-from service.sessions.narrator_protocol import Words
-from service.sessions.outcome import entry_of, long_to_answer, outcome_of
-from service.sessions.persistence.log_position import Footing
-from service.sessions.preconditions import ANY_TERMS, Terms
-from service.sessions.reachability import Outlooks
-from service.sessions.scheduler.background_task import Later
+from service.sessions.narrator_protocol import NarratorProtocol
+from service.sessions.outcome import is_slow_to_answer, make_entry, make_outcome
+from service.sessions.persistence.log_position import LogPosition
+from service.sessions.preconditions import NO_PRECONDITIONS, Preconditions
+from service.sessions.reachability import ReachabilityMonitor
+from service.sessions.scheduler.background_task import BackgroundTask
 from service.sessions.scheduler.clock import Clock
-from service.sessions.scheduler.external_planner import Asking
-from service.sessions.scheduler.offload import QUESTION_S, STEPS_S, asks_others, names_another, off_loop
-from service.sessions.scheduler.playback_speed import NORMAL, Pace, hurried, period_s, turn
-from service.sessions.scheduler.tick_batch import Stages
-from service.sessions.subscribers import Watchers
-from service.sessions.transaction import Draft, check_ticks
-from service.sessions.undo_stack import History
-from service.sessions.utterance import Notice, Outcome, Utterance
+from service.sessions.scheduler.external_planner import ExternalPlanner
+from service.sessions.scheduler.offload import (
+    QUESTION_S,
+    STEPS_S,
+    names_external_planner,
+    run_in_thread,
+    uses_external_planner,
+)
+from service.sessions.scheduler.playback_speed import (
+    NORMAL,
+    PlaybackSpeed,
+    is_accelerated,
+    period_s,
+    ticks_of_turn,
+)
+from service.sessions.scheduler.tick_batch import TickBatch
+from service.sessions.state_cache import StateCache
+from service.sessions.subscribers import Subscribers
+from service.sessions.transaction import Transaction, check_step_ticks
+from service.sessions.undo_stack import UndoStack
+from service.sessions.utterance import Outcome, ReachabilityNotice, Utterance
 from service.settings import Settings
 from service.store import SessionRecord, Store, StoreError
 from sim.actions import SetMode
@@ -62,47 +75,48 @@ CHANGES_NOTHING = Ask | Advise | Show | Hide
 THREAD_TICKS = 200
 """Work of more ticks than this is done beside the event loop."""
 
-PLAYED_TICKS = 8
+MAX_STREAMED_TICKS = 8
 """Steps of up to so many ticks are shown to watchers tick by tick."""
 
 
 @dataclass(frozen=True, slots=True)
-class Surroundings:
+class SessionServices:
     """What a session needs around it."""
 
     store: Store
     clock: Clock
-    words: Words
+    narrator: NarratorProtocol
     settings: Settings
 
 
 class Session:
     """One live session. All methods are for the event loop's thread."""
 
-    def __init__(self, record: SessionRecord, timeline: Timeline, around: Surroundings) -> None:
+    def __init__(self, record: SessionRecord, timeline: Timeline, services: SessionServices) -> None:
         self.record = record
         self.timeline = timeline
         self.paused = record.paused
-        self.pace: Pace = NORMAL
+        self.playback_speed: PlaybackSpeed = NORMAL
         self.sequence = 0
-        self.history = History()
-        self.mixed: set[int] = set()
+        self.undo_stack = UndoStack()
+        self.partial_changes: set[int] = set()
         """changes of which the timeline has a part only: the others were no changes of the road"""
         self.conversation = Conversation()
-        self.footing = Footing(record)
+        self.log_position = LogPosition(record)
         self.after_change: Callable[[Session], None] | None = None
-        self.log = Log(around.settings.log_events)
-        self.watchers = Watchers()
-        self.stages = Stages(self.watchers)
-        self._later = Later(self._write_late)
-        self._asking = Asking(self._planned)
-        self.outlooks = Outlooks(lambda: self.run, self._tell_outlook)
-        self._around = around
-        self.words = around.words.in_language(record.language)
-        self._turn = asyncio.Lock()
+        self.log = EventLog(services.settings.log_events)
+        self.subscribers = Subscribers()
+        self.tick_batch = TickBatch(self.subscribers)
+        self._narration = BackgroundTask(self._log_late_events)
+        self._external_planner = ExternalPlanner(self._on_decision)
+        self.reachability = ReachabilityMonitor(lambda: self.run, self._announce_reachability)
+        self._state_cache = StateCache()
+        self._services = services
+        self.narrator = services.narrator.in_language(record.language)
+        self._lock = asyncio.Lock()
         self._changing = False
         self._tick_due = False
-        self._ended = False
+        self._closed = False
         self._tasks: set[asyncio.Task[Any]] = set()
 
     def __str__(self) -> str:
@@ -124,19 +138,19 @@ class Session:
         return self.timeline.state
 
     @property
-    def standing(self) -> Standing:
+    def status(self) -> SessionStatus:
         """What of the session is not in its run."""
-        steps, undone = self.history.steps, len(self.history.undone)
-        return Standing(self.id, self.paused, self.sequence, self.pace, steps, undone)
+        steps, undone = self.undo_stack.steps, len(self.undo_stack.undone)
+        return SessionStatus(self.id, self.paused, self.sequence, self.playback_speed, steps, undone)
 
     @property
     def period_s(self) -> float:
         """Seconds from one turn of the clock to the next."""
-        return period_s(self.pace, self.timeline.state.config.step_seconds)
+        return period_s(self.playback_speed, self.timeline.state.config.step_seconds)
 
-    def state(self) -> dict[str, Any]:
-        """The present state as JSON values."""
-        return state_json(self.standing, self.run)
+    def state_body(self) -> bytes:
+        """The present state as JSON text, encoded once for as long as it stands."""
+        return self._state_cache.encode(self.run, self.status)
 
     def latest_decision(self) -> tuple[Decision, SimState] | None:
         """The decision that led to the present state, and the state it was taken in."""
@@ -154,31 +168,35 @@ class Session:
         """Stand still or go on; the clock is told."""
         self.paused = paused
         if paused:
-            self._around.clock.remove(self)
+            self._services.clock.remove(self)
         else:
-            self._around.clock.add(self)
+            self._services.clock.add(self)
 
     def tick(self) -> None:
         """One turn of the clock: a tick, or several where they follow each other in no time."""
         if self._changing:
             self._tick_due = True
             return
-        for _ in turn(self.pace, self.timeline.state.config.step_seconds):
+        for _ in ticks_of_turn(self.playback_speed, self.timeline.state.config.step_seconds):
             # In real time the words of an ending are done by the next tick; in a hurry they are waited for.
-            if self._changing or self.paused or (self._later.busy and hurried(self.pace)):
+            if (
+                self._changing
+                or self.paused
+                or (self._narration.busy and is_accelerated(self.playback_speed))
+            ):
                 return
-            if self._asking.busy or self._asking.begin(self.timeline.state):
+            if self._external_planner.busy or self._external_planner.ask(self.timeline.state):
                 return  # a planner of another package decides this one, and nobody waits for it here
             self._tick_once()
 
-    def _planned(self, run: SimState, decision: Decision) -> None:
+    def _on_decision(self, run: SimState, decision: Decision) -> None:
         """A planner of another package has decided, or has not in time."""
-        if self._ended or self._changing or self.paused or self.timeline.state is not run:
+        if self._closed or self._changing or self.paused or self.timeline.state is not run:
             return  # asked anew when its turn comes
         try:
             self._tick_once(decision)
         except Exception as error:
-            self._around.clock.remove(self)
+            self._services.clock.remove(self)
             self.tick_failed(error)
 
     def _tick_once(self, decided: Decision | None = None) -> None:
@@ -186,69 +204,70 @@ class Session:
         try:
             tick = self.timeline.advance(decided)
         except PlannerSilentError as silence:
-            self._hand_over(silence)
+            self._start_manual_override(silence)
             return
         if tick.events and long_to_tell(tick.state):
-            self._later.begin(lambda: self._worded(tick.state, tick))
+            self._narration.start(lambda: self._narrate_events(tick.state, tick))
             self._publish_tick(before, tick, ())
         else:
-            self._publish_tick(before, tick, self._note(tick.state, tick))
+            self._publish_tick(before, tick, self._log_events(tick.state, tick))
         if tick.events and tick.state.world.episode_tick == 0:
-            self.outlooks.begun(tick.state)
+            self.reachability.start_road(tick.state)
 
-    def _hand_over(self, silence: PlannerSilentError) -> None:
+    def _start_manual_override(self, silence: PlannerSilentError) -> None:
         """Let a person drive, as a change like any other: a replay does not ask that planner again."""
         self._changing = True  # no tick until it is done
-        text = self.words.silent(silence.planner, silence.fault)
-        task = asyncio.ensure_future(self._handed_over(text))
+        text = self.narrator.planner_timeout(silence.planner, silence.fault)
+        task = asyncio.ensure_future(self._switch_to_manual(text))
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
 
-    async def _handed_over(self, text: str) -> None:
+    async def _switch_to_manual(self, text: str) -> None:
         await self._change(Utterance(actions=(SetMode(mode=Mode.MANUAL),)), dry_run=False)
-        self._publish_changed(None, text, (), [self._line(self.timeline.tick, "event", text)])
+        self._publish_changed(None, text, (), [self._log_line(self.timeline.tick, "event", text)])
 
     def tick_failed(self, error: Exception) -> None:
         """A defect of the world's rules: stand still and say so, rather than fail twice a second."""
         _LOG.error("session paused after a failed tick", session=self.id, error=repr(error))
         self.paused = True
-        line = self._line(self.timeline.tick, "failed", self.words.failed())
+        line = self._log_line(self.timeline.tick, "failed", self.narrator.failed())
         self._publish_changed(None, line.text, (), [line])
 
     @property
     def busy(self) -> bool:
         """Whether something is being done to it just now."""
-        return self._turn.locked() or bool(self._tasks) or self._later.busy
+        return self._lock.locked() or bool(self._tasks) or self._narration.busy
 
     def retire(self) -> None:
         """Stand still for good; whoever still holds it must ask for the session anew."""
-        self._ended = True
-        self._around.clock.remove(self)
+        self._closed = True
+        self._services.clock.remove(self)
 
-    async def end(self) -> None:
+    async def close(self) -> None:
         """Stand still for good, once the change under way is done; later changes find no session."""
-        async with self._turn:
-            self._ended = True
+        async with self._lock:
+            self._closed = True
             self.set_paused(True)
 
-    def tell(self, kind: str, text: str | None, reply: str) -> None:
+    def announce(self, kind: str, text: str | None, reply: str) -> None:
         """Tell watchers of something that changed nothing in the session itself."""
-        self._publish_changed(text, reply, (), [self._line(self.timeline.tick, kind, reply)])
+        self._publish_changed(text, reply, (), [self._log_line(self.timeline.tick, kind, reply)])
 
     # Change
 
-    def possible(self, actions: tuple[Action, ...]) -> bool:
+    def is_possible(self, actions: tuple[Action, ...]) -> bool:
         """Whether these would be done, and change something; long work is taken to be possible."""
-        return possible(self._draft(), self.sequence, actions)
+        return is_possible(self._begin_transaction(), self.sequence, actions)
 
-    def _draft(self, language: str | None = None) -> Draft:
-        return Draft(self.timeline, self.paused, self.history, self.pace, language or self.language)
+    def _begin_transaction(self, language: str | None = None) -> Transaction:
+        language = language or self.language
+        return Transaction(self.timeline, self.paused, self.undo_stack, self.playback_speed, language)
 
     @asynccontextmanager
-    async def held(self, terms: Terms) -> AsyncIterator[None]:
+    async def locked(self, preconditions: Preconditions) -> AsyncIterator[None]:
         """Nothing is changed by anyone meanwhile. Raises `Stale`."""
-        async with self._turn:
-            terms.check(self.sequence)
+        async with self._lock:
+            preconditions.check(self.sequence)
             yield
 
     async def change(
@@ -256,7 +275,7 @@ class Session:
         utterance: Utterance | Callable[[Timeline], Utterance],
         *,
         dry_run: bool = False,
-        terms: Terms = ANY_TERMS,
+        preconditions: Preconditions = NO_PRECONDITIONS,
     ) -> Outcome:
         """Do an utterance, or one made once it is its turn, all or nothing.
 
@@ -264,8 +283,8 @@ class Session:
         """
         if isinstance(utterance, Utterance):
             language = utterance.language or self.language
-            check_ticks(utterance.actions, self._around.settings.max_step_ticks, language)
-        task = asyncio.ensure_future(self._change(utterance, dry_run, terms))
+            check_step_ticks(utterance.actions, self._services.settings.max_step_ticks, language)
+        task = asyncio.ensure_future(self._change(utterance, dry_run, preconditions))
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
         return await asyncio.shield(task)
@@ -274,174 +293,184 @@ class Session:
         self,
         utterance: Utterance | Callable[[Timeline], Utterance],
         dry_run: bool,
-        terms: Terms = ANY_TERMS,
+        preconditions: Preconditions = NO_PRECONDITIONS,
     ) -> Outcome:
-        async with self._turn:
-            if self._ended:
+        async with self._lock:
+            if self._closed:
                 raise UnknownSession
-            terms.check(self.sequence)
+            preconditions.check(self.sequence)
             if not isinstance(utterance, Utterance):
                 utterance = utterance(self.timeline)
             self._changing = True
             try:
-                draft = self._draft(utterance.language)
+                transaction = self._begin_transaction(utterance.language)
                 with timed("apply"):
-                    facts = await self._perform(draft, utterance)
-                seen = await self.outlooks.after(draft.timeline.state, facts)
-                event = None if seen is None else self.outlooks.notice(seen, draft.timeline.state)
+                    facts = await self._perform(transaction, utterance)
+                seen = await self.reachability.after_change(transaction.timeline.state, facts)
+                event = (
+                    None if seen is None else self.reachability.event_for(seen, transaction.timeline.state)
+                )
                 if dry_run:
-                    return await self._told(utterance, facts, self.sequence, event, draft)
+                    return await self._make_outcome(utterance, facts, self.sequence, event, transaction)
                 if all(isinstance(action, CHANGES_NOTHING) for action in utterance.actions):
-                    outcome = await self._told(utterance, facts, self.sequence)
-                    self.conversation.note(outcome, passing=True)
-                    if views := views_of(facts):
+                    outcome = await self._make_outcome(utterance, facts, self.sequence)
+                    self.conversation.record(outcome, passing=True)
+                    if views := merge_views(facts):
                         self._publish_changed(utterance.text, outcome.reply, (), (), views)
                     return outcome
-                outcome = await self._told(utterance, facts, self.sequence + 1, event, draft)
+                outcome = await self._make_outcome(utterance, facts, self.sequence + 1, event, transaction)
                 with timed("store"):
-                    await self._save(outcome, draft, terms)
+                    await self._store(outcome, transaction, preconditions)
                 if seen is not None:
-                    self.outlooks.know(seen)
-                self._become(draft, outcome)
+                    self.reachability.remember(seen)
+                self._commit(transaction, outcome)
                 return outcome
             finally:
                 self._changing = False
-                self._take_tick_due()
+                self._run_due_tick()
 
-    async def _perform(self, draft: Draft, utterance: Utterance) -> tuple[Fact, ...]:
+    async def _perform(self, transaction: Transaction, utterance: Utterance) -> tuple[Fact, ...]:
         actions = utterance.actions
         sequence = self.sequence + 1
         try:
-            if draft.asks_others(actions):
-                foreign = asks_others(draft.timeline) or names_another(actions)
-                return await off_loop(foreign, STEPS_S, partial(draft.perform, sequence, actions))
-            if draft.work_ticks(actions) > THREAD_TICKS:
-                return await to_thread.run_sync(draft.perform, sequence, actions)
-            return draft.perform(sequence, actions)
+            if transaction.needs_external_planner(actions):
+                foreign = uses_external_planner(transaction.timeline) or names_external_planner(actions)
+                return await run_in_thread(foreign, STEPS_S, partial(transaction.perform, sequence, actions))
+            if transaction.estimate_ticks(actions) > THREAD_TICKS:
+                return await to_thread.run_sync(transaction.perform, sequence, actions)
+            return transaction.perform(sequence, actions)
         except UnknownName as problem:
-            raise await told_where(
-                self._around.store, problem, utterance.actions, utterance.language or self.language
+            raise await add_other_session(
+                self._services.store, problem, utterance.actions, utterance.language or self.language
             ) from None
 
-    async def _told(
+    async def _make_outcome(
         self,
         utterance: Utterance,
         facts: tuple[Fact, ...],
         sequence: int,
         event: Event | None = None,
-        draft: Draft | None = None,
+        transaction: Transaction | None = None,
     ) -> Outcome:
         """The outcome in words; beside the event loop where that takes long. `event`: of the draft's road."""
         notice = None
-        if event is not None and draft is not None:
-            run = draft.timeline.state
-            notice = Notice(event, self.words.event(event, run), run)
-        told = partial(outcome_of, self.words, self.run, utterance, facts, sequence, notice)
-        if not long_to_answer(self.run.config.planner, facts):
+        if event is not None and transaction is not None:
+            run = transaction.timeline.state
+            notice = ReachabilityNotice(event, self.narrator.event(event, run), run)
+        told = partial(make_outcome, self.narrator, self.run, utterance, facts, sequence, notice)
+        if not is_slow_to_answer(self.run.config.planner, facts):
             return told()
-        return await off_loop(any(asks_others(timeline) for timeline in asked_about(facts)), QUESTION_S, told)
+        return await run_in_thread(
+            any(uses_external_planner(timeline) for timeline in question_timelines(facts)), QUESTION_S, told
+        )
 
-    async def _save(self, outcome: Outcome, draft: Draft, terms: Terms) -> None:
-        kept = () if terms.answer is None else (terms.answer(outcome),)
-        entry = entry_of(outcome, self.timeline.tick, draft)
-        if self.paused != self.footing.paused:
+    async def _store(self, outcome: Outcome, transaction: Transaction, preconditions: Preconditions) -> None:
+        kept = () if preconditions.answer is None else (preconditions.answer(outcome),)
+        entry = make_entry(outcome, self.timeline.tick, transaction)
+        if self.paused != self.log_position.paused:
             entry = replace(entry, paused=self.paused)
         try:
-            if draft.timeline.tick < self.timeline.tick:
+            if transaction.timeline.tick < self.timeline.tick:
                 # First: where time once stood must never be run on to from a log that has gone back.
-                await self._around.store.save_ticks({self.id: draft.timeline.tick})
-            await self._around.store.append(self.id, entry, *kept)
+                await self._services.store.save_ticks({self.id: transaction.timeline.tick})
+            await self._services.store.append(self.id, entry, *kept)
         except StoreError as error:
             _LOG.error("a change was not saved", session=self.id, error=str(error))
             raise NotSaved from error
-        self.footing.kept(entry)
+        self.log_position.append(entry)
 
-    def _become(self, draft: Draft, outcome: Outcome) -> None:
+    def _commit(self, transaction: Transaction, outcome: Outcome) -> None:
         """Take the draft's state and tell watchers."""
         before, began = self.run, self.timeline.tick
-        if draft.pace != self.pace:
-            self._around.clock.remove(self)  # the turn it waits for is at the old speed
-        self.adopt(draft, outcome.sequence, outcome.utterance.actions)
-        self.set_paused(draft.paused)
-        self.conversation.note(outcome)
-        lines = [self._line(began, "changed", outcome.done, passing=False)]
-        playing = outcome.only_steps and len(outcome.ticks) <= PLAYED_TICKS
-        for run, part in happened_in(outcome.facts):
-            noted = self._note(run, part)
+        if transaction.playback_speed != self.playback_speed:
+            self._services.clock.remove(self)  # the turn it waits for is at the old speed
+        self.adopt(transaction, outcome.sequence, outcome.utterance.actions)
+        self.set_paused(transaction.paused)
+        self.conversation.record(outcome)
+        lines = [self._log_line(began, "changed", outcome.done, passing=False)]
+        playing = outcome.only_steps and len(outcome.ticks) <= MAX_STREAMED_TICKS
+        for run, part in parts_with_events(outcome.facts):
+            noted = self._log_events(run, part)
             if isinstance(part, StepResult) and playing:
                 self._publish_tick(before, part, noted)
             else:
                 lines += noted
             before = run
         if outcome.notice is not None:
-            lines.append(self._outlook_line(outcome.notice))
-        text, views = outcome.utterance.text, views_of(outcome.facts)
+            lines.append(self._log_reachability(outcome.notice))
+        text, views = outcome.utterance.text, merge_views(outcome.facts)
         self._publish_changed(text, outcome.reply, outcome.changes, lines, views)
         if self.after_change is not None:
             self.after_change(self)
 
-    def adopt(self, draft: Draft, sequence: int, actions: Sequence[Action]) -> None:
+    def adopt(self, transaction: Transaction, sequence: int, actions: Sequence[Action]) -> None:
         """Take a draft's state, made by these actions; for who has the session to itself."""
-        if is_mixed(actions):
-            self.mixed.add(sequence)
-        self.timeline, self.history = draft.timeline, draft.history
-        self.paused, self.pace, self.sequence = draft.paused, draft.pace, sequence
-        self.footing.become(draft.paused, draft.timeline.tick)
+        if is_partly_of_world(actions):
+            self.partial_changes.add(sequence)
+        self.timeline, self.undo_stack = transaction.timeline, transaction.undo_stack
+        self.paused, self.playback_speed, self.sequence = (
+            transaction.paused,
+            transaction.playback_speed,
+            sequence,
+        )
+        self.log_position.commit(transaction.paused, transaction.timeline.tick)
 
-    def _take_tick_due(self) -> None:
+    def _run_due_tick(self) -> None:
         if self._tick_due:
             self._tick_due = False
             if not self.paused:
                 self.tick()
 
-    def begin_with(self, way: Way) -> None:
+    def start_from(self, way: ForkPoint) -> None:
         """Begin where another session's log has led to; for a session that nobody else has yet."""
-        self.timeline, self.history = way.timeline, way.history(self.paused)
+        self.timeline, self.undo_stack = way.timeline, way.undo_stack(self.paused)
         self.sequence = way.branch.sequence
 
     # Telling
 
-    def _note(self, run: SimState, part: Applied | StepResult) -> list[LogEvent]:
+    def _log_events(self, run: SimState, part: Applied | StepResult) -> list[LogEvent]:
         """Write the events of a tick or an action to the log."""
-        self._later.settle()
-        return self._write(self._worded(run, part)) if part.events else []
+        self._narration.finish()
+        return self._log_narrated(self._narrate_events(run, part)) if part.events else []
 
-    def _worded(self, run: SimState, part: Applied | StepResult) -> list[tuple[Event, str]]:
-        return [(event, self.words.event(event, run)) for event in part.events]
+    def _narrate_events(self, run: SimState, part: Applied | StepResult) -> list[tuple[Event, str]]:
+        return [(event, self.narrator.event(event, run)) for event in part.events]
 
-    def _write(self, worded: list[tuple[Event, str]]) -> list[LogEvent]:
+    def _log_narrated(self, worded: list[tuple[Event, str]]) -> list[LogEvent]:
         return [self.log.add(event.tick, event.type, text, event.ids, event.cell) for event, text in worded]
 
-    def _write_late(self, worded: list[tuple[Event, str]]) -> None:
+    def _log_late_events(self, worded: list[tuple[Event, str]]) -> None:
         """Lines that were worded beside the clock, told as soon as they are there."""
-        lines = self._write(worded)
+        lines = self._log_narrated(worded)
         self._publish_changed(None, lines[-1].text, (), lines)
 
-    def _tell_outlook(self, event: Event) -> None:
+    def _announce_reachability(self, event: Event) -> None:
         """That a road which began by itself has no way through; once that is found out."""
-        if not self._ended:
-            line = self._outlook_line(Notice(event, self.words.event(event, self.run), self.run))
+        if not self._closed:
+            line = self._log_reachability(
+                ReachabilityNotice(event, self.narrator.event(event, self.run), self.run)
+            )
             self._publish_changed(None, line.text, (), [line])
 
-    def _outlook_line(self, notice: Notice) -> LogEvent:
-        self._later.settle()
+    def _log_reachability(self, notice: ReachabilityNotice) -> LogEvent:
+        self._narration.finish()
         event = notice.event
         return self.log.add(event.tick, event.type, notice.text, event.ids, passing=True)
 
-    def _line(self, tick: int, kind: str, text: str, *, passing: bool = True) -> LogEvent:
-        self._later.settle()
+    def _log_line(self, tick: int, kind: str, text: str, *, passing: bool = True) -> LogEvent:
+        self._narration.finish()
         return self.log.add(tick, kind, text, passing=passing)
 
     def _publish_tick(self, before: SimState, tick: StepResult, lines: Sequence[LogEvent]) -> None:
         def message() -> bytes:
             decision = tick.decision
-            taken, words = tick.of(), self.words
-            narration = None if taken is None else words.decision(taken.decision, before, taken.forecast)
+            taken, narrator = tick.of(), self.narrator
+            narration = None if taken is None else narrator.decision(taken.decision, before, taken.forecast)
             return tick_message(
-                self.sequence, lambda: self.standing, before, tick.state, decision, narration, lines
+                self.sequence, lambda: self.status, before, tick.state, decision, narration, lines
             )
 
-        self.stages.tick(tick.state.world.tick, message)
+        self.tick_batch.publish_tick(tick.state.world.tick, message)
 
     def _publish_changed(
         self,
@@ -452,6 +481,6 @@ class Session:
         views: Mapping[str, bool] | None = None,
     ) -> None:
         def message() -> bytes:
-            return changed_message(self.standing, self.run, text, reply, changes, lines, views)
+            return changed_message(self.status, self.run, text, reply, changes, lines, views)
 
-        self.stages.now(self.timeline.tick, message)
+        self.tick_batch.publish_now(self.timeline.tick, message)

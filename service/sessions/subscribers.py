@@ -14,24 +14,24 @@ from dataclasses import dataclass
 
 from sim.fast_replace import fast_constructor
 
-SLOT_MESSAGES = 16
+QUEUE_SIZE = 16
 """A watcher that keeps up never has more than a few waiting; stepping plays through as many."""
 
 
 @dataclass(frozen=True, slots=True)
-class Missed:
+class MissedTicks:
     """The ticks, first and last, that a slow watcher was not sent."""
 
     first_tick: int
     last_tick: int
 
 
-class Gone:
+class SessionDeleted:
     """The last thing a watcher hears: the session has been deleted."""
 
 
 @dataclass(frozen=True, slots=True)
-class Notice:
+class StreamMessage:
     """An encoded message and the tick it tells of."""
 
     tick: int
@@ -39,15 +39,15 @@ class Notice:
     number: int = 0
 
 
-_notice = fast_constructor(Notice, "tick", "data", "number")
+_message = fast_constructor(StreamMessage, "tick", "data", "number")
 
 
-def stamped(data: bytes, event: str) -> bytes:
+def add_event_id(data: bytes, event: str) -> bytes:
     """An encoded message with the id that a reader can come back with."""
     return b'%b,"event":"%b"}' % (data[:-1], event.encode()) if data.endswith(b"}") else data
 
 
-class Watcher:
+class Subscriber:
     """One reader's end. `next` waits for the next thing to send.
 
     A reader may offer to take messages `straight`: whoever waits in `next` with nothing before it is
@@ -57,17 +57,17 @@ class Watcher:
     __slots__ = ("_gone", "_last_tick", "_missed_from", "_straight", "_waiting", "_wake")
 
     def __init__(
-        self, missed: Sequence[Notice] = (), straight: Callable[[bytes], bool] | None = None
+        self, missed: Sequence[StreamMessage] = (), straight: Callable[[bytes], bool] | None = None
     ) -> None:
         """`missed`: what it is told first."""
         self._straight = straight
-        self._waiting: list[Notice] = list(missed)
+        self._waiting: list[StreamMessage] = list(missed)
         self._missed_from: int | None = None
         self._last_tick = 0
         self._gone = False
         self._wake: asyncio.Future[None] | None = None
 
-    def put(self, notice: Notice) -> None:
+    def put(self, notice: StreamMessage) -> None:
         """Hand over a message; never waits."""
         self._last_tick = notice.tick
         wake, straight = self._wake, self._straight
@@ -75,19 +75,19 @@ class Watcher:
         if straight is not None and wake is not None and not wake.done() and straight(notice.data):
             return
         if self._missed_from is None:
-            if len(self._waiting) < SLOT_MESSAGES:
+            if len(self._waiting) < QUEUE_SIZE:
                 self._waiting.append(notice)
             else:
                 self._missed_from = self._waiting[0].tick
                 self._waiting.clear()
-        self._ready()
+        self._wake_up()
 
-    def end(self) -> None:
+    def close(self) -> None:
         """The session is no more."""
         self._gone = True
-        self._ready()
+        self._wake_up()
 
-    async def next(self) -> list[Notice] | Missed | Gone:
+    async def next(self) -> list[StreamMessage] | MissedTicks | SessionDeleted:
         """Messages in order; or that some were missed; or that there will be no more. For one at a time."""
         while not self._waiting and self._missed_from is None and not self._gone:
             self._wake = asyncio.get_running_loop().create_future()
@@ -96,42 +96,42 @@ class Watcher:
             finally:
                 self._wake = None
         if self._gone:
-            return Gone()
+            return SessionDeleted()
         if self._missed_from is not None:
-            missed = Missed(self._missed_from, self._last_tick)
+            missed = MissedTicks(self._missed_from, self._last_tick)
             self._missed_from = None
             return missed
         notices, self._waiting = self._waiting, []
         return notices
 
-    def _ready(self) -> None:
+    def _wake_up(self) -> None:
         if self._wake is not None and not self._wake.done():
             self._wake.set_result(None)
 
 
-class Watchers:
+class Subscribers:
     """All watchers of one session."""
 
     def __init__(self) -> None:
-        self._watchers: set[Watcher] = set()
+        self._subscribers: set[Subscriber] = set()
         # Numbers begin anew when the session is brought back; the token tells one count from another.
         self._token = secrets.token_hex(4)
         self._last = 0
         # As plain values, the latest last: rings are looked for in every notice that is kept.
-        self._kept: deque[bytes] = deque(maxlen=SLOT_MESSAGES)
-        self._kept_ticks: deque[int] = deque(maxlen=SLOT_MESSAGES)
-        self._unheard = SLOT_MESSAGES
+        self._kept: deque[bytes] = deque(maxlen=QUEUE_SIZE)
+        self._kept_ticks: deque[int] = deque(maxlen=QUEUE_SIZE)
+        self._unsubscribed_count = QUEUE_SIZE
 
     @property
-    def event(self) -> str:
+    def last_event_id(self) -> str:
         """The id of the latest message, for a reader to come back with."""
-        return self.event_of(self._last)
+        return self.event_id(self._last)
 
-    def event_of(self, number: int) -> str:
+    def event_id(self, number: int) -> str:
         """The id of a message by its number."""
         return f"{self._token}.{number}"
 
-    def missed(self, event: str) -> list[Notice] | None:
+    def messages_since(self, event: str) -> list[StreamMessage] | None:
         """What came after a message, if all of that is still kept; None if it is not."""
         token, _, number = event.partition(".")
         if token != self._token or not number.isascii() or not number.isdecimal() or len(number) > 15:
@@ -140,39 +140,41 @@ class Watchers:
         if not first <= after <= self._last + 1:
             return None
         kept = zip(range(first, self._last + 1), self._kept_ticks, self._kept, strict=True)
-        return [Notice(tick, data, each) for each, tick, data in kept if each >= after]
+        return [StreamMessage(tick, data, each) for each, tick, data in kept if each >= after]
 
     def __len__(self) -> int:
-        return len(self._watchers)
+        return len(self._subscribers)
 
-    def join(self, missed: Sequence[Notice] = (), straight: Callable[[bytes], bool] | None = None) -> Watcher:
+    def subscribe(
+        self, missed: Sequence[StreamMessage] = (), straight: Callable[[bytes], bool] | None = None
+    ) -> Subscriber:
         """A new watcher; it hears what it missed, and everything published from now on."""
-        watcher = Watcher(missed, straight)
-        self._unheard = 0
-        self._watchers.add(watcher)
-        return watcher
+        subscriber = Subscriber(missed, straight)
+        self._unsubscribed_count = 0
+        self._subscribers.add(subscriber)
+        return subscriber
 
-    def leave(self, watcher: Watcher) -> None:
+    def unsubscribe(self, subscriber: Subscriber) -> None:
         """It hears no more."""
-        self._watchers.discard(watcher)
+        self._subscribers.discard(subscriber)
 
     def publish(self, tick: int, encode: Callable[[], bytes]) -> None:
         """Tell all; the message is not even made when nobody watches, nor has lately."""
-        notice = self.made(tick, encode)
+        notice = self.prepare(tick, encode)
         if notice is not None:
-            self.hand_out(notice)
+            self.deliver(notice)
 
-    def made(self, tick: int, encode: Callable[[], bytes]) -> Notice | None:
+    def prepare(self, tick: int, encode: Callable[[], bytes]) -> StreamMessage | None:
         """The next message, made and kept but not yet told; None where nobody watches, nor has lately."""
         number = self._last + 1
-        if not self._watchers:
-            self._unheard += 1
-            if self._unheard > SLOT_MESSAGES:
+        if not self._subscribers:
+            self._unsubscribed_count += 1
+            if self._unsubscribed_count > QUEUE_SIZE:
                 self._last = number
                 self._kept.clear()
                 self._kept_ticks.clear()
                 return None
-        notice = _notice(tick, stamped(encode(), f"{self._token}.{number}"), number)
+        notice = _message(tick, add_event_id(encode(), f"{self._token}.{number}"), number)
         self._last = (
             number  # not before: what could not be made has no number, and leaves no gap in what is kept
         )
@@ -180,13 +182,13 @@ class Watchers:
         self._kept_ticks.append(tick)
         return notice
 
-    def hand_out(self, notice: Notice) -> None:
+    def deliver(self, notice: StreamMessage) -> None:
         """Tell all a message that was made."""
-        for watcher in self._watchers:
-            watcher.put(notice)
+        for subscriber in self._subscribers:
+            subscriber.put(notice)
 
-    def end(self) -> None:
+    def close(self) -> None:
         """Tell all that the session is no more, and let them go."""
-        for watcher in self._watchers:
-            watcher.end()
-        self._watchers.clear()
+        for subscriber in self._subscribers:
+            subscriber.close()
+        self._subscribers.clear()

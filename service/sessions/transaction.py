@@ -1,6 +1,6 @@
 """Actions tried on a copy: either all of them are possible, or the copy is thrown away.
 
-A `Draft` is what one utterance would make of a session. It does actions at their place in the
+A `Transaction` is what one utterance would make of a session. It does actions at their place in the
 order and answers a fact for each; it becomes the session once the store has the utterance.
 Restoring a session and replaying a recording run through here as well, which is why they end in
 the same state.
@@ -32,11 +32,18 @@ from service.problems import DoesNotFit, FieldProblem, Invalid, NotAvailable, No
 from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE
 from service.sessions import availability
-from service.sessions.bookmarks import MOST_NAMES, Kept, Moment, Went, unknown
+from service.sessions.bookmarks import MAX_BOOKMARKS, Bookmark, Bookmarked, Jumped, unknown_bookmark
 from service.sessions.facts import Advised, Asked, Fact, PauseSet, Stepped, Undone, Viewed
-from service.sessions.rewind import Jump, go_back
-from service.sessions.scheduler.playback_speed import NORMAL, Pace, PaceError, PaceSet, pace_after, sets_pace
-from service.sessions.undo_stack import History, Step
+from service.sessions.rewind import TimeJump, rewind_timeline
+from service.sessions.scheduler.playback_speed import (
+    NORMAL,
+    PlaybackSpeed,
+    PlaybackSpeedError,
+    PlaybackSpeedSet,
+    change_playback_speed,
+    sets_playback_speed,
+)
+from service.sessions.undo_stack import UndoStack, UndoStep
 from sim.actions import (
     Add,
     Adjust,
@@ -70,15 +77,15 @@ _DECIDES_ANEW = (StepTicks, Undo, Redo)
 """Those for which decisions are taken."""
 
 
-class Draft:
+class Transaction:
     """A session's changeable part, on a copy."""
 
     def __init__(
         self,
         timeline: Timeline,
         paused: bool,
-        history: History,
-        pace: Pace = NORMAL,
+        history: UndoStack,
+        speed: PlaybackSpeed = NORMAL,
         language: str = DEFAULT_LANGUAGE,
     ) -> None:
         """`language`: the one in which actions are refused."""
@@ -86,38 +93,38 @@ class Draft:
         self._refusals = refusals(language)
         self.timeline = timeline.copy()
         self.paused = paused
-        self.pace = pace
-        self.history = history.copy()
+        self.playback_speed = speed
+        self.undo_stack = history.copy()
         self._jumped = False
-        self._open = _Mark(timeline, paused)
+        self._savepoint = _Savepoint(timeline, paused)
 
     def perform(self, sequence: int, actions: Sequence[Action]) -> tuple[Fact, ...]:
         """Do the actions of one utterance. Raises a `ProblemError` naming the first that cannot be."""
-        began = _Mark(self.timeline.copy(), self.paused)
-        earlier, self._open = self.history.copy(), began.again()
+        began = _Savepoint(self.timeline.copy(), self.paused)
+        earlier, self._savepoint = self.undo_stack.copy(), began.copy()
         self._jumped = False
         facts = []
         for position, action in enumerate(actions):
             facts.append(self._do(sequence, position, action))
-            began.kept = min(began.kept, self._open.kept)
+            began.kept = min(began.kept, self._savepoint.kept)
             began.jumped = began.jumped or self._jumped
-        if any(isinstance(action, STEPS) and not sets_pace(action) for action in actions):
+        if any(isinstance(action, STEPS) and not sets_playback_speed(action) for action in actions):
             # Whatever it undid on the way, the utterance is one step.
-            earlier.saved = self.history.saved
-            self.history = earlier
+            earlier.bookmarks = self.undo_stack.bookmarks
+            self.undo_stack = earlier
             self._add_step(began)
         return tuple(facts)
 
-    def work_ticks(self, actions: Sequence[Action]) -> int:
+    def estimate_ticks(self, actions: Sequence[Action]) -> int:
         """About how many ticks are to be run: those of steps, and those since what is undone or redone."""
         if not any(isinstance(action, _MOVES_TIME) for action in actions):
             return 0
         timeline = self.timeline
         undos, redos = (sum(isinstance(action, kind) for action in actions) for kind in (Undo, Redo))
-        back = list(islice(self.history.latest_first(timeline.entries), undos))
+        back = list(islice(self.undo_stack.iter_undoable(timeline.entries), undos))
         # Whether what is redone was undone before or here, it comes last first.
-        forth = list(islice(chain(reversed(back), reversed(self.history.undone)), redos))
-        ticks = ticks_to_run(actions)
+        forth = list(islice(chain(reversed(back), reversed(self.undo_stack.undone)), redos))
+        ticks = step_ticks(actions)
         for step in (*back, *forth):
             if step.jump is None and step.since < timeline.tick:
                 ticks += timeline.work_since(step.since)
@@ -126,18 +133,18 @@ class Draft:
                 ticks += timeline.work_to(timeline.tick - action.ticks)
         return ticks
 
-    def asks_others(self, actions: Sequence[Action]) -> bool:
+    def needs_external_planner(self, actions: Sequence[Action]) -> bool:
         """Whether a planner of another package may have to be asked for these."""
         return bool(installed()) and any(isinstance(action, _DECIDES_ANEW) for action in actions)
 
-    def could_take_back(self, action: Action) -> bool:
+    def can_undo_or_redo(self, action: Action) -> bool:
         """Whether there is something to undo or to redo, where that is the action."""
         if isinstance(action, Undo):
-            return next(iter(self.history.latest_first(self.timeline.entries)), None) is not None
-        return not isinstance(action, Redo) or bool(self.history.undone)
+            return next(iter(self.undo_stack.iter_undoable(self.timeline.entries)), None) is not None
+        return not isinstance(action, Redo) or bool(self.undo_stack.undone)
 
     def _do(self, sequence: int, position: int, action: Action) -> Fact:
-        sentence = availability.refusal(action, self._language)
+        sentence = availability.refusal_of(action, self._language)
         if sentence is not None:
             raise NotAvailable(sentence, errors=[FieldProblem(f"actions.{position}", sentence)])
         match action:
@@ -151,8 +158,8 @@ class Draft:
                 return self._set_paused(isinstance(action, Pause))
             case StepTicks():
                 return self._step(action.ticks)
-            case Set() | Adjust() if sets_pace(action):
-                return self._set_pace(position, action)
+            case Set() | Adjust() if sets_playback_speed(action):
+                return self._set_playback_speed(position, action)
             case Undo():
                 return self._undo(position)
             case Redo():
@@ -205,80 +212,82 @@ class Draft:
         before, self.paused = self.paused, paused
         return PauseSet(before, paused, self.timeline.tick)
 
-    def _set_pace(self, position: int, action: Set | Adjust) -> PaceSet:
-        before = self.pace
+    def _set_playback_speed(self, position: int, action: Set | Adjust) -> PlaybackSpeedSet:
+        before = self.playback_speed
         try:
-            self.pace = pace_after(before, action)
-        except PaceError as error:
-            sentence = self._refusals.pace(error.code, error.facts)
+            self.playback_speed = change_playback_speed(before, action)
+        except PlaybackSpeedError as error:
+            sentence = self._refusals.playback_speed(error.code, error.facts)
             where = f"actions.{position}.{error.field}"
             raise Invalid(sentence, errors=[FieldProblem(where, sentence)]) from error
-        return PaceSet(before, self.pace, self.timeline.tick)
+        return PlaybackSpeedSet(before, self.playback_speed, self.timeline.tick)
 
     def _step(self, ticks: int) -> Stepped:
         self.paused = True
         try:
             return Stepped(self.timeline.tick, tuple(self.timeline.advance() for _ in range(ticks)))
         except PlannerSilentError as silence:
-            raise not_answered(silence, self._language) from silence
+            raise planner_timeout_problem(silence, self._language) from silence
 
     def _undo(self, position: int) -> Undone:
         self._close_step()
-        step = self.history.undo(self.timeline)
+        step = self.undo_stack.undo(self.timeline)
         if step is None:
-            raise _nothing(self._refusals.session("nothing_to_undo"), position)
-        return self._take(step.reversed, again=False)
+            raise _nothing_to_undo(self._refusals.session("nothing_to_undo"), position)
+        return self._replace_tail(step.inverse, again=False)
 
     def _redo(self, position: int) -> Undone:
         self._close_step()
-        step = self.history.redo(self.timeline)
+        step = self.undo_stack.redo(self.timeline)
         if step is None:
-            raise _nothing(self._refusals.session("nothing_to_redo"), position)
-        return self._take(step, again=True)
+            raise _nothing_to_undo(self._refusals.session("nothing_to_redo"), position)
+        return self._replace_tail(step, again=True)
 
-    def _rewind(self, position: int, ticks: int) -> Went:
+    def _rewind(self, position: int, ticks: int) -> Jumped:
         before = self.timeline.state
-        go_back(self.timeline, ticks, f"actions.{position}.ticks", self._language)
-        return self._went(before, len(self.timeline.entries))
+        rewind_timeline(self.timeline, ticks, f"actions.{position}.ticks", self._language)
+        return self._jump(before, len(self.timeline.entries))
 
-    def _save(self, sequence: int, position: int, name: str) -> Kept:
-        saved = self.history.saved
-        if name not in saved and len(saved) >= MOST_NAMES:
-            sentence = self._refusals.session("names", most=MOST_NAMES)
+    def _save(self, sequence: int, position: int, name: str) -> Bookmarked:
+        saved = self.undo_stack.bookmarks
+        if name not in saved and len(saved) >= MAX_BOOKMARKS:
+            sentence = self._refusals.session("names", most=MAX_BOOKMARKS)
             raise Invalid(sentence, errors=[FieldProblem(f"actions.{position}.name", sentence)])
         again = name in saved
-        self.history.saved = {**saved, name: Moment(name, sequence, self.timeline.copy())}
-        return Kept(name, self.timeline.tick, again)
+        self.undo_stack.bookmarks = {**saved, name: Bookmark(name, sequence, self.timeline.copy())}
+        return Bookmarked(name, self.timeline.tick, again)
 
-    def _load(self, position: int, name: str) -> Went:
-        moment = self.history.saved.get(name)
+    def _load(self, position: int, name: str) -> Jumped:
+        moment = self.undo_stack.bookmarks.get(name)
         if moment is None:
-            raise unknown(name, self.history.saved, f"actions.{position}.name", self._language)
+            raise unknown_bookmark(
+                name, self.undo_stack.bookmarks, f"actions.{position}.name", self._language
+            )
         before, log = self.timeline.state, self.timeline.entries
         self.timeline = moment.timeline.copy()
-        return self._went(before, log.common_prefix_length(self.timeline.entries), name)
+        return self._jump(before, log.common_prefix_length(self.timeline.entries), name)
 
-    def _went(self, before: SimState, kept: int, name: str | None = None) -> Went:
-        self._open.kept = min(self._open.kept, kept)
-        self._open.jumped = self._jumped = True
+    def _jump(self, before: SimState, kept: int, name: str | None = None) -> Jumped:
+        self._savepoint.kept = min(self._savepoint.kept, kept)
+        self._savepoint.jumped = self._jumped = True
         run = self.timeline.state
-        return Went(before.world.tick, run.world.tick, differences(before, run), name)
+        return Jumped(before.world.tick, run.world.tick, differences(before, run), name)
 
     def _close_step(self) -> None:
         """What this utterance has changed so far is the latest change: an undo takes it back first."""
-        self._add_step(self._open)
+        self._add_step(self._savepoint)
 
-    def _add_step(self, since: _Mark) -> None:
+    def _add_step(self, since: _Savepoint) -> None:
         log = self.timeline.entries
-        jump = Jump(since.timeline, self.timeline.copy()) if since.jumped else None
+        jump = TimeJump(since.timeline, self.timeline.copy()) if since.jumped else None
         was = since.timeline.entries
-        step = Step(
+        step = UndoStep(
             tuple(was.after(since.kept)), tuple(log.after(since.kept)), since.paused, self.paused, jump
         )
         if not step.empty:
-            self.history.add(step)
+            self.undo_stack.add(step)
 
-    def _take(self, step: Step, *, again: bool) -> Undone:
+    def _replace_tail(self, step: UndoStep, *, again: bool) -> Undone:
         """Put the log's tail as the step left it, and replay."""
         before = self.timeline.state
         kept = len(self.timeline.entries) - len(step.before)
@@ -286,14 +295,14 @@ class Draft:
             try:
                 self.timeline.rewrite(self.timeline.entries.first(kept).plus(step.after), step.since)
             except PlannerSilentError as silence:
-                raise not_answered(silence, self._language) from silence
+                raise planner_timeout_problem(silence, self._language) from silence
         else:
             self.timeline = step.jump.after.copy()
             self._jumped = True
         paused = self.paused
         if paused == step.paused_before:
             self.paused = step.paused_after
-        self._open = _Mark(self.timeline.copy(), self.paused, kept)
+        self._savepoint = _Savepoint(self.timeline.copy(), self.paused, kept)
         changes = differences(before, self.timeline.state)
         if before.world.tick != self.timeline.tick:
             changes = (Change("tick", before.world.tick, self.timeline.tick), *changes)
@@ -302,7 +311,7 @@ class Draft:
         return Undone(again, changes)
 
 
-class _Mark:
+class _Savepoint:
     """A timeline as it was, how many of its first entries are untouched since, and whether time moved.
 
     The timeline is nobody else's to change.
@@ -314,28 +323,28 @@ class _Mark:
         self.kept = len(timeline.entries) if kept is None else kept
         self.jumped = False
 
-    def again(self) -> _Mark:
+    def copy(self) -> _Savepoint:
         """Another for the same moment."""
-        return _Mark(self.timeline, self.paused, self.kept)
+        return _Savepoint(self.timeline, self.paused, self.kept)
 
 
-def not_answered(silence: PlannerSilentError, language: str = DEFAULT_LANGUAGE) -> NotAvailable:
+def planner_timeout_problem(silence: PlannerSilentError, language: str = DEFAULT_LANGUAGE) -> NotAvailable:
     """The problem of a planner that did not answer in time."""
     sentence = refusals(language).session("silent", planner=silence.planner, fault=silence.fault)
     return NotAvailable(sentence, errors=[FieldProblem("planner", sentence)])
 
 
-def ticks_to_run(actions: Sequence[Action]) -> int:
+def step_ticks(actions: Sequence[Action]) -> int:
     """Ticks that the steps of an utterance run at once."""
     return sum(action.ticks for action in actions if isinstance(action, StepTicks))
 
 
-def check_ticks(actions: Sequence[Action], most: int, language: str = DEFAULT_LANGUAGE) -> None:
+def check_step_ticks(actions: Sequence[Action], most: int, language: str = DEFAULT_LANGUAGE) -> None:
     """Raise `Invalid` where an utterance would step further than is run at once."""
-    if ticks_to_run(actions) > most:
+    if step_ticks(actions) > most:
         sentence = refusals(language).session("too_many_ticks", most=most)
         raise Invalid(sentence, errors=[FieldProblem("ticks", sentence)])
 
 
-def _nothing(sentence: str, position: int) -> NothingToUndo:
+def _nothing_to_undo(sentence: str, position: int) -> NothingToUndo:
     return NothingToUndo(sentence, errors=[FieldProblem(f"actions.{position}", sentence)])

@@ -10,24 +10,24 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
-from service.sessions.bookmarks import Moment
-from service.sessions.rewind import Jump
+from service.sessions.bookmarks import Bookmark
+from service.sessions.rewind import TimeJump
 from sim.session.persistent_list import PersistentList
 from sim.session.timeline import Entry, Timeline
 
-MOST_JUMPS = 100
+MAX_JUMPS = 100
 """How many moves in time can be taken back: each keeps a timeline. What is older than that stays."""
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class UndoStep:
     """How one utterance changed the tail of the log, and the pause."""
 
     before: tuple[Entry, ...]
     after: tuple[Entry, ...]
     paused_before: bool
     paused_after: bool
-    jump: Jump | None = None
+    jump: TimeJump | None = None
     """where it moved time"""
 
     @property
@@ -42,88 +42,90 @@ class Step:
         return self.before == self.after and not moved
 
     @property
-    def reversed(self) -> Step:
+    def inverse(self) -> UndoStep:
         """The same step the other way."""
-        jump = None if self.jump is None else self.jump.reversed
-        return Step(self.after, self.before, self.paused_after, self.paused_before, jump)
+        jump = None if self.jump is None else self.jump.inverse
+        return UndoStep(self.after, self.before, self.paused_after, self.paused_before, jump)
 
-    def left_before(self, timeline: Timeline) -> Step:
+    def with_before(self, timeline: Timeline) -> UndoStep:
         """The step as it is done again, from this timeline."""
-        return self if self.jump is None else replace(self, jump=self.jump.left_before(timeline))
+        return self if self.jump is None else replace(self, jump=self.jump.with_before(timeline))
 
-    def left_after(self, timeline: Timeline) -> Step:
+    def with_after(self, timeline: Timeline) -> UndoStep:
         """The step as it is taken back, from this timeline."""
-        return self if self.jump is None else replace(self, jump=self.jump.left_after(timeline))
+        return self if self.jump is None else replace(self, jump=self.jump.with_after(timeline))
 
 
 @dataclass(slots=True)
-class History:
+class UndoStack:
     """Steps to undo, the latest last; those to redo, the next last; and moments that have a name.
 
     Before the steps there may be `ground`: so many entries of the log that the session began with. They
     become steps, one for each utterance, when there is nothing later to undo.
     """
 
-    done: PersistentList[Step] = field(default_factory=PersistentList)
-    undone: PersistentList[Step] = field(default_factory=PersistentList)
-    saved: Mapping[str, Moment] = field(default_factory=dict)
-    ground: int = 0
-    ground_steps: int = 0
-    ground_paused: bool = True
+    done: PersistentList[UndoStep] = field(default_factory=PersistentList)
+    undone: PersistentList[UndoStep] = field(default_factory=PersistentList)
+    bookmarks: Mapping[str, Bookmark] = field(default_factory=dict)
+    base_entries: int = 0
+    base_steps: int = 0
+    base_paused: bool = True
 
     @property
     def steps(self) -> int:
         """How many steps can be undone."""
-        return len(self.done) + self.ground_steps
+        return len(self.done) + self.base_steps
 
-    def copy(self) -> History:
+    def copy(self) -> UndoStack:
         """A history that goes its own way."""
         # By name: `replace` takes five times as long, for every change.
-        return History(self.done, self.undone, self.saved, self.ground, self.ground_steps, self.ground_paused)
+        return UndoStack(
+            self.done, self.undone, self.bookmarks, self.base_entries, self.base_steps, self.base_paused
+        )
 
-    def add(self, step: Step) -> None:
+    def add(self, step: UndoStep) -> None:
         """One more change; what was undone before it cannot be redone."""
         self.done = self.done.plus([step])
         self.undone = PersistentList()
         if step.jump is not None:
             jumps = [number for number, each in enumerate(self.done) if each.jump is not None]
-            if len(jumps) > MOST_JUMPS:
+            if len(jumps) > MAX_JUMPS:
                 self.done = PersistentList(self.done.after(jumps[0] + 1))
-                self.ground = self.ground_steps = 0
+                self.base_entries = self.base_steps = 0
 
-    def undo(self, timeline: Timeline) -> Step | None:
+    def undo(self, timeline: Timeline) -> UndoStep | None:
         """The latest step, put with what can be redone; None if there is none."""
-        step = next(self.latest_first(timeline.entries), None)
+        step = next(self.iter_undoable(timeline.entries), None)
         if step is None:
             return None
         if self.done:
             self.done = self.done.first(len(self.done) - 1)
         else:
-            self.ground -= len(step.after)
-            self.ground_steps -= 1
-        self.undone = self.undone.plus([step.left_after(timeline)])
+            self.base_entries -= len(step.after)
+            self.base_steps -= 1
+        self.undone = self.undone.plus([step.with_after(timeline)])
         return step
 
-    def redo(self, timeline: Timeline) -> Step | None:
+    def redo(self, timeline: Timeline) -> UndoStep | None:
         """The step that was undone last, put with what can be undone; None if there is none."""
         if not self.undone:
             return None
         step = self.undone[-1]
         self.undone = self.undone.first(len(self.undone) - 1)
-        self.done = self.done.plus([step.left_before(timeline)])
+        self.done = self.done.plus([step.with_before(timeline)])
         return step
 
-    def latest_first(self, entries: PersistentList[Entry]) -> Iterator[Step]:
+    def iter_undoable(self, entries: PersistentList[Entry]) -> Iterator[UndoStep]:
         """What could be undone of a log."""
         yield from reversed(self.done)
-        stop = self.ground
+        stop = self.base_entries
         while stop > 0:
             start, last = stop - 1, entries[stop - 1]
-            while start > 0 and _said_with(entries[start - 1], last):
+            while start > 0 and _same_utterance(entries[start - 1], last):
                 start -= 1
-            yield Step((), tuple(entries[start:stop]), self.ground_paused, self.ground_paused)
+            yield UndoStep((), tuple(entries[start:stop]), self.base_paused, self.base_paused)
             stop = start
 
 
-def _said_with(one: Entry, other: Entry) -> bool:
+def _same_utterance(one: Entry, other: Entry) -> bool:
     return (one.sequence, one.tick) == (other.sequence, other.tick)

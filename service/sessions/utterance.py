@@ -25,7 +25,7 @@ class Utterance:
 
 
 @dataclass(frozen=True, slots=True)
-class Notice:
+class ReachabilityNotice:
     """Something found out about the road that an utterance led to, in words."""
 
     event: Event
@@ -47,8 +47,8 @@ class Outcome:
     before: SimState | None = None
     """the state in which it was said"""
     done: str = ""
-    """what was done, in the session's language and without the notice: what a replay says again"""
-    notice: Notice | None = None
+    """the reply without the notice: what a replay says again"""
+    notice: ReachabilityNotice | None = None
 
     @property
     def ticks(self) -> list[StepResult]:

@@ -5,34 +5,47 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from service.store.base import (
+    BookmarkRecord,
     Branch,
     EntryRecord,
-    KeptAnswer,
-    MomentRecord,
     PhraseRecord,
     SessionRecord,
     SnapshotRecord,
     Store,
+    StoredResponse,
     StoreError,
 )
 from service.store.memory import MemoryStore
-from service.store.sql import SqlStore
+
+if TYPE_CHECKING:
+    from service.store.sql import SqlStore
 
 __all__ = [
+    "BookmarkRecord",
     "Branch",
     "EntryRecord",
-    "KeptAnswer",
     "MemoryStore",
-    "MomentRecord",
     "PhraseRecord",
     "SessionRecord",
     "SnapshotRecord",
     "SqlStore",
     "Store",
     "StoreError",
+    "StoredResponse",
     "open_store",
 ]
+
+
+def __getattr__(name: str) -> object:
+    """`SqlStore`, when it is first used: importing SQLAlchemy takes a tenth of a second."""
+    if name == "SqlStore":
+        from service.store.sql import SqlStore
+
+        return SqlStore
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def open_store(url: str) -> Store:
@@ -40,6 +53,8 @@ def open_store(url: str) -> Store:
     if url == "memory:":
         return MemoryStore()
     if url.startswith(("sqlite:///", "postgresql://", "postgresql+asyncpg://")):
+        from service.store.sql import SqlStore
+
         return SqlStore(url)
     kind = url.partition(":")[0]  # the rest may hold a password
     raise StoreError(

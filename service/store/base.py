@@ -54,7 +54,7 @@ class SessionRecord:
     branch: Branch | None = None
     language: str = DEFAULT_LANGUAGE
 
-    def numbered(self, number: int) -> SessionRecord:
+    def with_number(self, number: int) -> SessionRecord:
         """The same record under the store's number."""
         return replace(self, number=number)
 
@@ -80,7 +80,7 @@ class EntryRecord:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class MomentRecord:
+class BookmarkRecord:
     """A moment of a session that has a name; `number` orders them by when they were named."""
 
     session: str
@@ -103,7 +103,7 @@ class PhraseRecord:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class KeptAnswer:
+class StoredResponse:
     """What a request under an idempotency key was answered, so that sent again it is answered the same.
 
     `request` is a digest of what was asked; `at` is seconds since 1970, for forgetting it in time.
@@ -146,7 +146,7 @@ class Store(Protocol):
         """Let go of files and connections; closing twice is the same as once."""
 
     async def create(
-        self, record: SessionRecord, entries: Sequence[EntryRecord] = (), answer: KeptAnswer | None = None
+        self, record: SessionRecord, entries: Sequence[EntryRecord] = (), answer: StoredResponse | None = None
     ) -> SessionRecord:
         """Keep a new session, with entries if it is a replayed one; answers it numbered.
 
@@ -154,7 +154,7 @@ class Store(Protocol):
         there.
         """
 
-    async def append(self, session_id: str, entry: EntryRecord, answer: KeptAnswer | None = None) -> None:
+    async def append(self, session_id: str, entry: EntryRecord, answer: StoredResponse | None = None) -> None:
         """Keep one more change of a session. An unknown session or a sequence twice is an error."""
 
     async def get(self, session_id: str) -> SessionRecord | None:
@@ -178,33 +178,35 @@ class Store(Protocol):
         What forks share with it is kept, unseen, as long as there is one.
         """
 
-    async def keep_snapshot(self, record: SnapshotRecord) -> None:
+    async def save_snapshot(self, record: SnapshotRecord) -> None:
         """Keep a session's snapshot in place of the one before; none of an unknown session is kept."""
 
     async def snapshot(self, session_id: str) -> SnapshotRecord | None:
         """The snapshot of a session, or None."""
 
-    async def moments(
+    async def bookmarks(
         self, limit: int, before: int | None = None, name: str | None = None
-    ) -> Sequence[MomentRecord]:
+    ) -> Sequence[BookmarkRecord]:
         """Up to `limit` named moments, newest first, of those with a number below `before`."""
 
-    async def keep(self, answer: KeptAnswer) -> None:
+    async def save_response(self, answer: StoredResponse) -> None:
         """Keep an answer by itself. A key twice is an error."""
 
-    async def kept(self, key: str) -> KeptAnswer | None:
+    async def get_response(self, key: str) -> StoredResponse | None:
         """What was answered under a key, or None."""
 
-    async def forget_answers(self, before: int) -> None:
+    async def delete_responses(self, before: int) -> None:
         """Forget the answers of before a moment."""
 
-    async def date_answers(self, newest: int) -> None:
+    async def shift_responses(self, newest: int) -> None:
         """Move all answers in time together, so that the newest is of this moment."""
 
-    async def teach(self, record: PhraseRecord, answer: KeptAnswer | None = None) -> None:
+    async def save_phrase(self, record: PhraseRecord, answer: StoredResponse | None = None) -> None:
         """Keep a phrase, in place of the one of that owner, language and key if there is one."""
 
-    async def forget(self, owner: str, language: str, key: str, answer: KeptAnswer | None = None) -> bool:
+    async def delete_phrase(
+        self, owner: str, language: str, key: str, answer: StoredResponse | None = None
+    ) -> bool:
         """Forget a phrase; whether there was one."""
 
     async def phrases(self, owner: str) -> Sequence[PhraseRecord]:

@@ -22,7 +22,6 @@ from sqlalchemy.exc import ArgumentError, DBAPIError
 from sqlalchemy.ext.asyncio import AsyncEngine, create_async_engine
 from sqlalchemy.pool import AsyncAdaptedQueuePool
 
-from service.store import lock_owner as holders
 from service.store import wal
 from service.store.base import StoreError
 
@@ -69,7 +68,10 @@ class Sqlite:
         except (sqlite3.OperationalError, OSError) as error:
             why = str(error)
             if isinstance(error, sqlite3.Error) and error.sqlite_errorcode in _HELD:
-                why = f"it is locked: {await to_thread.run_sync(holders.told, Path(self._path))}."
+                why = (
+                    "it is locked: another program, perhaps another Roadtalk service, has it open. "
+                    "Stop that one, or name another file in ROADTALK_DATABASE."
+                )
             raise StoreError(f"{self.name} cannot be opened: {why}") from error
         except sqlite3.Error as error:
             found = str(error)
@@ -81,7 +83,7 @@ class Sqlite:
 
     def _check(self) -> str:
         path = Path(self._path)
-        _permitted(path)
+        _check_permissions(path)
         # Where there is a log of changes, closing would write it into what may be damaged: only looked at.
         how = "ro" if path.with_name(f"{path.name}-wal").exists() else "rwc"
         connection = sqlite3.connect(f"{path.resolve().as_uri()}?mode={how}", uri=True, timeout=_BUSY_S)
@@ -103,7 +105,7 @@ class Sqlite:
         return engine
 
 
-def _permitted(path: Path) -> None:
+def _check_permissions(path: Path) -> None:
     """Raise `OSError` where a file may not be used, in clearer words than SQLite has for it."""
     if path.is_dir():
         raise OSError("it is a folder")
@@ -137,7 +139,7 @@ class Postgres:
         )
 
 
-def kind_of(url: str) -> Sqlite | Postgres:
+def database_for(url: str) -> Sqlite | Postgres:
     """The kind of database that a URL names. Raises `StoreError`."""
     try:
         parts = make_url(url)
@@ -146,7 +148,7 @@ def kind_of(url: str) -> Sqlite | Postgres:
     return Sqlite(parts) if parts.get_backend_name() == "sqlite" else Postgres(parts)
 
 
-def reason(error: Exception) -> str:
+def driver_message(error: Exception) -> str:
     """What a driver said, without the statement it was about."""
     inner = error.orig if isinstance(error, DBAPIError) else None
     said = str((inner and (inner.__cause__ or inner)) or error)

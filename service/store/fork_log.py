@@ -13,7 +13,7 @@ from service.store.base import Branch, EntryRecord
 _SET = ord("1")
 
 
-def standing(numbers: Iterable[int], last: int) -> str:
+def encode_standing(numbers: Iterable[int], last: int) -> str:
     """Numbers up to `last` as `Branch.standing`."""
     size = last // 8 + 1
     digits = bytearray(b"0" * (8 * size))
@@ -24,15 +24,15 @@ def standing(numbers: Iterable[int], last: int) -> str:
     return int(digits, 2).to_bytes(size, "little").hex()
 
 
-def joined(line: Iterable[tuple[Branch | None, Sequence[EntryRecord]]]) -> list[EntryRecord]:
+def join_logs(line: Iterable[tuple[Branch | None, Sequence[EntryRecord]]]) -> list[EntryRecord]:
     """The whole log of the last of a line of sessions, each a fork of the one before, with its own log."""
     log: list[EntryRecord] = []
     for branch, own in line:
-        log = [*(inherited(branch, log) if branch is not None else ()), *own]
+        log = [*(inherited_entries(branch, log) if branch is not None else ()), *own]
     return log
 
 
-def inherited(branch: Branch, log: Sequence[EntryRecord]) -> list[EntryRecord]:
+def inherited_entries(branch: Branch, log: Sequence[EntryRecord]) -> list[EntryRecord]:
     """The beginning of a fork's log, given its parent's; without the words it was said in."""
     board = bytes.fromhex(branch.standing)
     entries = [

@@ -9,16 +9,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from service.store.base import (
+    BookmarkRecord,
     Branch,
     EntryRecord,
-    KeptAnswer,
-    MomentRecord,
     PhraseRecord,
     SessionRecord,
     SnapshotRecord,
+    StoredResponse,
     StoreError,
 )
-from service.store.fork_log import joined
+from service.store.fork_log import join_logs
 
 
 class MemoryStore:
@@ -28,9 +28,9 @@ class MemoryStore:
         self._sessions: dict[str, SessionRecord] = {}
         self._entries: dict[str, dict[int, EntryRecord]] = {}
         self._phrases: dict[tuple[str, str, str], PhraseRecord] = {}
-        self._answers: dict[str, KeptAnswer] = {}
+        self._answers: dict[str, StoredResponse] = {}
         self._last_number = 0
-        self._moments: dict[tuple[str, str], MomentRecord] = {}
+        self._moments: dict[tuple[str, str], BookmarkRecord] = {}
         self._last_moment = 0
         self._unseen: set[str] = set()
         self._snapshots: dict[str, SnapshotRecord] = {}
@@ -42,30 +42,30 @@ class MemoryStore:
         """Keeps what it holds, so that a test can close and open it again like a file."""
 
     async def create(
-        self, record: SessionRecord, entries: Sequence[EntryRecord] = (), answer: KeptAnswer | None = None
+        self, record: SessionRecord, entries: Sequence[EntryRecord] = (), answer: StoredResponse | None = None
     ) -> SessionRecord:
         """See `Store.create`."""
         if record.id in self._sessions:
             raise StoreError(f"session {record.id} is there already")
         if record.branch is not None and record.branch.parent not in self._sessions:
             raise StoreError(f"no session {record.branch.parent}")
-        await self._keep(answer)
+        await self._add_response(answer)
         self._last_number += 1
-        numbered = record.numbered(self._last_number)
+        numbered = record.with_number(self._last_number)
         self._sessions[record.id] = numbered
         self._entries[record.id] = {entry.sequence: entry for entry in entries}
         for entry in entries:
             self._name(record.id, entry)
         return numbered
 
-    async def append(self, session_id: str, entry: EntryRecord, answer: KeptAnswer | None = None) -> None:
+    async def append(self, session_id: str, entry: EntryRecord, answer: StoredResponse | None = None) -> None:
         """See `Store.append`."""
         entries = self._entries.get(session_id)
         if entries is None or session_id in self._unseen:
             raise StoreError(f"no session {session_id}")
         if entry.sequence in entries:
             raise StoreError(f"session {session_id} has an entry {entry.sequence} already")
-        await self._keep(answer)
+        await self._add_response(answer)
         entries[entry.sequence] = entry
         self._name(session_id, entry)
 
@@ -84,7 +84,7 @@ class MemoryStore:
             own = [entry for _, entry in sorted(self._entries[record.id].items())]
             line.append((record.branch, own))
             record = self._sessions[record.branch.parent] if record.branch else None
-        return joined(reversed(line))
+        return join_logs(reversed(line))
 
     async def newest(self, limit: int, before: int | None = None) -> Sequence[SessionRecord]:
         """See `Store.newest`."""
@@ -124,8 +124,8 @@ class MemoryStore:
             session_id = branch.parent
             forked.remove(session_id)
 
-    async def keep_snapshot(self, record: SnapshotRecord) -> None:
-        """See `Store.keep_snapshot`."""
+    async def save_snapshot(self, record: SnapshotRecord) -> None:
+        """See `Store.save_snapshot`."""
         if record.session in self._sessions and record.session not in self._unseen:
             self._snapshots[record.session] = record
 
@@ -133,10 +133,10 @@ class MemoryStore:
         """See `Store.snapshot`."""
         return self._snapshots.get(session_id)
 
-    async def moments(
+    async def bookmarks(
         self, limit: int, before: int | None = None, name: str | None = None
-    ) -> Sequence[MomentRecord]:
-        """See `Store.moments`."""
+    ) -> Sequence[BookmarkRecord]:
+        """See `Store.bookmarks`."""
         newest = sorted(self._moments.values(), key=lambda each: -each.number)
         found = [each for each in newest if before is None or each.number < before]
         return [each for each in found if name is None or each.name == name][:limit]
@@ -144,7 +144,7 @@ class MemoryStore:
     def _name(self, session_id: str, entry: EntryRecord) -> None:
         for name, tick in entry.names.items():
             self._last_moment += 1
-            self._moments[session_id, name] = MomentRecord(
+            self._moments[session_id, name] = BookmarkRecord(
                 session=session_id,
                 session_name=self._sessions[session_id].name,
                 name=name,
@@ -153,38 +153,40 @@ class MemoryStore:
                 number=self._last_moment,
             )
 
-    async def keep(self, answer: KeptAnswer) -> None:
-        """See `Store.keep`."""
-        await self._keep(answer)
+    async def save_response(self, answer: StoredResponse) -> None:
+        """See `Store.save_response`."""
+        await self._add_response(answer)
 
-    async def kept(self, key: str) -> KeptAnswer | None:
-        """See `Store.kept`."""
+    async def get_response(self, key: str) -> StoredResponse | None:
+        """See `Store.get_response`."""
         return self._answers.get(key)
 
-    async def forget_answers(self, before: int) -> None:
-        """See `Store.forget_answers`."""
+    async def delete_responses(self, before: int) -> None:
+        """See `Store.delete_responses`."""
         self._answers = {key: each for key, each in self._answers.items() if each.at >= before}
 
-    async def date_answers(self, newest: int) -> None:
-        """See `Store.date_answers`."""
+    async def shift_responses(self, newest: int) -> None:
+        """See `Store.shift_responses`."""
         by = newest - max((each.at for each in self._answers.values()), default=newest)
         self._answers = {key: replace(each, at=each.at + by) for key, each in self._answers.items()}
 
-    async def _keep(self, answer: KeptAnswer | None) -> None:
+    async def _add_response(self, answer: StoredResponse | None) -> None:
         if answer is None:
             return
         if answer.key in self._answers:
             raise StoreError(f"there is an answer under the key {answer.key} already")
         self._answers[answer.key] = answer
 
-    async def teach(self, record: PhraseRecord, answer: KeptAnswer | None = None) -> None:
-        """See `Store.teach`."""
-        await self._keep(answer)
+    async def save_phrase(self, record: PhraseRecord, answer: StoredResponse | None = None) -> None:
+        """See `Store.save_phrase`."""
+        await self._add_response(answer)
         self._phrases[record.owner, record.language, record.key] = record
 
-    async def forget(self, owner: str, language: str, key: str, answer: KeptAnswer | None = None) -> bool:
-        """See `Store.forget`."""
-        await self._keep(answer)
+    async def delete_phrase(
+        self, owner: str, language: str, key: str, answer: StoredResponse | None = None
+    ) -> bool:
+        """See `Store.delete_phrase`."""
+        await self._add_response(answer)
         return self._phrases.pop((owner, language, key), None) is not None
 
     async def phrases(self, owner: str) -> Sequence[PhraseRecord]:

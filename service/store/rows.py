@@ -8,10 +8,10 @@ from typing import Any
 from sqlalchemy import Row
 
 from service.resources import DEFAULT_LANGUAGE
-from service.store.base import Branch, EntryRecord, KeptAnswer, SessionRecord, SnapshotRecord
+from service.store.base import Branch, EntryRecord, SessionRecord, SnapshotRecord, StoredResponse
 
 
-def session_values(record: SessionRecord) -> dict[str, Any]:
+def session_to_row(record: SessionRecord) -> dict[str, Any]:
     """A session as a row."""
     branch = record.branch
     shared = branch and {
@@ -32,7 +32,7 @@ def session_values(record: SessionRecord) -> dict[str, Any]:
     } | (shared or {})
 
 
-def record_of(row: Row[Any]) -> SessionRecord:
+def session_from_row(row: Row[Any]) -> SessionRecord:
     """A session of a row."""
     branch = None
     if row.parent is not None:
@@ -56,7 +56,7 @@ def record_of(row: Row[Any]) -> SessionRecord:
     )
 
 
-def answer_values(answer: KeptAnswer) -> dict[str, Any]:
+def response_to_row(answer: StoredResponse) -> dict[str, Any]:
     """A kept answer as a row."""
     return {
         "key": answer.key,
@@ -68,7 +68,7 @@ def answer_values(answer: KeptAnswer) -> dict[str, Any]:
     }
 
 
-def entry_values(session_id: str, entry: EntryRecord) -> dict[str, Any]:
+def entry_to_row(session_id: str, entry: EntryRecord) -> dict[str, Any]:
     """An entry as a row."""
     return {
         "session_id": session_id,
@@ -81,7 +81,7 @@ def entry_values(session_id: str, entry: EntryRecord) -> dict[str, Any]:
     }
 
 
-def entry_of(row: Row[Any]) -> EntryRecord:
+def entry_from_row(row: Row[Any]) -> EntryRecord:
     """An entry of a row."""
     return EntryRecord(
         sequence=row.sequence,
@@ -93,7 +93,7 @@ def entry_of(row: Row[Any]) -> EntryRecord:
     )
 
 
-def snapshot_values(record: SnapshotRecord) -> dict[str, Any]:
+def snapshot_to_row(record: SnapshotRecord) -> dict[str, Any]:
     """A snapshot as a row."""
     return {
         "session_id": record.session,
@@ -105,7 +105,7 @@ def snapshot_values(record: SnapshotRecord) -> dict[str, Any]:
     }
 
 
-def snapshot_of(row: Row[Any]) -> SnapshotRecord:
+def snapshot_from_row(row: Row[Any]) -> SnapshotRecord:
     """A snapshot of a row."""
     return SnapshotRecord(
         session=row.session_id,
@@ -117,7 +117,7 @@ def snapshot_of(row: Row[Any]) -> SnapshotRecord:
     )
 
 
-def moment_values(session_id: str, entry: EntryRecord) -> list[dict[str, Any]]:
+def bookmarks_to_rows(session_id: str, entry: EntryRecord) -> list[dict[str, Any]]:
     """The moments that an entry names as rows."""
     return [
         {"session_id": session_id, "name": name, "sequence": entry.sequence, "tick": tick}

@@ -17,7 +17,7 @@ from service.store.tables import VERSION
 MIGRATIONS = Path(__file__).parent / "migrations"
 
 
-def bring_up(connection: Connection, name: str) -> None:
+def migrate(connection: Connection, name: str) -> None:
     """Make the tables, or bring older ones up. Raises `StoreError` for a newer database; not committed."""
     version = version_of(connection)
     if version == VERSION:

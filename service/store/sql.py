@@ -22,34 +22,34 @@ from sqlalchemy.exc import DBAPIError, SQLAlchemyError
 from sqlalchemy.ext.asyncio import AsyncConnection, AsyncEngine
 
 from service.store.base import (
+    BookmarkRecord,
     Branch,
     EntryRecord,
-    KeptAnswer,
-    MomentRecord,
     PhraseRecord,
     SessionRecord,
     SnapshotRecord,
+    StoredResponse,
     StoreError,
 )
-from service.store.engines import Postgres, Sqlite, kind_of, reason
-from service.store.fork_log import joined
+from service.store.engines import Postgres, Sqlite, database_for, driver_message
+from service.store.fork_log import join_logs
 from service.store.rows import (
-    answer_values,
-    entry_of,
-    entry_values,
-    moment_values,
-    record_of,
-    session_values,
-    snapshot_of,
-    snapshot_values,
+    bookmarks_to_rows,
+    entry_from_row,
+    entry_to_row,
+    response_to_row,
+    session_from_row,
+    session_to_row,
+    snapshot_from_row,
+    snapshot_to_row,
 )
-from service.store.schema import bring_up
+from service.store.schema import migrate
 from service.store.tables import ENTRIES, IDEMPOTENCY, MOMENTS, PHRASES, SESSIONS, SNAPSHOTS
 
 _PAGE = 500
 """Entries read at once: making records of rows holds up the event loop."""
 
-_Pending = tuple[str, EntryRecord, KeptAnswer | None, "asyncio.Future[None]"]
+_Pending = tuple[str, EntryRecord, StoredResponse | None, "asyncio.Future[None]"]
 
 
 class _LostError(StoreError):
@@ -61,13 +61,13 @@ class SqlStore:
 
     def __init__(self, url: str) -> None:
         """Raises `StoreError` where what that kind of database needs is not installed."""
-        self._kind: Sqlite | Postgres = kind_of(url)
+        self._kind: Sqlite | Postgres = database_for(url)
         self._engine: AsyncEngine | None = None
         self._pending: list[_Pending] = []
         self._writer: asyncio.Task[None] | None = None
         self._unseen: set[str] = set()
         """deleted meanwhile, but for their forks"""
-        self._doubtful: list[Delete] = []
+        self._uncertain: list[Delete] = []
         """takes out what was not acknowledged, and may be there"""
 
     async def open(self) -> None:
@@ -78,13 +78,13 @@ class SqlStore:
         engine = self._kind.engine()
         try:
             async with engine.connect() as connection:
-                await connection.run_sync(bring_up, self._kind.name)
+                await connection.run_sync(migrate, self._kind.name)
                 await connection.commit()
         except (SQLAlchemyError, OSError, ValueError, StoreError) as error:
             await engine.dispose()
             if isinstance(error, StoreError):
                 raise
-            raise StoreError(f"{self._kind.name} cannot be opened: {reason(error)}") from error
+            raise StoreError(f"{self._kind.name} cannot be opened: {driver_message(error)}") from error
         self._engine = engine
 
     async def close(self) -> None:
@@ -96,18 +96,18 @@ class SqlStore:
             self._engine = None
 
     async def create(
-        self, record: SessionRecord, entries: Sequence[EntryRecord] = (), answer: KeptAnswer | None = None
+        self, record: SessionRecord, entries: Sequence[EntryRecord] = (), answer: StoredResponse | None = None
     ) -> SessionRecord:
         """See `Store.create`."""
         try:
             return await self._create(record, entries, answer)
         except _LostError:
-            self._doubtful.append(delete(SESSIONS).where(SESSIONS.c.id == record.id))
-            self._doubt_answers(answer)
+            self._uncertain.append(delete(SESSIONS).where(SESSIONS.c.id == record.id))
+            self._mark_uncertain(answer)
             raise
 
     async def _create(
-        self, record: SessionRecord, entries: Sequence[EntryRecord], answer: KeptAnswer | None
+        self, record: SessionRecord, entries: Sequence[EntryRecord], answer: StoredResponse | None
     ) -> SessionRecord:
         async with self._transaction() as connection:
             if record.branch is not None:
@@ -116,15 +116,15 @@ class SqlStore:
                     raise StoreError(f"no session {record.branch.parent}")
             number = (
                 await connection.execute(
-                    insert(SESSIONS).returning(SESSIONS.c.number), session_values(record)
+                    insert(SESSIONS).returning(SESSIONS.c.number), session_to_row(record)
                 )
             ).scalar_one()
             await _insert(connection, [(record.id, entry) for entry in entries])
             if answer is not None:
-                await connection.execute(insert(IDEMPOTENCY), answer_values(answer))
-        return record.numbered(number)
+                await connection.execute(insert(IDEMPOTENCY), response_to_row(answer))
+        return record.with_number(number)
 
-    async def append(self, session_id: str, entry: EntryRecord, answer: KeptAnswer | None = None) -> None:
+    async def append(self, session_id: str, entry: EntryRecord, answer: StoredResponse | None = None) -> None:
         """See `Store.append`; joins the next group commit."""
         if session_id in self._unseen:
             raise StoreError(f"no session {session_id}")
@@ -142,7 +142,7 @@ class SqlStore:
                     select(SESSIONS).where(SESSIONS.c.id == session_id, ~SESSIONS.c.unseen)
                 )
             ).one_or_none()
-        return None if row is None else record_of(row)
+        return None if row is None else session_from_row(row)
 
     async def entries(self, session_id: str) -> Sequence[EntryRecord]:
         """See `Store.entries`."""
@@ -154,10 +154,10 @@ class SqlStore:
                 row = (await connection.execute(select(SESSIONS).where(SESSIONS.c.id == of))).one_or_none()
                 if row is None or (row.unseen and of == session_id):
                     return []
-                branch = record_of(row).branch
+                branch = session_from_row(row).branch
                 line.append((branch, await _own_entries(connection, of, most)))
                 of, most = (branch.parent, branch.sequence) if branch is not None else (None, None)
-        return joined(reversed(line))
+        return join_logs(reversed(line))
 
     async def newest(self, limit: int, before: int | None = None) -> Sequence[SessionRecord]:
         """See `Store.newest`."""
@@ -166,7 +166,7 @@ class SqlStore:
             query = query.where(SESSIONS.c.number < before)
         async with self._transaction() as connection:
             rows = (await connection.execute(query)).all()
-        return [record_of(row) for row in rows]
+        return [session_from_row(row) for row in rows]
 
     async def count(self) -> int:
         """See `Store.count`."""
@@ -199,25 +199,25 @@ class SqlStore:
         self._unseen.add(session_id)
         return True
 
-    async def keep_snapshot(self, record: SnapshotRecord) -> None:
-        """See `Store.keep_snapshot`."""
+    async def save_snapshot(self, record: SnapshotRecord) -> None:
+        """See `Store.save_snapshot`."""
         there = select(SESSIONS.c.number).where(SESSIONS.c.id == record.session, ~SESSIONS.c.unseen)
         async with self._transaction() as connection:
             if (await connection.execute(there)).one_or_none() is not None:
                 await connection.execute(delete(SNAPSHOTS).where(SNAPSHOTS.c.session_id == record.session))
-                await connection.execute(insert(SNAPSHOTS), snapshot_values(record))
+                await connection.execute(insert(SNAPSHOTS), snapshot_to_row(record))
 
     async def snapshot(self, session_id: str) -> SnapshotRecord | None:
         """See `Store.snapshot`."""
         query = select(SNAPSHOTS).where(SNAPSHOTS.c.session_id == session_id)
         async with self._transaction() as connection:
             row = (await connection.execute(query)).one_or_none()
-        return None if row is None else snapshot_of(row)
+        return None if row is None else snapshot_from_row(row)
 
-    async def moments(
+    async def bookmarks(
         self, limit: int, before: int | None = None, name: str | None = None
-    ) -> Sequence[MomentRecord]:
-        """See `Store.moments`."""
+    ) -> Sequence[BookmarkRecord]:
+        """See `Store.bookmarks`."""
         query = select(MOMENTS, SESSIONS.c.name.label("session_name")).join(SESSIONS)
         if before is not None:
             query = query.where(MOMENTS.c.number < before)
@@ -226,7 +226,7 @@ class SqlStore:
         async with self._transaction() as connection:
             rows = (await connection.execute(query.order_by(MOMENTS.c.number.desc()).limit(limit))).all()
         return [
-            MomentRecord(
+            BookmarkRecord(
                 session=row.session_id,
                 session_name=row.session_name,
                 name=row.name,
@@ -237,34 +237,34 @@ class SqlStore:
             for row in rows
         ]
 
-    async def keep(self, answer: KeptAnswer) -> None:
-        """See `Store.keep`."""
+    async def save_response(self, answer: StoredResponse) -> None:
+        """See `Store.save_response`."""
         async with self._transaction() as connection:
-            await connection.execute(insert(IDEMPOTENCY), answer_values(answer))
+            await connection.execute(insert(IDEMPOTENCY), response_to_row(answer))
 
-    async def kept(self, key: str) -> KeptAnswer | None:
-        """See `Store.kept`."""
+    async def get_response(self, key: str) -> StoredResponse | None:
+        """See `Store.get_response`."""
         async with self._transaction() as connection:
             row = (
                 await connection.execute(select(IDEMPOTENCY).where(IDEMPOTENCY.c.key == key))
             ).one_or_none()
-        return None if row is None else KeptAnswer(**row._mapping)
+        return None if row is None else StoredResponse(**row._mapping)
 
-    async def forget_answers(self, before: int) -> None:
-        """See `Store.forget_answers`."""
+    async def delete_responses(self, before: int) -> None:
+        """See `Store.delete_responses`."""
         async with self._transaction() as connection:
             await connection.execute(delete(IDEMPOTENCY).where(IDEMPOTENCY.c.at < before))
 
-    async def date_answers(self, newest: int) -> None:
-        """See `Store.date_answers`."""
+    async def shift_responses(self, newest: int) -> None:
+        """See `Store.shift_responses`."""
         async with self._transaction() as connection:
             latest = (await connection.execute(select(func.max(IDEMPOTENCY.c.at)))).scalar_one()
             if latest is not None and latest != newest:
                 moved = IDEMPOTENCY.c.at + (newest - latest)
                 await connection.execute(update(IDEMPOTENCY).values(at=moved))
 
-    async def teach(self, record: PhraseRecord, answer: KeptAnswer | None = None) -> None:
-        """See `Store.teach`."""
+    async def save_phrase(self, record: PhraseRecord, answer: StoredResponse | None = None) -> None:
+        """See `Store.save_phrase`."""
         values = {
             "owner": record.owner,
             "language": record.language,
@@ -276,14 +276,16 @@ class SqlStore:
             await connection.execute(_one_phrase(record.owner, record.language, record.key))
             await connection.execute(insert(PHRASES), values)
             if answer is not None:
-                await connection.execute(insert(IDEMPOTENCY), answer_values(answer))
+                await connection.execute(insert(IDEMPOTENCY), response_to_row(answer))
 
-    async def forget(self, owner: str, language: str, key: str, answer: KeptAnswer | None = None) -> bool:
-        """See `Store.forget`."""
+    async def delete_phrase(
+        self, owner: str, language: str, key: str, answer: StoredResponse | None = None
+    ) -> bool:
+        """See `Store.delete_phrase`."""
         async with self._transaction() as connection:
             result = await connection.execute(_one_phrase(owner, language, key))
             if answer is not None:
-                await connection.execute(insert(IDEMPOTENCY), answer_values(answer))
+                await connection.execute(insert(IDEMPOTENCY), response_to_row(answer))
         return result.rowcount > 0
 
     async def phrases(self, owner: str) -> Sequence[PhraseRecord]:
@@ -311,18 +313,18 @@ class SqlStore:
         try:
             async with self._transaction() as connection:
                 await _insert(connection, [(of, entry) for of, entry, _, _ in batch])
-                answers = [answer_values(answer) for _, _, answer, _ in batch if answer is not None]
+                answers = [response_to_row(answer) for _, _, answer, _ in batch if answer is not None]
                 if answers:
                     await connection.execute(insert(IDEMPOTENCY), answers)
         except StoreError as error:
             if isinstance(error, _LostError):
                 for of, entry, answer, _ in batch:
-                    self._doubtful.append(
+                    self._uncertain.append(
                         delete(ENTRIES).where(
                             ENTRIES.c.session_id == of, ENTRIES.c.sequence == entry.sequence
                         )
                     )
-                    self._doubt_answers(answer)
+                    self._mark_uncertain(answer)
             if isinstance(error, _LostError) and again:
                 await self._write_batch(batch, again=False)
             elif len(batch) > 1:
@@ -336,10 +338,10 @@ class SqlStore:
                 if not done.done():
                     done.set_result(None)
 
-    def _doubt_answers(self, *answers: KeptAnswer | None) -> None:
+    def _mark_uncertain(self, *answers: StoredResponse | None) -> None:
         for answer in answers:
             if answer is not None:
-                self._doubtful.append(delete(IDEMPOTENCY).where(IDEMPOTENCY.c.key == answer.key))
+                self._uncertain.append(delete(IDEMPOTENCY).where(IDEMPOTENCY.c.key == answer.key))
 
     @asynccontextmanager
     async def _transaction(self) -> AsyncIterator[AsyncConnection]:
@@ -347,16 +349,16 @@ class SqlStore:
             raise StoreError("The database is not open")
         try:
             async with self._engine.begin() as connection:
-                doubtful = len(self._doubtful)
-                for statement in self._doubtful[:doubtful]:
+                doubtful = len(self._uncertain)
+                for statement in self._uncertain[:doubtful]:
                     await connection.execute(statement)
                 yield connection
-            del self._doubtful[:doubtful]
+            del self._uncertain[:doubtful]
         except (SQLAlchemyError, OSError) as error:
             lost = isinstance(error, OSError) or (
                 isinstance(error, DBAPIError) and error.connection_invalidated
             )
-            raise (_LostError if lost else StoreError)(reason(error)) from error
+            raise (_LostError if lost else StoreError)(driver_message(error)) from error
         except ValueError as error:
             # Reading JSON: the file was damaged in a place that its own structure does not show.
             raise StoreError(f"what is kept cannot be read: {error}") from error
@@ -371,8 +373,8 @@ async def _insert(connection: AsyncConnection, entries: Sequence[tuple[str, Entr
     """Keep entries of sessions, and the names they give."""
     if not entries:
         return
-    await connection.execute(insert(ENTRIES), [entry_values(of, entry) for of, entry in entries])
-    named = [values for of, entry in entries for values in moment_values(of, entry)]
+    await connection.execute(insert(ENTRIES), [entry_to_row(of, entry) for of, entry in entries])
+    named = [values for of, entry in entries for values in bookmarks_to_rows(of, entry)]
     if named:
         again = (MOMENTS.c.session_id == bindparam("of"), MOMENTS.c.name == bindparam("called"))
         old = [{"of": values["session_id"], "called": values["name"]} for values in named]
@@ -388,6 +390,6 @@ async def _own_entries(connection: AsyncConnection, session_id: str, most: int |
     while True:
         last = found[-1].sequence if found else 0
         rows = (await connection.execute(query.where(ENTRIES.c.sequence > last).limit(_PAGE))).all()
-        found += map(entry_of, rows)
+        found += map(entry_from_row, rows)
         if len(rows) < _PAGE:
             return found

@@ -60,7 +60,7 @@ class Showing:
         return self._planned
 
     def _glide(self, old: SimState, now_s: float) -> None:
-        pace = self._session.pace
+        pace = self._session.playback_speed
         if self._session.paused:
             self._lasts_s = STEP_S
         else:

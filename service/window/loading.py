@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from service.interpreter.languages import Languages
-    from service.sessions.narrator_protocol import Words
+    from service.sessions.narrator_protocol import NarratorProtocol
 
 
 class LoadError(Exception):
@@ -20,7 +20,7 @@ class Loaded:
     """What a game needs to understand and to answer."""
 
     languages: Languages
-    words: Words
+    words: NarratorProtocol
 
 
 def load() -> Loaded:
@@ -30,10 +30,10 @@ def load() -> Loaded:
     from service.interpreter.languages import Languages
     from service.narration import Narrator
     from service.resources import DEFAULT_LANGUAGE
-    from service.sessions.availability import refusal
+    from service.sessions.availability import refusal_of
 
     def offered(action: object) -> bool:
-        return isinstance(action, Show | Hide) or refusal(action) is None  # type: ignore[arg-type]
+        return isinstance(action, Show | Hide) or refusal_of(action) is None  # type: ignore[arg-type]
 
     grammar = Language.load(DEFAULT_LANGUAGE, offered=offered)
     grammar.suggestions.nearest("", frozenset())  # ready before anyone is refused
@@ -42,7 +42,7 @@ def load() -> Loaded:
     if guide is not None:
         from service.grammar.topic import ALONE
 
-        guide.completions("a", None, ALONE, [])
+        guide.completions_here("a", None, ALONE, [])
     return Loaded(languages, Narrator.load(DEFAULT_LANGUAGE))
 
 

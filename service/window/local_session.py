@@ -15,12 +15,12 @@ from typing import Any
 import structlog
 
 from service.actions import Action, Hide, Show
-from service.interpreter.aliases import Phrasebook
-from service.interpreter.interpreter import Listener
+from service.interpreter.aliases import Aliases
+from service.interpreter.interpreter import Interpreter
 from service.problems import NotAvailable, ProblemError
 from service.sessions.manager import SessionManager
 from service.sessions.scheduler.clock import WheelClock
-from service.sessions.session import Surroundings
+from service.sessions.session import SessionServices
 from service.sessions.utterance import Utterance
 from service.settings import Settings
 from service.store.memory import MemoryStore
@@ -55,10 +55,10 @@ class Game:
         settings = Settings.model_construct()  # the defaults, whatever the environment says
         store = MemoryStore()
         self._clock = WheelClock(lambda: self._now_s)
-        manager = SessionManager(Surroundings(store, self._clock, loaded.words, settings))
-        self._listener = Listener(
+        manager = SessionManager(SessionServices(store, self._clock, loaded.words, settings))
+        self._listener = Interpreter(
             loaded.languages,
-            Phrasebook(store, loaded.languages),
+            Aliases(store, loaded.languages),
             loaded.words,
             most_chars=settings.max_text_chars,
         )
@@ -96,9 +96,9 @@ class Game:
         if guide is None or not prefix.strip():
             return None
         topic = self._listener.topic(self.session)
-        taught = [each.phrase for each in self._listener.phrasebook.listed()]
+        taught = [each.phrase for each in self._listener.aliases.list()]
         lower = prefix.lower()
-        found = guide.completions(prefix, self.session, topic, taught)
+        found = guide.completions_here(prefix, self.session, topic, taught)
         return next((each for each in found if each.lower().startswith(lower) and each != prefix), None)
 
     def settle(self) -> None:
@@ -133,7 +133,7 @@ class Game:
 
     async def _said(self, text: str) -> Exchange:
         try:
-            heard = await self._listener.hear(text, self.session)
+            heard = await self._listener.interpret(text, self.session)
             views = [action for action in heard.actions if isinstance(action, Show | Hide)]
             missing = next(filter(None, map(lacking, views)), None)
             if missing is not None:
@@ -141,14 +141,14 @@ class Game:
             rest = tuple(action for action in heard.actions if not isinstance(action, Show | Hide))
             if not rest:
                 return Exchange(text, " ".join(map(self.panels.do, views)))
-            outcome = await self._listener.do(self.session, replace(heard.utterance, actions=rest))
+            outcome = await self._listener.execute(self.session, replace(heard.utterance, actions=rest))
             return exchanged(text, outcome, *map(self.panels.do, views))
         except ProblemError as problem:
             return refused(text, problem)
 
     async def _done(self, actions: tuple[Action, ...]) -> Exchange:
         try:
-            outcome = await self._listener.do(self.session, Utterance(actions=actions))
+            outcome = await self._listener.execute(self.session, Utterance(actions=actions))
         except ProblemError as problem:
             return refused(None, problem)
         return exchanged(None, outcome)

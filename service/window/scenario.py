@@ -5,7 +5,7 @@ from __future__ import annotations
 from service.grammar.parse_types import Ambiguous, Refused, Understood
 from service.interpreter.languages import Languages
 from service.resources import DEFAULT_LANGUAGE
-from service.sessions.availability import refusal
+from service.sessions.availability import refusal_of
 from sim.actions import Scenario
 
 
@@ -18,7 +18,7 @@ def scenario_in(sentence: str, languages: Languages) -> Scenario:
     parse = languages[DEFAULT_LANGUAGE].parse(sentence)
     match parse:
         case Understood(actions=(Scenario() as scenario,)):
-            missing = refusal(scenario)
+            missing = refusal_of(scenario)
             if missing is not None:
                 raise NoScenarioError(missing)
             return scenario

@@ -282,7 +282,9 @@ class Window:
             case "road":
                 planner = self.game.loaded.words.planner(run.config.planner)
                 driver = "by hand" if run.mode is Mode.MANUAL else planner
-                standing = "paused" if session.paused else self.game.loaded.words.speed(session.pace)
+                standing = (
+                    "paused" if session.paused else self.game.loaded.words.speed(session.playback_speed)
+                )
                 return f"{standing}  ·  {driver}  ·  seed {run.config.seed}"
             case "plan":
                 return f"tick {self._showing.planned[0].world.tick}"
@@ -327,7 +329,7 @@ class Window:
                 log = self.game.session.log
                 lines = log.latest(LOG_LINES)
                 self._controls.log_back = back = min(self._controls.log_back, max(0, len(lines) - 1))
-                return (log.last, back), lambda: draw_log(lines, size, back)
+                return (log.last_number, back), lambda: draw_log(lines, size, back)
 
     def _narration(self) -> str | None:
         assert self.game is not None

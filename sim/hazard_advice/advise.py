@@ -5,10 +5,8 @@ from __future__ import annotations
 from typing import Final
 
 from sim.actions import Weather
-from sim.hazard_advice.chances import figures, prospects
 from sim.hazard_advice.facts import Advice, Choice, NoAdviceError, Prospect
-from sim.hazard_advice.parameters import DISTANCES_M, SPEEDS_KMH
-from sim.hazard_advice.samples import SAMPLES
+from sim.hazard_advice.parameters import DISTANCES_M, SAMPLES, SPEEDS_KMH
 from sim.types import Kind
 
 EVEN_CHANCE: Final = 0.05
@@ -28,6 +26,9 @@ def advise(hazard: Kind, distance_m: float, speed_kmh: float, weather: Weather =
     ):
         if not low <= value <= high:
             raise NoAdviceError(code, field, low=low, high=high, value=value)
+    # Needs numpy, which programs that never ask for advice do without.
+    from sim.hazard_advice.chances import figures, prospects
+
     middle = figures(hazard, distance_m, speed_kmh, weather)
     found = prospects(hazard, distance_m, speed_kmh, weather, middle)
     return Advice(

@@ -20,6 +20,7 @@ from sim.hazard_advice.parameters import (
     LATERAL,
     MARGIN_M,
     REACTION,
+    SAMPLES,
     clearing_of,
     width_of,
 )
@@ -38,7 +39,7 @@ def figures(hazard: Kind, distance_m: float, speed_kmh: float, weather: Weather)
     drawn = physics.stopping_distance(
         speed * samples.speed_ratio(), samples.reaction(), samples.friction(weather)
     )
-    rank = int(0.95 * samples.SAMPLES)
+    rank = int(0.95 * SAMPLES)
     return Figures(
         speed_ms=speed,
         time_s=distance_m / speed,
@@ -85,16 +86,16 @@ def prospects(
     found = []
     for choice, (meets, typical_kmh, needs_m) in met.items():
         harmed = meets > unharmed_below
-        chance = 1.0 - int(np.count_nonzero(harmed)) / samples.SAMPLES
+        chance = 1.0 - int(np.count_nonzero(harmed)) / SAMPLES
         found.append(
             Prospect(
                 choice=choice,
                 chance=chance,
-                interval=interval(chance, samples.SAMPLES),
+                interval=interval(chance, SAMPLES),
                 ending=_ending(choice, typical_kmh, middle.unharmed_kmh),
                 needs_m=needs_m,
                 meets_kmh=typical_kmh,
-                harm_kmh=3.6 * float(np.sum(meets, where=harmed)) / samples.SAMPLES,
+                harm_kmh=3.6 * float(np.sum(meets, where=harmed)) / SAMPLES,
             )
         )
     return tuple(found)

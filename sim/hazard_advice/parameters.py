@@ -15,6 +15,10 @@ from sim.types import Kind
 GRAVITY: Final = 9.81
 """m/s²"""
 
+SAMPLES: Final = 40_000
+"""Number of samples; the standard error of a share is at most 0.25 %."""
+SEED: Final = 0
+
 
 @dataclass(frozen=True, slots=True)
 class Quantity:

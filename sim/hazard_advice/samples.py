@@ -20,6 +20,8 @@ from sim.hazard_advice.parameters import (
     LATERAL,
     LATERAL_RANGE,
     REACTION,
+    SAMPLES,
+    SEED,
     SPEED,
     WIDTH,
     Quantity,
@@ -29,10 +31,6 @@ from sim.randomness import Stream, fraction, word_at
 from sim.types import Kind
 
 Column = NDArray[np.float64]
-
-SAMPLES: Final = 40_000
-"""Number of samples; the standard error of a share is at most 0.25 %."""
-SEED: Final = 0
 
 _PURPOSES: Final = ("reaction", "friction", "distance", "speed", "lateral", "width", "harm")
 

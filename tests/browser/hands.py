@@ -31,6 +31,10 @@ async (cell) => {
 """
 
 
+CALLED = {"vehicle": "car", "pedestrian": "walker"}
+"""What the page calls kinds of things."""
+
+
 class Road:
     """An empty road with the clock stopped, and a hand over it."""
 
@@ -63,7 +67,7 @@ class Road:
     def shown(self, kind: str) -> None:
         """Wait until the page shows as many of a kind as there are."""
         count = self.script.count(kind)
-        words = f"{count} {kind}s?" if count else "."
+        words = f"{count} {CALLED.get(kind, kind)}s?" if count else "."
         expect(self.page.locator("#road .road-canvas").first).to_have_attribute(
             "aria-label", re.compile(words)
         )

@@ -65,7 +65,7 @@ def test_a_link_that_is_broken_says_so(visit: Visit) -> None:
     visitor.forgive("Failed to load resource")
 
 
-def test_pictures_films_and_recordings_are_taken_away(run: Visitor) -> None:
+def test_pictures_videos_and_recordings_are_taken_away(run: Visitor) -> None:
     look(run, 50)
     with run.page.expect_download() as picture:
         choose(run, "Save a picture of tick 50")
@@ -73,20 +73,20 @@ def test_pictures_films_and_recordings_are_taken_away(run: Visitor) -> None:
     with Image.open(picture.value.path()) as image:
         assert image.width > 300
         assert len(image.convert("RGB").getcolors(1 << 24) or []) > 50
-    choose(run, "Make a film…")
-    dialog = run.page.get_by_role("dialog", name="Make a film")
+    choose(run, "Export a video…")
+    dialog = run.page.get_by_role("dialog", name="Export a video")
     expect(dialog.get_by_label("From tick")).to_have_value("40")
     expect(dialog.get_by_label("To tick")).to_have_value("60")
     dialog.get_by_label("From tick").fill("56")
     dialog.get_by_label("Size").select_option("320")
     expect(dialog.get_by_role("status")).to_have_text("4 ticks, 2.0 s long.")
     with run.page.expect_download() as film:
-        dialog.get_by_role("button", name="Make film").click()
+        dialog.get_by_role("button", name="Make video").click()
     expect(dialog.get_by_role("status")).to_have_text(re.compile(r"Saved: [\d.]+ [kM]B\."))
     with Image.open(BytesIO(Path(film.value.path()).read_bytes())) as moving:
         assert (moving.format, getattr(moving, "n_frames", 1) > 5) == ("GIF", True)
     dialog.get_by_label("To tick").fill("20")
-    dialog.get_by_role("button", name="Make film").click()
+    dialog.get_by_role("button", name="Make video").click()
     expect(dialog.get_by_role("status")).to_contain_text("is after the last tick")
     run.forgive("Failed to load resource")
     run.page.keyboard.press("Escape")

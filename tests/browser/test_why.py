@@ -71,7 +71,7 @@ def test_a_cause_is_told_and_asked_about(road: Road) -> None:
     cell = road.ahead(1)
     road.step()
     road.page.mouse.click(*road.at(cell))
-    expect(road.bubble).to_contain_text("It ruled out forward: a barrier.")
+    expect(road.bubble).to_contain_text("Forward: a barrier")
     road.bubble.get_by_role("button", name="Ask why").click()
     expect(road.bubble).to_be_hidden()
     answer = road.page.locator(".exchange").last
@@ -118,7 +118,7 @@ def test_a_button_that_is_pressed_hears_its_click_whatever_comes_meanwhile(road:
     road.page.mouse.down()
     road.step()
     road.page.mouse.up()
-    expect(road.page.locator("#beside-title")).to_have_text("If it had waited at tick 0")
+    expect(road.page.locator("#beside-title")).to_have_text("Instead: stay, at tick 0")
     road.page.keyboard.press("Escape")
     road.page.mouse.click(*road.at(road.ego))
     expect(lines).not_to_have_text(before)
@@ -168,7 +168,7 @@ def test_a_move_that_was_not_made_plays_beside_the_real_run(road: Road) -> None:
     road.page.mouse.click(*road.at(road.ego))
     road.bubble.locator(".bubble-move", has_text="a barrier").click()
     expect(road.beside).to_be_visible()
-    expect(road.page.locator("#beside-title")).to_have_text("If it had gone forward at tick 0")
+    expect(road.page.locator("#beside-title")).to_have_text("Instead: forward, at tick 0")
     expect(road.beside.locator("[data-side=real] .beside-end")).to_contain_text("arrives after")
     expect(road.beside.locator("[data-side=changed] .beside-end")).to_have_text(
         "crashes into a barrier at tick 1"
@@ -200,7 +200,7 @@ def test_the_two_play_in_step_and_stop_when_told(road: Road) -> None:
     stood = tick.inner_text()
     road.page.keyboard.press("ArrowRight")
     expect(tick).to_have_text(f"tick {int(stood.split()[1]) + 1}")
-    expect(road.beside.locator(".beside-summary")).to_contain_text("It arrives 1 tick later.")
+    expect(road.beside.locator(".beside-summary")).to_contain_text("I arrive 1 tick later.")
     assert road.script.state()["tick"] == 1
 
 
@@ -208,7 +208,7 @@ def test_a_move_in_the_plan_can_be_watched(road: Road) -> None:
     road.put("barrier", road.ahead(1))
     way = road.page.locator("#plan button", has_text="Forward").filter(has_text="barrier")
     way.click()
-    expect(road.page.locator("#beside-title")).to_have_text("If it had gone forward at tick 0")
+    expect(road.page.locator("#beside-title")).to_have_text("Instead: forward, at tick 0")
     expect(road.beside.locator("[data-side=changed] .beside-end")).to_contain_text("crashes into a barrier")
     expect(road.beside.locator("[data-side=real] .beside-end")).to_contain_text("arrives")
 
@@ -226,7 +226,7 @@ def test_the_past_is_told_and_not_changed(road: Road) -> None:
     expect(road.bubble.get_by_role("button", name="Remove")).to_have_count(0)
     road.bubble.get_by_role("button", name="What if it weren't there?").click()
     expect(road.beside.locator(".beside-tick")).to_have_text(re.compile(r"tick \d"))
-    expect(road.page.locator("#beside-title")).to_have_text(f"If {name} wasn’t there")
+    expect(road.page.locator("#beside-title")).to_have_text(f"Without {name}")
     road.page.keyboard.press("Escape")
     road.drag(road.at(start), road.at(road.ahead(1, 1)))
     expect(road.page.locator(".road-toast")).to_contain_text("This is the past")
@@ -258,7 +258,7 @@ def test_imagining_a_thing_away_answers_and_plays(road: Road) -> None:
     name = road.put("barrier", road.ahead(2))
     road.page.mouse.click(*road.at(road.ahead(2)))
     road.bubble.get_by_role("button", name="What if it weren't there?").click()
-    expect(road.page.locator("#beside-title")).to_have_text(f"If {name} wasn’t there")
+    expect(road.page.locator("#beside-title")).to_have_text(f"Without {name}")
     expect(road.beside.locator("[data-side=changed] canvas")).to_have_attribute(
         "aria-label", re.compile("nothing on it")
     )
@@ -279,4 +279,4 @@ def test_other_moves_of_an_answer_can_be_watched(road: Road) -> None:
     road.beside.get_by_role("button", name="Close the comparison").click()
     expect(road.beside).to_be_hidden()
     answer.get_by_role("button", name="Watch it beside the real run", exact=True).click()
-    expect(road.page.locator("#beside-title")).to_contain_text("wasn’t there")
+    expect(road.page.locator("#beside-title")).to_contain_text("Without ")

@@ -7,6 +7,7 @@ import re
 import signal
 import socket
 import subprocess
+import sys
 import threading
 import time
 from collections.abc import Iterator
@@ -19,7 +20,8 @@ import pytest
 from typer.testing import CliRunner
 
 from service.app import create_app
-from service.cli.main import cli, warmed
+from service.cli.main import COMMANDS, cli, load_command
+from service.cli.serve import warmed
 from service.settings import Settings
 from tests.support.command import COMMAND, ENVIRONMENT, ROOT, run
 
@@ -64,6 +66,29 @@ def test_it_says_who_it_is() -> None:
     told = CliRunner().invoke(cli, ["--help"]).stdout
     assert "serve" in told
     assert "say" in told
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_the_list_of_commands_says_what_each_says_of_itself(name: str) -> None:
+    said = " ".join((load_command(name).help or "").partition("\n\n")[0].split())
+    assert said.startswith(COMMANDS[name][1])
+    assert COMMANDS[name][1].endswith(".")
+
+
+def test_neither_the_version_nor_the_help_loads_the_service() -> None:
+    code = (
+        "import sys\n"
+        "from typer.testing import CliRunner\n"
+        "from service.cli.main import cli\n"
+        "for option in ('--version', '--help'):\n"
+        "    assert CliRunner().invoke(cli, [option]).exit_code == 0\n"
+        "heavy = {'fastapi', 'sim', 'sqlalchemy', 'uvicorn', 'numpy', 'service.settings'}\n"
+        "print(sorted(heavy & sys.modules.keys()))\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, env=ENVIRONMENT, capture_output=True, text=True
+    )
+    assert done.stdout == "[]\n", done.stderr
 
 
 def test_talking_from_a_terminal(database: Path) -> None:
@@ -175,6 +200,7 @@ def test_what_was_acknowledged_survives_a_kill(database: Path) -> None:
 
 async def test_what_the_first_request_builds_is_built_before_anyone_asks() -> None:
     app = create_app(Settings(database="memory:"))
-    counted = app.state.metrics
     assert await warmed(app) == 200
-    assert not counted.refusals
+    families = app.state.context.metrics.registry.collect()
+    refusals = next(each for each in families if each.name == "roadtalk_refusals")
+    assert {each.value for each in refusals.samples} == {0}

@@ -15,9 +15,7 @@ from service.contract import advice as schemas_advice
 from service.contract import answers as schemas
 from service.contract import counterfactual as schemas_counterfactual
 from service.contract import parts as shapes
-from service.http.routes import forecast as insight
-from service.http.routes import timeline
-from service.http.routes import ws_tickets as tickets
+from service.http.routes import changes, forecast, moments, regret, timeline, ws_tickets
 
 PAIRS: list[tuple[type, type[BaseModel]]] = [
     (results.Vehicle, shapes.Vehicle),
@@ -41,7 +39,7 @@ PAIRS: list[tuple[type, type[BaseModel]]] = [
     (results.SavedMoment, schemas.SavedMoment),
     (results.SavedMoments, schemas.SavedMoments),
     (results.Link, schemas.Link),
-    (results.Ticket, tickets.Ticket),
+    (results.Ticket, ws_tickets.Ticket),
     (results.Ready, schemas.Ready),
     (results.Parent, schemas.Parent),
     (results.SessionMoment, schemas.SessionMoment),
@@ -53,14 +51,14 @@ PAIRS: list[tuple[type, type[BaseModel]]] = [
     (runs.Counterfactual, schemas_counterfactual.Counterfactual),
     (runs.TimelineMark, timeline.TimelineMark),
     (runs.Timeline, timeline.TimelinePage),
-    (runs.RoadChange, timeline.RoadChange),
-    (runs.RoadChanges, timeline.RoadChanges),
-    (runs.Moment, timeline.Moment),
-    (runs.Moments, timeline.Moments),
-    (runs.ExpectedTick, insight.ExpectedTick),
-    (runs.Expected, insight.Expected),
-    (runs.JudgedDecision, insight.JudgedDecision),
-    (runs.Judged, insight.Judged),
+    (runs.RoadChange, changes.RoadChange),
+    (runs.RoadChanges, changes.RoadChanges),
+    (runs.Moment, moments.Moment),
+    (runs.Moments, moments.Moments),
+    (runs.ExpectedTick, forecast.ExpectedTick),
+    (runs.Expected, forecast.Expected),
+    (runs.JudgedDecision, regret.JudgedDecision),
+    (runs.Judged, regret.Judged),
     (unbound.Advice, schemas_advice.Advice),
     (unbound.AdviceOption, schemas_advice.AdviceOption),
     (unbound.Intent, schemas.IntentGuide),

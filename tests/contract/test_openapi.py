@@ -19,9 +19,7 @@ from service.contract import advice as schemas_advice
 from service.contract import answers as schemas
 from service.contract import counterfactual as schemas_counterfactual
 from service.contract import requests as bodies
-from service.http.routes import forecast as insight
-from service.http.routes import timeline
-from service.http.routes import ws_tickets as tickets
+from service.http.routes import changes, forecast, moments, regret, timeline, ws_tickets
 from tests.contract.document import Json, asked, document, operations
 
 APP = asked()
@@ -67,36 +65,36 @@ ROUTES = {
     "POST /api/v1/tickets",
 }
 MODELS: dict[str, type] = {
-    "sessions_make": schemas.Session,
-    "sessions_newest": schemas.SessionPage,
-    "sessions_look": schemas.Session,
-    "sessions_patch": schemas.ConfigChanged,
-    "talking_say": schemas.CommandResult,
-    "talking_act": schemas.CommandResult,
-    "talking_step": schemas.StepResult,
-    "talking_ask": schemas.Answer,
-    "talking_parse": schemas.Parsed,
-    "talking_advice": schemas_advice.Advice,
-    "talking_language": schemas.LanguageGuide,
-    "watching_state": schemas.State,
-    "watching_decisions": schemas.DecisionPage,
-    "watching_decision": schemas.Decision,
-    "watching_events": schemas.EventPage,
-    "watching_recording": bodies.Recording,
-    "time_fork": schemas.Session,
-    "time_rewind": schemas.CommandResult,
-    "time_saved": schemas.SavedMoments,
-    "time_all_saved": schemas.MomentPage,
-    "time_counterfactual": schemas_counterfactual.Counterfactual,
-    "time_link": schemas.Link,
-    "watching_forecast": insight.Expected,
-    "watching_regrets": insight.Judged,
-    "time_timeline": timeline.TimelinePage,
-    "time_changes": timeline.RoadChanges,
-    "time_moments": timeline.Moments,
-    "operating_healthz": schemas.Health,
-    "operating_readyz": schemas.Ready,
-    "operating_ticket": tickets.Ticket,
+    "create_session": schemas.Session,
+    "list_sessions": schemas.SessionPage,
+    "read_session": schemas.Session,
+    "patch_config": schemas.ConfigChanged,
+    "run_command": schemas.CommandResult,
+    "run_actions": schemas.CommandResult,
+    "step_session": schemas.StepResult,
+    "ask_question": schemas.Answer,
+    "parse_text": schemas.Parsed,
+    "ask_advice": schemas_advice.Advice,
+    "read_language": schemas.LanguageGuide,
+    "read_state": schemas.State,
+    "list_decisions": schemas.DecisionPage,
+    "read_decision": schemas.Decision,
+    "list_events": schemas.EventPage,
+    "read_recording": bodies.Recording,
+    "fork_session": schemas.Session,
+    "rewind_session": schemas.CommandResult,
+    "list_bookmarks": schemas.SavedMoments,
+    "list_all_bookmarks": schemas.MomentPage,
+    "run_counterfactual": schemas_counterfactual.Counterfactual,
+    "read_link": schemas.Link,
+    "read_forecast": forecast.Expected,
+    "read_regret": regret.Judged,
+    "read_timeline": timeline.TimelinePage,
+    "list_changes": changes.RoadChanges,
+    "list_moments": moments.Moments,
+    "read_health": schemas.Health,
+    "read_readiness": schemas.Ready,
+    "create_ticket": ws_tickets.Ticket,
 }
 
 
@@ -125,6 +123,7 @@ def test_it_is_the_whole_interface_and_nothing_else() -> None:
     assert {f"{p.values[1].upper()} {p.values[0]}" for p in OPERATIONS} == ROUTES
     operation_ids = [p.values[2]["operationId"] for p in OPERATIONS]
     assert len(set(operation_ids)) == len(operation_ids)
+    assert all(re.fullmatch(r"[a-z]+(_[a-z]+)+", each) for each in operation_ids), "a verb and a thing"
 
 
 @pytest.mark.parametrize(("path", "method", "operation"), OPERATIONS)
@@ -205,10 +204,10 @@ async def test_answers_have_the_documented_shape(
         TypeAdapter(MODELS[operation["operationId"]]).validate_json(answer.content)
     else:
         assert operation["operationId"] in (
-            "sessions_end",
-            "watching_frame",
-            "watching_moving",
-            "operating_metrics",
+            "delete_session",
+            "read_frame",
+            "read_video",
+            "read_metrics",
         )
 
 

@@ -20,7 +20,7 @@ from typing import Any
 
 from fastapi import FastAPI
 
-from service.cli import main as cli
+from service.cli import main, serve
 
 EVERY_S = 0.001
 LONG_S = 0.02
@@ -99,5 +99,5 @@ def with_heart(make: Any) -> Any:
 
 
 if __name__ == "__main__":
-    cli.create_app = with_heart(cli.create_app)
-    cli.main()
+    serve.create_app = with_heart(serve.create_app)
+    main.main()

@@ -11,12 +11,12 @@ from hypothesis import strategies as st
 
 from service.actions import dump
 from service.grammar import Ambiguous, Language, Refused, Understood
-from service.grammar.data import read_yaml
 from service.grammar.evaluation import evaluate, render, same
 from service.grammar.numbers import NumberWords
 from service.grammar.tokens import Contractions, normalise, tokenise
 from service.grammar.topic import Topic
 from service.resources import prompts_folder
+from service.yaml_files import read_yaml
 from tests.grammar.beside import HERE, meaning
 
 FOLDER = prompts_folder() / "language" / "de"
@@ -56,8 +56,8 @@ def test_fresh_sentences_are_never_misread(german: Language, file: str, least_ex
     assert report.total("exact") >= least_exact * report.total(), render(report)
 
 
-def test_every_frames_file_has_its_sentences() -> None:
-    files = {path.name for path in (FOLDER / "frames").glob("*.yaml")} - {"sets.yaml"}
+def test_every_intent_has_its_sentences() -> None:
+    files = {path.name for path in (FOLDER / "intents").glob("*.yaml")}
     plain = {name for name in files if not name.endswith(".test.yaml")}
     assert plain
     assert {name.replace(".yaml", ".test.yaml") for name in plain} <= files

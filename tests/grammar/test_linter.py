@@ -31,11 +31,17 @@ def test_the_language_has_no_defects(language: Language) -> None:
     [
         ("lexicon/values.yaml", "weather/x:\n  rain: drizzling\n  snow: drizzling\n", "'drizzling' is both"),
         ("lexicon/values.yaml", "colour: red, green\n", "nothing takes the concept colour"),
-        ("frames/views.yaml", "  odd: {needs: nowhere, do: {do: pause}}\n", "needs nowhere"),
-        ("frames/views.yaml", "  odd: {needs: view, takes: nowhere, do: {do: pause}}\n", "takes nowhere"),
-        ("frames/views.yaml", "  odd: {needs: view}\n", "neither actions nor a question"),
-        ("frames/views.yaml", "  odd: {needs: view, wants: log}\n", "no such fields: wants"),
-        ("frames/views.yaml", "  pause: {needs: view, do: {do: pause}}\n", "pause is there twice"),
+        ("intents/show.yaml", "  odd: {needs: nowhere, do: {do: pause}}\n", "needs nowhere"),
+        ("intents/show.yaml", "  odd: {needs: view, takes: nowhere, do: {do: pause}}\n", "takes nowhere"),
+        ("intents/show.yaml", "  odd: {needs: view}\n", "neither actions nor a question"),
+        ("intents/show.yaml", "  odd: {needs: view, wants: log}\n", "no such fields: wants"),
+        ("intents/show.yaml", "  pause: {needs: view, do: {do: pause}}\n", "pause is there twice"),
+        ("lexicon/values.yaml", "weather/x:\n  rain: [damp, damp]\n", "'damp' is already among"),
+        (
+            "lexicon/values.yaml",
+            "weather/x:\n  rain: [(damp|moist) air, damp air]\n",
+            "'damp air' is already",
+        ),
         ("lexicon/values.yaml", "weather/y:\n  rain: (a|b\n", "never closed"),
         ("lexicon/values.yaml", "weather/z:\n  rain: <nosuch> rain\n", "no macro is called"),
     ],
@@ -47,14 +53,14 @@ def test_a_planted_defect_stops_the_loading(copy: Path, file: str, text: str, sa
 
 
 def test_a_saying_that_does_not_parse_is_found(copy: Path) -> None:
-    append(copy / "en" / "frames/views.yaml", "  odd: {say: [sing a song], needs: view, do: {do: pause}}\n")
+    append(copy / "en" / "intents/show.yaml", "  odd: {say: [sing a song], needs: view, do: {do: pause}}\n")
     assert any("sing a song" in defect for defect in Language.load(folder=copy).check())
 
 
 def test_a_saying_that_is_refused_is_found_and_no_suggestion(copy: Path) -> None:
     """A refusal names suggestions, which are made of sayings: reading a refused one must not begin again."""
     impossible = "  odd: {say: [paint the log], needs: odd_word view, do: {do: step, ticks: -3}}\n"
-    append(copy / "en" / "frames/views.yaml", impossible)
+    append(copy / "en" / "intents/show.yaml", impossible)
     append(copy / "en" / "lexicon/values.yaml", "odd_word: paint\n")
     language = Language.load(folder=copy, offered=lambda _: True)
     assert language.suggestions.nearest("paint the log", language.concepts("paint the log"))

@@ -8,9 +8,9 @@ from hypothesis import strategies as st
 from text_to_num import text2num
 
 from service.grammar import Language
-from service.grammar.data import read_yaml
 from service.grammar.numbers import NumberWords
 from service.grammar.tokens import Contractions, normalise, tokenise
+from service.yaml_files import read_yaml
 from tests.grammar.beside import FOLDER
 
 NUMBERS = NumberWords.from_data(read_yaml(FOLDER / "numbers.yaml"))

@@ -13,8 +13,9 @@ from websockets.protocol import State
 from websockets.server import ServerProtocol
 
 from service.app import create_app
-from service.http.realtime.direct_write import StraightProtocol, framed, straight_of
-from service.sessions.subscribers import SLOT_MESSAGES, Missed, Watcher, Watchers
+from service.http.protocol.direct_write import DirectWriteProtocol, encode_frame
+from service.http.realtime.direct_write import direct_write_of
+from service.sessions.subscribers import QUEUE_SIZE, MissedTicks, Subscriber, Subscribers
 from service.settings import Settings
 from service.store import MemoryStore
 from tests.support.fakes import FewSentences, HandClock
@@ -24,22 +25,22 @@ from tests.support.live_server import running
 @pytest.mark.parametrize("size", [0, 1, 125, 126, 127, 65_535, 65_536, 200_000])
 def test_a_frame_is_what_the_library_would_send(size: int) -> None:
     text = b"x" * size
-    assert framed(text) == Frame(Opcode.TEXT, text).serialize(mask=False)
+    assert encode_frame(text) == Frame(Opcode.TEXT, text).serialize(mask=False)
 
 
 def test_a_server_of_another_kind_offers_nothing() -> None:
-    assert straight_of({"type": "websocket"}) is None
-    assert straight_of({"type": "websocket", "extensions": {"websocket.http.response": {}}}) is None
+    assert direct_write_of({"type": "websocket"}) is None
+    assert direct_write_of({"type": "websocket", "extensions": {"websocket.http.response": {}}}) is None
 
 
 class Reader:
     """One who notes all that it is given, straight or in turn."""
 
-    def __init__(self, watchers: Watchers) -> None:
+    def __init__(self, subscribers: Subscribers) -> None:
         self.takes = True
         self.straight: list[bytes] = []
-        self.all: list[bytes | Missed] = []
-        self.watcher: Watcher = watchers.join((), self.take)
+        self.all: list[bytes | MissedTicks] = []
+        self.watcher: Subscriber = subscribers.subscribe((), self.take)
 
     def take(self, text: bytes) -> bool:
         if self.takes:
@@ -52,54 +53,54 @@ class Reader:
             heard = await self.watcher.next()
             if isinstance(heard, list):
                 self.all += [notice.data for notice in heard]
-            elif isinstance(heard, Missed):
+            elif isinstance(heard, MissedTicks):
                 self.all.append(heard)
             else:
                 return
 
 
-def publish(watchers: Watchers, *ticks: int) -> list[bytes]:
+def publish(subscribers: Subscribers, *ticks: int) -> list[bytes]:
     told = [b"%d" % tick for tick in ticks]
     for tick, text in zip(ticks, told, strict=True):
-        watchers.publish(tick, lambda text=text: text)
+        subscribers.publish(tick, lambda text=text: text)
     return told
 
 
 async def test_only_who_waits_is_written_to_and_nothing_is_overtaken() -> None:
-    watchers = Watchers()
-    reader = Reader(watchers)
-    first = publish(watchers, 1, 2)  # it has not begun to wait yet
+    subscribers = Subscribers()
+    reader = Reader(subscribers)
+    first = publish(subscribers, 1, 2)  # it has not begun to wait yet
     reading = asyncio.create_task(reader.read())
     await asyncio.sleep(0)
     assert reader.straight == []
     assert reader.all == first
-    second = publish(watchers, 3, 4)
+    second = publish(subscribers, 3, 4)
     assert reader.straight == second
     reader.takes = False
-    third = publish(watchers, 5)
+    third = publish(subscribers, 5)
     reader.takes = True
-    third += publish(watchers, 6)  # the one before has not been passed on yet
+    third += publish(subscribers, 6)  # the one before has not been passed on yet
     assert reader.straight == second
     await asyncio.sleep(0)
     await asyncio.sleep(0)
-    fourth = publish(watchers, 7)
+    fourth = publish(subscribers, 7)
     assert reader.straight == second + fourth
     assert reader.all == first + second + third + fourth
-    watchers.end()
+    subscribers.close()
     await asyncio.wait_for(reading, 60)
 
 
 async def test_who_refuses_all_is_told_what_it_missed() -> None:
-    watchers = Watchers()
-    reader = Reader(watchers)
+    subscribers = Subscribers()
+    reader = Reader(subscribers)
     reader.takes = False
     reading = asyncio.create_task(reader.read())
     await asyncio.sleep(0)
-    publish(watchers, *range(1, SLOT_MESSAGES + 2))
+    publish(subscribers, *range(1, QUEUE_SIZE + 2))
     await asyncio.sleep(0)
     await asyncio.sleep(0)
-    assert reader.all == [Missed(1, SLOT_MESSAGES + 1)]
-    watchers.end()
+    assert reader.all == [MissedTicks(1, QUEUE_SIZE + 1)]
+    subscribers.close()
     await asyncio.wait_for(reading, 60)
 
 
@@ -114,16 +115,16 @@ async def test_a_real_socket_is_written_to_straight_and_in_order() -> None:
         session = await app.state.context.manager.get(path.rpartition("/")[2])
         async with connect(f"{service.ws}{path}/stream", compression=None) as stream:
             hello = json.loads(await stream.recv())
-            (watcher,) = session.watchers._watchers
+            (subscriber,) = session.subscribers._subscribers
             straight: list[int] = []
-            offered = watcher._straight
+            offered = subscriber._straight
 
             def noting(text: bytes) -> bool:
                 taken: bool = offered(text)
                 straight.append(json.loads(text)["tick"])
                 return taken
 
-            watcher._straight = noting
+            subscriber._straight = noting
             heard = [hello]
             for _ in range(5):
                 clock.tick()
@@ -149,21 +150,21 @@ class Written:
 
 
 async def test_nothing_is_written_to_who_is_full_or_going() -> None:
-    protocol = StraightProtocol.__new__(StraightProtocol)
+    protocol = DirectWriteProtocol.__new__(DirectWriteProtocol)
     transport = Written()
     protocol.transport = transport  # type: ignore[assignment]
     protocol.conn = ServerProtocol()
     protocol.writable = asyncio.Event()
     protocol.writable.set()
-    assert not protocol._straight(b"not accepted yet")
+    assert not protocol._write_directly(b"not accepted yet")
     protocol.conn.state = State.OPEN
-    assert protocol._straight(b"now")
+    assert protocol._write_directly(b"now")
     protocol.pause_writing()
-    assert not protocol._straight(b"full")
+    assert not protocol._write_directly(b"full")
     protocol.resume_writing()
     transport.closing = True
-    assert not protocol._straight(b"lost")
+    assert not protocol._write_directly(b"lost")
     transport.closing = False
     protocol.conn.send_close(1012)
-    assert not protocol._straight(b"closing")
-    assert transport.frames == [framed(b"now")]
+    assert not protocol._write_directly(b"closing")
+    assert transport.frames == [encode_frame(b"now")]

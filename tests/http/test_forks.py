@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from service import actions as contract
-from service.http.routes.links import MOST_CARRIED, Named, opened
+from service.http.routes.links import MOST_CARRIED, Named, open_link
 from service.problems import DoesNotFit, Invalid, NotAvailable, NotSaved
 from service.sessions.persistence.replay import replay
 from service.store import EntryRecord, MemoryStore, StoreError
@@ -46,7 +46,7 @@ def test_a_fork_is_its_parent_up_to_the_tick(
             again = await other.get(session.id)
             assert (again.run, again.sequence) == (session.run, session.sequence)
             assert again.timeline.entries == session.timeline.entries
-            assert again.history.done == session.history.done
+            assert again.undo_stack.done == session.undo_stack.done
 
     asyncio.run(fork())
 
@@ -77,7 +77,7 @@ async def test_a_fork_that_cannot_be_changed_so_is_not_made() -> None:
         await service.manager.fork(parent, 2, bad)
     with pytest.raises(Invalid, match=r"^at_tick: has not come yet: it is tick 3\.$"):
         await service.manager.fork(parent, 4)
-    assert (service.manager.live, len(await service.store.newest(10))) == (1, 1)
+    assert (service.manager.live_count, len(await service.store.newest(10))) == (1, 1)
 
 
 async def test_a_question_to_a_fork_is_no_change_of_it() -> None:
@@ -109,7 +109,7 @@ async def test_a_fork_that_is_not_stored_is_not_made() -> None:
     store.full = True
     with pytest.raises(NotSaved):
         await service.manager.fork(parent, None)
-    assert service.manager.live == 1
+    assert service.manager.live_count == 1
 
 
 async def test_a_fork_plays_as_its_parent_does() -> None:
@@ -117,7 +117,7 @@ async def test_a_fork_plays_as_its_parent_does() -> None:
     parent = await service.session()
     await do(parent, {"do": "set", "parameter": "playback_speed", "value": 4})
     child = await service.manager.fork(parent, None)
-    assert (child.paused, child.pace) == (False, 4)
+    assert (child.paused, child.playback_speed) == (False, 4)
     assert not (await service.manager.fork(parent, None, paused=False)).paused
     assert (await service.manager.fork(parent, None, contract.load([{"do": "pause"}]))).paused
     await do(parent, {"do": "pause"})
@@ -145,12 +145,12 @@ async def test_a_fork_over_http(service: Http) -> None:
 def test_a_link_opens_to_the_same_digest(
     said: list[tuple[int, list[dict[str, object]]]], share: float
 ) -> None:
-    from service.http.routes.links import _carried
+    from service.http.routes.links import _carry
 
     async def way() -> None:
         _, session = await talked(said)
         tick = round(session.timeline.tick * share)
-        found = opened(_carried(session.timeline, tick), 1_000_000)
+        found = open_link(_carry(session.timeline, tick), 1_000_000)
         assert not isinstance(found, Named)
         assert (found.tick, found.digest) == (tick, session.timeline.at(tick).world.digest())
         entries = [
@@ -236,4 +236,4 @@ def test_a_link_that_unpacks_to_too_much_is_not_unpacked() -> None:
     deflate = zlib.compressobj(9, zlib.DEFLATED, -15)
     bomb = deflate.compress(b" " * 2_000_000) + deflate.flush()
     with pytest.raises(Invalid, match="more than is read here"):
-        opened("#/r/" + urlsafe_b64encode(bomb).decode(), 100_000)
+        open_link("#/r/" + urlsafe_b64encode(bomb).decode(), 100_000)

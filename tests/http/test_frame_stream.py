@@ -93,7 +93,7 @@ async def test_as_fast_as_possible_there_is_no_gliding(session: Session) -> None
     reel, slot = Reel(session, ROAD, CapacityLimiter(1)), Slot(30)
     reel._slots.add(slot)
     await reel.look(1.0)
-    session.pace = "max"
+    session.playback_speed = "max"
     session.tick()
     await reel.look(1.1)
     assert session.timeline.tick > 1
@@ -204,7 +204,7 @@ async def test_closing_ends_the_pictures() -> None:
         await heard(socket)
         await socket.close()
         async with asyncio.timeout(60):
-            while session.watchers or context.reels:  # noqa: ASYNC110 -- nobody tells of it
+            while session.subscribers or context.reels:  # noqa: ASYNC110 -- nobody tells of it
                 await asyncio.sleep(0)
 
 

@@ -16,7 +16,7 @@ import httpx
 import pytest
 
 from service.app import create_app
-from service.http.middleware.header_limits import MOST_BYTES
+from service.http.protocol import MAX_HEADER_BYTES
 from service.settings import Settings
 from service.store import MemoryStore
 from tests.support.fakes import FewSentences, HandClock
@@ -150,9 +150,9 @@ RAW: dict[str, tuple[bytes, int]] = {
     "a header on two lines": (GET + b"X-Request-ID: a\r\n b\r\n\r\n", 400),
     "two hosts": (GET + b"Host: evil.example\r\n\r\n", 400),
     "no host": (b"GET /api/v1/sessions HTTP/1.1\r\n\r\n", 400),
-    "a long header": (GET + b"X: " + b"a" * MOST_BYTES + b"\r\n\r\n", 431),
+    "a long header": (GET + b"X: " + b"a" * MAX_HEADER_BYTES + b"\r\n\r\n", 431),
     "many headers": (GET + b"X-Header: 1\r\n" * 8_000 + b"\r\n", 431),
-    "a long address": (b"GET /" + b"a" * MOST_BYTES + b" HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n", 431),
+    "a long address": (b"GET /" + b"a" * MAX_HEADER_BYTES + b" HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n", 431),
 }
 """What only bytes on a line can try, and the status it gets."""
 

@@ -12,9 +12,9 @@ import httpx
 import pytest
 
 from service.app import create_app
-from service.http.conditional.idempotency import KEPT_S, Answers
+from service.http.conditional.answers import KEPT_S, KeptAnswers
 from service.settings import Settings
-from service.store import EntryRecord, KeptAnswer, MemoryStore, PhraseRecord, SqlStore, Store, StoreError
+from service.store import EntryRecord, MemoryStore, PhraseRecord, SqlStore, Store, StoredResponse, StoreError
 from tests.support.fakes import FewSentences, HandClock
 from tests.support.service import Service
 from tests.support.service_process import ServiceProcess
@@ -109,7 +109,9 @@ async def test_whoever_sends_it_while_it_is_under_way_waits(settings: Settings) 
     held, begun = asyncio.Event(), asyncio.Event()
 
     class Slow(MemoryStore):
-        async def append(self, session_id: str, entry: EntryRecord, answer: KeptAnswer | None = None) -> None:
+        async def append(
+            self, session_id: str, entry: EntryRecord, answer: StoredResponse | None = None
+        ) -> None:
             begun.set()
             await held.wait()
             await super().append(session_id, entry, answer)
@@ -144,15 +146,17 @@ async def test_an_answer_is_stored_with_its_change_or_not_at_all(kind: str, tmp_
     ):
         path = (await client.post("/api/v1/sessions", json={"paused": True})).headers["location"]
         identity = path.rsplit("/", 1)[1]
-        answer = KeptAnswer(key="one", request="r", at=5, status=200, headers={"etag": '"1"'}, body=b"\x00")
+        answer = StoredResponse(
+            key="one", request="r", at=5, status=200, headers={"etag": '"1"'}, body=b"\x00"
+        )
         entry = EntryRecord(sequence=1, tick=0, text=None, actions=[])
         await store.append(identity, entry, answer)
-        assert await store.kept("one") == answer
+        assert await store.get_response("one") == answer
         with pytest.raises(StoreError):
             await store.append(identity, EntryRecord(sequence=2, tick=0, text=None, actions=[]), answer)
         assert [each.sequence for each in await store.entries(identity)] == [1]
         with pytest.raises(StoreError):
-            await store.keep(answer)
+            await store.save_response(answer)
 
 
 def test_after_a_kill_the_answer_is_still_there(tmp_path: Path) -> None:
@@ -193,12 +197,12 @@ class Clocks:
         self.wall += seconds
         self.steady += seconds
 
-    def answers(self, store: MemoryStore) -> Answers:
-        return Answers(store, lambda: self.wall, lambda: self.steady)
+    def answers(self, store: MemoryStore) -> KeptAnswers:
+        return KeptAnswers(store, lambda: self.wall, lambda: self.steady)
 
 
-def answer(key: str, at: int) -> KeptAnswer:
-    return KeptAnswer(key=key, request="r", at=at, status=200, headers={}, body=b"")
+def answer(key: str, at: int) -> StoredResponse:
+    return StoredResponse(key=key, request="r", at=at, status=200, headers={}, body=b"")
 
 
 async def test_an_answer_is_forgotten_after_a_day() -> None:
@@ -240,13 +244,13 @@ async def test_the_file_moves_its_answers_in_time_together(tmp_path: Path) -> No
     store = SqlStore(f"sqlite:///{tmp_path}/keys.db")
     await store.open()
     for key, at in (("a", 100), ("b", 400)):
-        await store.keep(answer(key, at))
-    await store.date_answers(10_400)
-    await store.forget_answers(10_200)
-    kept = await store.kept("b")
+        await store.save_response(answer(key, at))
+    await store.shift_responses(10_400)
+    await store.delete_responses(10_200)
+    kept = await store.get_response("b")
     assert kept is not None
     assert kept.at == 10_400
-    assert await store.kept("a") is None
+    assert await store.get_response("a") is None
     await store.close()
 
 
@@ -254,31 +258,31 @@ async def test_the_file_moves_its_answers_in_time_together(tmp_path: Path) -> No
 async def test_a_phrase_and_its_answer_are_kept_together_or_not_at_all(kind: str, tmp_path: Path) -> None:
     store: Store = MemoryStore() if kind == "memory" else SqlStore(f"sqlite:///{tmp_path}/roads.db")
     await store.open()
-    answer = KeptAnswer(key="one", request="r", at=1, status=200, headers={}, body=b"{}")
+    answer = StoredResponse(key="one", request="r", at=1, status=200, headers={}, body=b"{}")
     phrase = PhraseRecord(owner="o", language="en", key="x", phrase="x", meaning=[{"do": "pause"}])
-    await store.teach(phrase, answer)
-    assert await store.kept("one") == answer
+    await store.save_phrase(phrase, answer)
+    assert await store.get_response("one") == answer
     with pytest.raises(StoreError):
-        await store.forget("o", "en", "x", answer)
+        await store.delete_phrase("o", "en", "x", answer)
     assert await store.phrases("o") == [phrase], "not forgotten where its answer cannot be kept"
     with pytest.raises(StoreError):
-        await store.teach(replace(phrase, key="y", phrase="y"), answer)
+        await store.save_phrase(replace(phrase, key="y", phrase="y"), answer)
     assert await store.phrases("o") == [phrase]
-    assert await store.forget("o", "en", "x", replace(answer, key="two"))
-    assert (await store.phrases("o"), (await store.kept("two")) is None) == ([], False)
+    assert await store.delete_phrase("o", "en", "x", replace(answer, key="two"))
+    assert (await store.phrases("o"), (await store.get_response("two")) is None) == ([], False)
     await store.close()
 
 
 async def test_a_phrase_is_taught_with_its_answer_in_one_go(service: Service) -> None:
     """And not where it was asked for in a session that has gone on meanwhile."""
-    kept: list[KeptAnswer | None] = []
-    teach = service.store.teach
+    kept: list[StoredResponse | None] = []
+    teach = service.store.save_phrase
 
-    async def noted(record: PhraseRecord, answer: KeptAnswer | None = None) -> None:
+    async def noted(record: PhraseRecord, answer: StoredResponse | None = None) -> None:
         kept.append(answer)
         await teach(record, answer)
 
-    service.store.teach = noted  # type: ignore[method-assign]
+    service.store.save_phrase = noted  # type: ignore[method-assign]
     path = await service.session(paused=True)
     stale = {"If-Match": '"7"'}
     refused = await service.client.post(f"{path}/actions", json=TAUGHT, headers=keyed() | stale)

@@ -17,7 +17,7 @@ import pytest
 import websockets.asyncio.client as sockets
 
 from service.app import create_app
-from service.http.middleware.header_limits import StrictHead
+from service.http.protocol.header_limits import StrictHttpProtocol
 from service.settings import Settings
 from service.store import MemoryStore
 from tests.support.fakes import FewSentences, HandClock
@@ -229,13 +229,15 @@ async def test_a_body_in_other_letters_is_refused(at: At, kind: str, status: int
         assert answer.json()["detail"] == f"Send the body in UTF-8, not in {kind.partition('=')[2]}."
 
 
-def held(at: At) -> list[StrictHead]:
+def held(at: At) -> list[StrictHttpProtocol]:
     """The lines on which the rest of a request is waited for, until a time."""
-    lines = [each for each in at.service.server.server_state.connections if isinstance(each, StrictHead)]
-    return [each for each in lines if each._deadline is not None]
+    lines = [
+        each for each in at.service.server.server_state.connections if isinstance(each, StrictHttpProtocol)
+    ]
+    return [each for each in lines if each._timer is not None]
 
 
-async def begun(at: At, *, in_request: bool) -> StrictHead:
+async def begun(at: At, *, in_request: bool) -> StrictHttpProtocol:
     """The line on which something is waited for, once the service has seen it."""
     while True:
         for line in held(at):
@@ -257,7 +259,7 @@ async def begun(at: At, *, in_request: bool) -> StrictHead:
 async def test_nobody_holds_a_line_with_a_part_of_a_request(at: At, part: bytes, told: int) -> None:
     answer = asyncio.create_task(sent(at, part))
     line = await begun(at, in_request=told != 0)
-    line._over()
+    line._on_timeout()
     status, headers, body = await answer
     assert status == told
     if told:
@@ -276,8 +278,8 @@ async def test_a_byte_now_and_then_gains_no_time(at: At) -> None:
         writer.write(part)
         await writer.drain()
         line = await begun(at, in_request=True)
-        assert line._deadline is not None
-        ends.add(line._deadline.when())
+        assert line._timer is not None
+        ends.add(line._timer.when())
     writer.close()
     assert len(ends) == 1
 

@@ -17,7 +17,7 @@ from bench.asking import Line, request
 from bench.rubbish import garbage, message, poured
 from bench.sockets import opened
 from service.app import create_app
-from service.sessions.subscribers import SLOT_MESSAGES, Missed, Notice, Watchers
+from service.sessions.subscribers import QUEUE_SIZE, MissedTicks, StreamMessage, Subscribers
 from service.settings import Settings
 from service.store import MemoryStore
 from tests.support.fakes import FewSentences, HandClock
@@ -116,17 +116,17 @@ async def test_sessions_beyond_the_limit_are_refused_and_the_others_go_on(
 
 
 async def test_those_who_never_read_hold_little_and_hold_up_nobody() -> None:
-    watchers = Watchers()
-    silent, reader = [watchers.join() for _ in range(50)], watchers.join()
-    heard: list[Notice] = []
+    subscribers = Subscribers()
+    silent, reader = [subscribers.subscribe() for _ in range(50)], subscribers.subscribe()
+    heard: list[StreamMessage] = []
     for tick in range(2_000):
-        watchers.publish(tick, lambda tick=tick: b'{"type":"tick","tick":%d}' % tick)  # type: ignore[misc]
+        subscribers.publish(tick, lambda tick=tick: b'{"type":"tick","tick":%d}' % tick)  # type: ignore[misc]
         told = await reader.next()
         assert isinstance(told, list)
         heard += told
     assert [notice.tick for notice in heard] == list(range(2_000))
-    assert [await watcher.next() for watcher in silent] == [Missed(0, 1_999)] * 50
-    for tick in range(SLOT_MESSAGES):
-        watchers.publish(tick, lambda: b'{"type":"tick"}')
-    for watcher in silent:
-        assert len(await watcher.next()) == SLOT_MESSAGES  # type: ignore[arg-type]
+    assert [await subscriber.next() for subscriber in silent] == [MissedTicks(0, 1_999)] * 50
+    for tick in range(QUEUE_SIZE):
+        subscribers.publish(tick, lambda: b'{"type":"tick"}')
+    for subscriber in silent:
+        assert len(await subscriber.next()) == QUEUE_SIZE  # type: ignore[arg-type]

@@ -14,7 +14,7 @@ import pytest
 from websockets.asyncio.client import connect
 
 from service.app import create_app
-from service.sessions.subscribers import SLOT_MESSAGES, Watchers
+from service.sessions.subscribers import QUEUE_SIZE, Subscribers
 from service.settings import Settings
 from service.store import MemoryStore
 from tests.support.fakes import FewSentences, HandClock
@@ -77,7 +77,7 @@ class Live:
     async def watched(self, count: int) -> None:
         """Waits until so many watch."""
         async with asyncio.timeout(60):
-            while self.app.state.context.manager.watchers != count:  # noqa: ASYNC110 -- nothing tells of it
+            while self.app.state.context.manager.subscriber_count != count:  # noqa: ASYNC110 -- nothing tells of it
                 await asyncio.sleep(0)
 
 
@@ -150,22 +150,22 @@ async def test_what_was_missed_too_long_ago_begins_anew(live: Live) -> None:
     async with live.read() as reader:
         seen = await reader.next()
     await live.watched(0)
-    live.clock.tick(SLOT_MESSAGES + 1)
+    live.clock.tick(QUEUE_SIZE + 1)
     async with live.read(headers={"Last-Event-ID": str(seen.id)}) as reader:
         first = await reader.next()
-    assert (first.name, first.data["state"]["tick"]) == ("hello", SLOT_MESSAGES + 1)
+    assert (first.name, first.data["state"]["tick"]) == ("hello", QUEUE_SIZE + 1)
 
 
 async def test_a_slow_reader_is_told_what_it_missed(live: Live) -> None:
     async with live.read() as reader:
         await reader.next()
-        live.clock.tick(SLOT_MESSAGES + 5)
+        live.clock.tick(QUEUE_SIZE + 5)
         state = await reader.next()
-        assert (state.name, state.data["missed"]) == ("state", [1, SLOT_MESSAGES + 5])
-        assert state.data["state"]["tick"] == SLOT_MESSAGES + 5
+        assert (state.name, state.data["missed"]) == ("state", [1, QUEUE_SIZE + 5])
+        assert state.data["state"]["tick"] == QUEUE_SIZE + 5
         live.clock.tick()
         after = await reader.next()
-        assert (after.name, after.data["tick"]) == ("tick", SLOT_MESSAGES + 6)
+        assert (after.name, after.data["tick"]) == ("tick", QUEUE_SIZE + 6)
     async with live.read(headers={"Last-Event-ID": str(state.id)}) as reader:
         assert (await reader.next()).id == after.id
 
@@ -194,11 +194,11 @@ async def test_refusals_are_problems(live: Live) -> None:
     assert (unknown.status_code, unknown.headers["content-type"]) == (404, "application/problem+json")
     long = await live.client.get(f"{live.path}/events/stream", headers={"Last-Event-ID": "x" * 101})
     assert (long.status_code, long.json()["type"]) == (422, "/problems/invalid")
-    assert live.app.state.context.manager.watchers == 0
+    assert live.app.state.context.manager.subscriber_count == 0
 
 
 def test_nothing_is_kept_where_nobody_watches() -> None:
-    watchers, made = Watchers(), 0
+    subscribers, made = Subscribers(), 0
 
     def message() -> bytes:
         nonlocal made
@@ -206,14 +206,14 @@ def test_nothing_is_kept_where_nobody_watches() -> None:
         return b"{}"
 
     for tick in range(50):
-        watchers.publish(tick, message)
+        subscribers.publish(tick, message)
     assert made == 0
-    watchers.leave(watchers.join())
-    event = watchers.event
+    subscribers.unsubscribe(subscribers.subscribe())
+    event = subscribers.last_event_id
     for tick in range(50):
-        watchers.publish(tick, message)
-        missed = watchers.missed(event)
-        assert (missed is None) == (tick >= SLOT_MESSAGES)
+        subscribers.publish(tick, message)
+        missed = subscribers.messages_since(event)
+        assert (missed is None) == (tick >= QUEUE_SIZE)
         assert missed is None or [notice.tick for notice in missed] == list(range(tick + 1))
-    assert made == SLOT_MESSAGES
-    assert watchers.missed(watchers.event) == []
+    assert made == QUEUE_SIZE
+    assert subscribers.messages_since(subscribers.last_event_id) == []

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from starlette.datastructures import Headers
 
-from service.http.static import ServedFile, ServedPage, modules_of, without_notes
+from service.http.static import StaticFile, StaticPage, modules_of, without_comments
 from service.resources import web_folder
 from tests.support.service import Service
 
@@ -82,7 +82,7 @@ def test_notes_are_left_out_and_nothing_else_is() -> None:
     """Every line that is sent stands where it stands in the file; what is left out is all of it notes."""
     for path in sorted((web_folder() / "src").rglob("*.js")):
         source = path.read_text(encoding="utf-8").splitlines()
-        sent = without_notes(path.read_text(encoding="utf-8")).split("\n")
+        sent = without_comments(path.read_text(encoding="utf-8")).split("\n")
         assert len(sent) in (len(source), len(source) + 1), path
         noted = False
         for number, (line, got) in enumerate(zip(source, sent, strict=False), 1):
@@ -100,10 +100,10 @@ def test_notes_are_left_out_and_nothing_else_is() -> None:
 def test_an_edit_shows_at_once(tmp_path: Path) -> None:
     file = tmp_path / "one.js"
     file.write_text("first();" * 40, encoding="utf-8")
-    served = ServedFile(file)
-    before = served.answer(Headers({"accept-encoding": "gzip"}))
+    served = StaticFile(file)
+    before = served.respond(Headers({"accept-encoding": "gzip"}))
     file.write_text("second();" * 50, encoding="utf-8")
-    after = served.answer(Headers({"accept-encoding": "gzip", "if-none-match": before.headers["etag"]}))
+    after = served.respond(Headers({"accept-encoding": "gzip", "if-none-match": before.headers["etag"]}))
     assert after.status_code == 200
     assert gzip.decompress(bytes(after.body)) == b"second();" * 50
     assert after.headers["etag"] != before.headers["etag"]
@@ -115,10 +115,10 @@ def test_a_page_follows_what_its_modules_come_to_import(tmp_path: Path) -> None:
     (tmp_path / "c.js").write_text('import "./a.js"; // a circle\n', encoding="utf-8")
     page = tmp_path / "index.html"
     page.write_text('<script type="module" src="a.js"></script>', encoding="utf-8")
-    served = ServedPage(page)
+    served = StaticPage(page)
 
     def told() -> list[str]:
-        return re.findall(r'href="([^"]+)"', bytes(served.answer(Headers({})).body).decode())
+        return re.findall(r'href="([^"]+)"', bytes(served.respond(Headers({})).body).decode())
 
     assert told() == ["a.js", "b.js"]
     (tmp_path / "b.js").write_text(

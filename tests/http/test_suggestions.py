@@ -8,8 +8,8 @@ import pytest
 from pydantic import Discriminator, TypeAdapter, ValidationError
 
 from service.contract import requests as bodies
-from service.http.errors import field_problems
 from service.http.realtime.websocket import Message
+from service.http.validation import field_problems
 from tests.support.service import Service
 
 UNKNOWN = "is not a known key"

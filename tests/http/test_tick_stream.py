@@ -6,7 +6,7 @@ from hashlib import blake2b
 
 import pytest
 
-from service.contract.encode.state import Standing
+from service.contract.encode.state import SessionStatus
 from service.sessions.messages import tick_message
 from sim.config import Config
 from sim.state import SimState
@@ -16,7 +16,7 @@ from tests.support.tick_roads import TICKS, roads
 SENT = {1: "45287be357b9314cdd82bdff1d2bebf9", 2: "c93cb4d0551258ed8c4e9ddb214ee01c"}
 """By version of the rules."""
 FIRST = {"attentive": 0.0, "collision": "cell", "repetition": False, "rules": 1}
-NOWHERE = Standing("s", paused=False, sequence=0)
+NOWHERE = SessionStatus("s", paused=False, sequence=0)
 
 
 def sent(config: Config) -> list[bytes]:

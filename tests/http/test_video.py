@@ -11,7 +11,7 @@ import pytest
 from PIL import Image, ImageSequence
 
 from service.app import create_app
-from service.http.middleware.request_timeout import PatientProtocol
+from service.http.protocol.request_timeout import TimeoutProtocol
 from service.http.routes import video as route
 from service.settings import Settings
 from service.store import MemoryStore
@@ -185,7 +185,7 @@ async def test_a_film_ends_when_whoever_asked_has_gone(monkeypatch: pytest.Monke
             loop.call_soon_threadsafe(ended.set)
 
     monkeypatch.setattr(route, "render_video", watched)
-    monkeypatch.setattr(PatientProtocol, "half_shut_s", 0.0)
+    monkeypatch.setattr(TimeoutProtocol, "half_closed_s", 0.0)
     settings = Settings(database="memory:")
     app = create_app(settings, store=MemoryStore(), language=FewSentences(), clock=HandClock())
     async with running(app, settings) as live:

@@ -15,7 +15,7 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from service.app import create_app
-from service.sessions.subscribers import SLOT_MESSAGES
+from service.sessions.subscribers import QUEUE_SIZE
 from service.settings import Settings
 from service.store import MemoryStore
 from tests.support.fakes import FewSentences, HandClock
@@ -285,7 +285,7 @@ async def test_a_slow_reader_costs_nobody_and_is_told(live: Live) -> None:
             live.clock.tick()
             assert (await next_tick(quick))["tick"] == tick
         session = await live.app.state.context.manager.get(live.path.rsplit("/", 1)[1])
-        assert len(session.watchers) == 2
+        assert len(session.subscribers) == 2
         heard, state = 0, None
         assert (await receive(slow))["type"] == "hello"
         while state is None:
@@ -297,7 +297,7 @@ async def test_a_slow_reader_costs_nobody_and_is_told(live: Live) -> None:
         first, last = state["missed"]
         assert first == heard + 1
         assert last == state["state"]["tick"] <= ticks
-        assert last - first > SLOT_MESSAGES
+        assert last - first > QUEUE_SIZE
 
 
 async def test_a_closed_reader_is_forgotten(live: Live) -> None:
@@ -305,9 +305,9 @@ async def test_a_closed_reader_is_forgotten(live: Live) -> None:
     for _ in range(3):
         async with live.open() as stream:
             await receive(stream)
-            assert len(session.watchers) == 1
+            assert len(session.subscribers) == 1
         async with asyncio.timeout(60):
-            while len(session.watchers):  # noqa: ASYNC110 - the server hears of the close in its own time
+            while len(session.subscribers):  # noqa: ASYNC110 - the server hears of the close in its own time
                 await asyncio.sleep(0)
 
 

@@ -13,7 +13,7 @@ from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from service.app import create_app
-from service.http.realtime import websocket_server as sockets
+from service.http.protocol import websocket as sockets
 from service.settings import Settings
 from service.store import MemoryStore
 from tests.support.fakes import FewSentences, HandClock
@@ -160,7 +160,7 @@ async def test_letters_that_are_none_are_no_failure(
 async def test_a_message_of_endless_parts_is_ended(
     live: Running, path: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(sockets, "MOST_FRAGMENTS", 10)
+    monkeypatch.setattr(sockets, "MAX_FRAGMENTS", 10)
     reader, writer = await opened(live, path)
     writer.write(b"\x01\x80" + bytes(4) + (b"\x00\x80" + bytes(4)) * 20)
     rest = await asyncio.wait_for(reader.read(), 60)

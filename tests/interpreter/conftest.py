@@ -14,7 +14,7 @@ from service.app import create_app
 from service.grammar import Language
 from service.grammar.topic import Topic
 from service.llm import LanguageModel
-from service.sessions.availability import refusal
+from service.sessions.availability import refusal_of
 from service.settings import Settings
 from service.store import MemoryStore, Store
 from tests.support.fakes import HandClock
@@ -25,7 +25,7 @@ Json = dict[str, Any]
 @cache
 def english() -> Language:
     """The language, read once: it is immutable."""
-    return Language.load("en", offered=lambda action: refusal(action) is None)
+    return Language.load("en", offered=lambda action: refusal_of(action) is None)
 
 
 class Talk:
@@ -93,7 +93,7 @@ class Talk:
     def topic(self) -> Topic:
         """What a sentence said now may refer to."""
         context = self.app.state.context
-        return context.listener.topic(context.manager._live[self.id])  # type: ignore[no-any-return]
+        return context.interpreter.topic(context.manager._live[self.id])  # type: ignore[no-any-return]
 
 
 Opening = Callable[..., Awaitable[Talk]]

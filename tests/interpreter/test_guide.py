@@ -13,7 +13,7 @@ from service.grammar.completion import GAPS, MOST, TRIED
 from service.grammar.topic import ALONE, Topic
 from service.grammar.work_budget import Work
 from service.interpreter.guide import EXAMPLES, Guide
-from service.sessions.availability import refusal
+from service.sessions.availability import refusal_of
 from tests.interpreter.conftest import Json, Talk, english
 
 SCHEMA = contract.ACTIONS.json_schema()["$defs"]
@@ -49,7 +49,7 @@ async def test_available_is_what_the_gate_lets_through(talk: Talk) -> None:
     told = await intents(talk)
     for intent in told:
         refusals = [
-            [refusal(action) for action in contract.load(example["actions"])]
+            [refusal_of(action) for action in contract.load(example["actions"])]
             for example in intent["examples"]
         ]
         if intent["available"]:
@@ -173,7 +173,7 @@ WORDS = sorted({word for sentence in GUIDE._sayings for word in sentence.split()
     | st.lists(st.sampled_from([*WORDS, ",", "and", "then", "'", "½", "3"])).map(" ".join)
 )
 def test_any_text_can_be_a_prefix(text: str) -> None:
-    completions = GUIDE.completions(text, None, ALONE, [])
+    completions = GUIDE.completions_here(text, None, ALONE, [])
     assert len(completions) == len(set(completions)) <= MOST
     assert all(each.startswith(text.lstrip()) for each in completions)
 

@@ -45,7 +45,7 @@ async def standing(talk: Talk) -> tuple[object, ...]:
     """All that nothing refused may change."""
     state = await talk.state()
     session = (await talk.client.get(talk.path)).json()
-    taught = talk.app.state.context.listener.phrasebook.listed()
+    taught = talk.app.state.context.interpreter.aliases.list()
     return state["digest"], state["sequence"], state, session["config"], taught
 
 

@@ -196,12 +196,12 @@ async def test_a_lane_that_is_asked_about_keeps_its_preposition(talk: Talk) -> N
 async def test_what_if_it_were_gone_is_about_it(talk: Talk, question: str) -> None:
     await talk.say("add a pothole 10 m ahead")
     context = talk.app.state.context
-    heard = await context.listener.hear(question, await context.manager.get(talk.id))
+    heard = await context.interpreter.interpret(question, await context.manager.get(talk.id))
     assert contract.dump(heard.actions) == [{"do": "ask", "about": "what_if", "change": remove(P3)}]
     told = (await talk.say(question))["answer"]
     assert told["change"] == remove(P3)
     with pytest.raises(NotUnderstood):
-        await context.listener.hear(question)
+        await context.interpreter.interpret(question)
 
 
 async def test_that_pothole_in_a_fresh_session_is_the_nearest(talk: Talk) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from service.interpreter import aliases as phrasebook
+from service.interpreter import aliases as aliases
 from service.store import MemoryStore, SqlStore, Store
 from tests.interpreter.conftest import Json, Opening, Talk
 
@@ -296,7 +296,7 @@ async def test_teaching_is_said_alone(talk: Talk, text: str) -> None:
 
 
 async def test_there_is_a_limit_of_phrases(talk: Talk, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(phrasebook, "MAX_PHRASES", 3)
+    monkeypatch.setattr(aliases, "MAX_PHRASES", 3)
     for name in ("splunge", "splange", "splinge"):
         await talk.act(teach(name, PAUSE))
     answer = await talk.act(teach("splonge", PAUSE))

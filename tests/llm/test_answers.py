@@ -45,7 +45,7 @@ async def test_what_is_no_good_is_told_and_nothing_comes_of_it(
     endpoint: Endpoint, model: OpenAIModel, answer: Reply, told: str, requests: int
 ) -> None:
     endpoint.answers(answer)
-    assert await model.interpret(SAID) == Interpretation(told=told)
+    assert await model.interpret(SAID) == Interpretation(explanation=told)
     assert len(endpoint.bodies) == requests
 
 
@@ -56,12 +56,12 @@ async def test_a_second_try_may_succeed(endpoint: Endpoint, model: OpenAIModel) 
 
 async def test_the_second_failure_is_the_one_that_is_told(endpoint: Endpoint, model: OpenAIModel) -> None:
     endpoint.answers(says("Sure!"), reply("{}", 500))
-    assert (await model.interpret(SAID)).told == "The language model's server failed (500)."
+    assert (await model.interpret(SAID)).explanation == "The language model's server failed (500)."
 
 
 async def test_a_slow_answer_is_not_waited_for(endpoint: Endpoint, making: Making) -> None:
     endpoint.answers(HELD)
-    told = (await making(llm_timeout_s=0.05).interpret(SAID)).told
+    told = (await making(llm_timeout_s=0.05).interpret(SAID)).explanation
     assert told == "The language model did not answer in 0.05 s."
 
 
@@ -84,7 +84,7 @@ async def test_the_time_is_for_both_tries_together(
         await asyncio.sleep(0)
     (both,) = limits
     both.reschedule(asyncio.get_running_loop().time())
-    assert (await asking).told == "The language model did not answer in 120 s."
+    assert (await asking).explanation == "The language model did not answer in 120 s."
 
 
 async def test_whoever_asked_can_give_up(endpoint: Endpoint, model: OpenAIModel) -> None:
@@ -102,7 +102,7 @@ async def test_a_redirect_is_not_followed(endpoint: Endpoint, model: OpenAIModel
     async with serving() as other:
         other.answers(says(GOOD))
         endpoint.answers(reply("", status, extra=f"location: {other.url}/chat/completions\r\n"))
-        told = (await model.interpret(SAID)).told
+        told = (await model.interpret(SAID)).explanation
         assert told == "The language model's server pointed to another address, which is not followed."
         assert (len(endpoint.bodies), len(other.bodies)) == (1, 0)
 
@@ -110,7 +110,7 @@ async def test_a_redirect_is_not_followed(endpoint: Endpoint, model: OpenAIModel
 async def test_no_server(making: Making) -> None:
     async with serving() as gone:
         url = gone.url
-    told = (await making(llm_base_url=url).interpret(SAID)).told
+    told = (await making(llm_base_url=url).interpret(SAID)).explanation
     assert told == "The language model could not be reached."
 
 

@@ -9,10 +9,11 @@ from pathlib import Path
 import pytest
 from pydantic import ValidationError
 
-from service.llm import LanguageModel, configured
+from service.llm import LanguageModel, create_model
+from service.llm.failures import PromptError
 from service.llm.fake import FakeModel
 from service.llm.openai import OpenAIModel
-from service.llm.prompts import PromptError, load_claims, load_prompt
+from service.llm.prompts import load_claims, load_failure_messages, load_prompt
 from service.llm.protocol import Interpretation
 from service.settings import Settings
 from sim.actions import Add
@@ -23,7 +24,7 @@ URL = "http://127.0.0.1:9/v1"
 
 @pytest.mark.parametrize("named", [{}, {"llm_base_url": URL}, {"llm_model": "small"}, {"llm_base_url": ""}])
 def test_without_an_address_and_a_name_there_is_none(named: dict[str, str]) -> None:
-    assert configured(Settings(**named)) is None  # type: ignore[arg-type]
+    assert create_model(Settings(**named)) is None  # type: ignore[arg-type]
 
 
 async def test_the_environment_names_it(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -31,7 +32,7 @@ async def test_the_environment_names_it(monkeypatch: pytest.MonkeyPatch) -> None
     monkeypatch.setenv("ROADTALK_LLM_MODEL", "small")
     monkeypatch.setenv("ROADTALK_LLM_API_KEY", "sk-1")
     settings = Settings()
-    model = configured(settings)
+    model = create_model(settings)
     assert model is not None
     assert model.name == "small (interpret 1, rephrase 1)"
     assert settings.llm_base_url == URL
@@ -70,7 +71,7 @@ def test_the_library_is_not_loaded_before_it_is_needed() -> None:
     program = (
         "import sys, service.llm, service.llm.fake\n"
         "from service.settings import Settings\n"
-        "service.llm.configured(Settings())\n"
+        "service.llm.create_model(Settings())\n"
         "print(sorted({'pydantic_ai', 'openai', 'httpx2', 'opentelemetry'} & set(sys.modules)))"
     )
     assert run(program) == "[]"
@@ -80,9 +81,9 @@ def test_the_library_is_not_loaded_before_it_is_needed() -> None:
 def test_a_missing_extra_is_named(missing: str) -> None:
     program = (
         f"import sys; sys.modules[{missing!r}] = None\n"
-        "from service.llm import MissingExtraError, configured\n"
+        "from service.llm import MissingExtraError, create_model\n"
         "from service.settings import Settings\n"
-        f"try: configured(Settings(llm_base_url={URL!r}, llm_model='small'))\n"
+        f"try: create_model(Settings(llm_base_url={URL!r}, llm_model='small'))\n"
         "except MissingExtraError as error: print(error)"
     )
     assert "Install roadtalk[llm]" in run(program)
@@ -121,10 +122,14 @@ def test_a_broken_prompt_is_named(tmp_path: Path, text: str) -> None:
 def test_missing_files_are_named(tmp_path: Path) -> None:
     for reading in (
         lambda: load_prompt("x", tmp_path),
+        lambda: load_failure_messages(tmp_path),
         lambda: load_claims(tmp_path),
     ):
         with pytest.raises(PromptError, match=str(tmp_path)):
             reading()
+    (tmp_path / "told.yaml").write_text("nothing: Nothing.\nmore: More.\n")
+    with pytest.raises(PromptError, match=r"more, .*timeout"):
+        load_failure_messages(tmp_path)
     (tmp_path / "claims.yaml").write_text("groups: {}\n")
     with pytest.raises(PromptError, match="numbers, groups"):
         load_claims(tmp_path)

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from service.actions import ACTIONS, Action, Ask, dump, load
-from service.llm.answer_parser import MAX_ACTIONS, read
+from service.llm.answer_parser import MAX_ACTIONS, parse_answer
 from service.llm.failures import ModelFailure, Reason
 from service.llm.prompts import load_prompt
 from service.llm.schema import FORBIDDEN, MAY, schema
@@ -55,7 +55,7 @@ def _do(part: dict[str, Any]) -> str | None:
 def test_the_words_of_parameters_are_those_the_simulation_knows() -> None:
     for parameter, value in AS_IT_IS.items():
         said = json.dumps({"actions": [{"do": "set", "parameter": parameter, "value": value}]})
-        assert len(read(said, "")) == 1
+        assert len(parse_answer(said, "")) == 1
 
 
 def test_the_examples_of_the_prompt_are_what_it_asks_for() -> None:
@@ -66,9 +66,9 @@ def test_the_examples_of_the_prompt_are_what_it_asks_for() -> None:
     for said, answer in examples:
         if answer == '{"actions": []}':
             with pytest.raises(ModelFailure, match="nothing"):
-                read(answer, said)
+                parse_answer(answer, said)
         else:
-            assert dump(read(answer, said)) == json.loads(answer)["actions"]
+            assert dump(parse_answer(answer, said)) == json.loads(answer)["actions"]
 
 
 texts = st.sampled_from(
@@ -112,7 +112,7 @@ def inside(actions: tuple[Action, ...]) -> list[Action]:
 def outcome(answer: str, said: str) -> tuple[Action, ...] | Reason:
     """What is read, or why nothing is; anything else that is raised fails the test."""
     try:
-        return read(answer, said)
+        return parse_answer(answer, said)
     except ModelFailure as failure:
         return failure.reason
 
@@ -138,6 +138,6 @@ def test_no_text_at_all_makes_it_raise_anything_else(answer: str) -> None:
 def test_an_ego_that_was_not_said_is_not_believed(action: dict[str, str]) -> None:
     answer = json.dumps({"actions": [{**action, "ego": "av-2"}]})
     with pytest.raises(ModelFailure) as refused:
-        read(answer, "go left")
+        parse_answer(answer, "go left")
     assert refused.value.reason == "not_said"
-    assert dump(read(answer, "av-2, go left"))[0]["ego"] == "av-2"
+    assert dump(parse_answer(answer, "av-2, go left"))[0]["ego"] == "av-2"

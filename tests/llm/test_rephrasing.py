@@ -119,7 +119,7 @@ async def test_the_text_travels_as_data(endpoint: Endpoint, making: Making) -> N
     ],
 )
 def test_what_is_claimed(text: str, claims: list[str]) -> None:
-    assert [claim for _, claim in Claims.load().of(text)] == claims
+    assert [claim for _, claim in Claims.load().claims_in(text)] == claims
 
 
 def test_no_word_makes_two_claims() -> None:
@@ -135,4 +135,4 @@ def test_no_word_makes_two_claims() -> None:
 )
 def test_every_explanation_may_stand_as_it_is(saying: object) -> None:
     text = str(saying)
-    assert Claims.load().faithful(text, text, {})
+    assert Claims.load().is_faithful(text, text, {})

@@ -122,23 +122,23 @@ async def test_so_many_in_a_minute_of_all_kinds_together(endpoint: Endpoint, mak
     await model.interpret("one")
     await model.rephrase("At tick 1 I stayed.", {})
     await model.interpret("three")
-    told = (await model.interpret("four")).told
+    told = (await model.interpret("four")).explanation
     assert told == "The language model is asked as often as it may be; it can be asked again in 20 s."
     assert await model.rephrase("At tick 1 I stayed.", {}) == "At tick 1 I stayed."
     assert len(endpoint.bodies) == 3
     clock.now += 20
-    assert "found nothing" in (await model.interpret("five")).told
-    assert "as often" in (await model.interpret("six")).told
+    assert "found nothing" in (await model.interpret("five")).explanation
+    assert "as often" in (await model.interpret("six")).explanation
     clock.now += 1e6
     for _ in range(3):
         await model.interpret("many")
-    assert "as often" in (await model.interpret("one more")).told
+    assert "as often" in (await model.interpret("one more")).explanation
     assert len(endpoint.bodies) == 7
 
 
 async def test_a_second_try_counts(endpoint: Endpoint, making: Making) -> None:
     endpoint.answers(says("Sure!"))
-    assert "as often" in (await making(llm_per_minute=1).interpret("hm")).told
+    assert "as often" in (await making(llm_per_minute=1).interpret("hm")).explanation
     assert len(endpoint.bodies) == 1
 
 

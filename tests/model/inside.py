@@ -83,8 +83,8 @@ class Inside:
         """Whatever is done beside the loop is done."""
         for session in list(self._manager._live.values()):
             await until(lambda session=session: not session.busy)  # type: ignore[misc]
-            await session.outlooks.settled()
-            session._later.settle()
+            await session.reachability.wait_until_idle()
+            session._narration.finish()
 
     async def tick(self) -> None:
         """One turn of the clock."""
@@ -102,15 +102,15 @@ class Inside:
         await self.let_go(path)
         await self._quiet()
         live = self._live(path)
-        return live is not None and await self._manager._let_go([live], lambda _: True) == 1
+        return live is not None and await self._manager.evict([live], lambda _: True) == 1
 
     async def snapshot(self, path: str) -> None:
         """Keep one now."""
         live = self._live(path)
         if live is not None:
             await self._quiet()
-            self._manager.keeper._take(live)
-            await self._manager.keeper.settled()
+            self._manager.snapshots._take(live)
+            await self._manager.snapshots.flush()
 
     def drop(self) -> None:
         """All snapshots are lost."""
@@ -133,7 +133,7 @@ class Inside:
         else:
             followers = [Follower(Socket(self.app, path)), Follower(Events(self.app, path))]
         self.followers[path] = followers
-        await until(lambda: len(live.watchers) >= 2)
+        await until(lambda: len(live.subscribers) >= 2)
         await self.heard(path)
 
     async def heard(self, path: str) -> list[Follower]:
@@ -143,14 +143,14 @@ class Inside:
         if followers and live is not None:
             await self._quiet()
             for each in followers:
-                await until(lambda each=each: each.read() == live.watchers.event)  # type: ignore[misc]
+                await until(lambda each=each: each.read() == live.subscribers.last_event_id)  # type: ignore[misc]
         return followers
 
     async def settled(self, path: str, _lines: int) -> None:
         """What is found out about its road has been told."""
         live = self._live(path)
         if live is not None:
-            await live.outlooks.settled()
+            await live.reachability.wait_until_idle()
 
     async def let_go(self, path: str) -> None:
         """Nobody follows it any more."""

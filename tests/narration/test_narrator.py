@@ -27,7 +27,7 @@ def answer(timeline: Timeline, **ask: object) -> dict[str, object]:
 def replied(run: SimState, action: WorldAction) -> str:
     timeline = Timeline(run.config)
     timeline.state = run
-    return NARRATOR.done(tuple(timeline.apply(1, [action])))
+    return NARRATOR.reply(tuple(timeline.apply(1, [action])))
 
 
 def test_answers_name_only_what_is_in_their_facts() -> None:
@@ -42,7 +42,7 @@ def test_answers_name_only_what_is_in_their_facts() -> None:
 def test_wishes_of_one_utterance_are_told_once() -> None:
     timeline = Timeline(Config(seed=1, planner="astar"))
     wishes = [Prefer(preference="avoid_potholes"), Prefer(preference="smooth_ride")]
-    told = NARRATOR.done(tuple(timeline.apply(1, wishes)))
+    told = NARRATOR.reply(tuple(timeline.apply(1, wishes)))
     assert told == "From now on I keep away from potholes and drive smoothly."
 
 
@@ -126,4 +126,4 @@ def test_things_taken_away_one_after_another_are_told_at_once() -> None:
     timeline = Timeline(Config(seed=4, barriers=3))
     ids = [name for name in timeline.state.world.hazards.values() if name.startswith("barrier-")]
     removals = [Remove(kind="barrier", count=1, where=Where(id=name)) for name in ids]
-    assert NARRATOR.done(tuple(timeline.apply(1, removals))) == "Removed 3 barriers: barriers 3 → 0."
+    assert NARRATOR.reply(tuple(timeline.apply(1, removals))) == "Removed 3 barriers: barriers 3 → 0."

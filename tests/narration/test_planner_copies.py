@@ -16,7 +16,7 @@ from service.actions import Ask
 from service.narration import Narrator
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
-from service.sessions.outcome import long_to_answer
+from service.sessions.outcome import is_slow_to_answer
 from sim import planner_names
 from sim.actions import Prefer, Set, WorldAction
 from sim.batch import Batch
@@ -176,10 +176,10 @@ def test_every_sentence_is_the_same(name: str, roads: str, narrator: Narrator) -
         asks += [Ask(about="what_if", change=change) for change in changes(name)]
         for ask in asks:
             fact = Asked(ask, timeline)
-            yield long_to_answer(timeline.state.config.planner, (fact,))
+            yield is_slow_to_answer(timeline.state.config.planner, (fact,))
             yield tried(narrator.answer, fact)
         for wish in changes(name)[0]:
-            yield narrator.done(tuple(timeline.copy().apply(9, [wish])))
+            yield narrator.reply(tuple(timeline.copy().apply(9, [wish])))
 
     one, other = both(name, **ROADS[roads])
     assert [named(each) for each in told(other)] == [named(each) for each in told(one)]

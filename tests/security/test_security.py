@@ -15,11 +15,13 @@ from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from service.app import create_app
+from service.problems import QuotaExceeded
 from service.security.api_key import Key
+from service.security.cross_site import same_site
 from service.security.guard import exposed
-from service.security.hosts import Hosts, loopback, same_site
+from service.security.hosts import Hosts, loopback
 from service.security.quotas import Quotas
-from service.security.rate_limit import MOST_CLIENTS, Buckets
+from service.security.rate_limit import MAX_CLIENTS, RateLimiter
 from service.security.ws_tickets import GOOD_FOR_S, MOST, Tickets
 from service.settings import Settings
 from service.store import MemoryStore
@@ -348,15 +350,15 @@ async def test_whom_a_request_is_from_is_told_by_named_proxies_only(proxies: str
 
 def test_each_client_has_a_bucket_and_few_are_remembered() -> None:
     now = [0.0]
-    buckets = Buckets(2, lambda: now[0])
+    buckets = RateLimiter(2, lambda: now[0])
     assert [buckets.take("a") for _ in range(3)] == [0, 0, 30]
     assert buckets.take("b") == 0
     now[0] = 30.0
     assert [buckets.take("a") for _ in range(2)] == [0, 30]
-    for number in range(MOST_CLIENTS):
+    for number in range(MAX_CLIENTS):
         buckets.take(str(number))
     assert buckets.take("a") == 0, "forgotten"
-    assert Buckets(None).take("a") == 0
+    assert RateLimiter(None).take("a") == 0
 
 
 async def test_one_client_has_so_many_sessions_and_so_much_road() -> None:
@@ -374,13 +376,16 @@ async def test_one_client_has_so_many_sessions_and_so_much_road() -> None:
 
 def test_quotas_count_what_is_being_made() -> None:
     quotas = Quotas(1, None)
-    quotas.begin("a")
-    with pytest.raises(Exception, match="sessions"):
-        quotas.begin("a")
-    quotas.begin("b")
-    quotas.end("a", None, 0)
-    quotas.begin("a")
-    quotas.end("a", "x", 5)
-    quotas.gone("nobody's")
-    quotas.gone("x")
-    quotas.begin("a")
+    with quotas.reserve("a"):
+        with pytest.raises(QuotaExceeded, match="sessions"), quotas.reserve("a"):
+            pass
+        with quotas.reserve("b"):
+            pass
+    with quotas.reserve("a") as reservation:
+        reservation.use("x", 5)
+    with pytest.raises(QuotaExceeded), quotas.reserve("a"):
+        pass
+    quotas.release("nobody's")
+    quotas.release("x")
+    with quotas.reserve("a"):
+        pass

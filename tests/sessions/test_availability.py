@@ -10,9 +10,9 @@ from service import actions as contract
 from service.grammar import Language
 from service.grammar.parse_types import Refused, Understood
 from service.problems import NotAvailable
-from service.sessions.availability import refusal
-from service.sessions.transaction import Draft
-from service.sessions.undo_stack import History
+from service.sessions.availability import refusal_of
+from service.sessions.transaction import Transaction
+from service.sessions.undo_stack import UndoStack
 from sim.config import Config
 from sim.session.timeline import Timeline
 
@@ -88,41 +88,41 @@ def test_the_lists_here_hold_every_action_there_is() -> None:
 @pytest.mark.parametrize("action", OFFERED, ids=str)
 def test_what_is_offered_is_done(action: dict[str, Any]) -> None:
     (loaded,) = contract.load([action])
-    assert refusal(loaded) is None
-    draft = Draft(Timeline(Config(seed=2)), False, History())
-    draft.perform(1, contract.load([{"do": "add", "kind": "barrier", "count": 1}]))
+    assert refusal_of(loaded) is None
+    transaction = Transaction(Timeline(Config(seed=2)), False, UndoStack())
+    transaction.perform(1, contract.load([{"do": "add", "kind": "barrier", "count": 1}]))
     if action["do"] == "redo":
-        draft.perform(2, contract.load([{"do": "undo"}]))
+        transaction.perform(2, contract.load([{"do": "undo"}]))
     if action["do"] == "rewind":
-        draft.perform(2, contract.load([{"do": "step", "ticks": 2}]))
+        transaction.perform(2, contract.load([{"do": "step", "ticks": 2}]))
     if action["do"] == "load":
-        draft.perform(2, contract.load([{"do": "save", "name": "monday"}]))
-    (fact,) = draft.perform(3, (loaded,))
+        transaction.perform(2, contract.load([{"do": "save", "name": "monday"}]))
+    (fact,) = transaction.perform(3, (loaded,))
     assert fact is not None
 
 
 def test_units_are_said_as_people_say_them() -> None:
     said = {"do": "set", "parameter": "target_speed_kmh", "value": 50}
-    assert refusal(contract.load([said])[0]) == "Changing the target speed (50 km/h) is not available yet."
+    assert refusal_of(contract.load([said])[0]) == "Changing the target speed (50 km/h) is not available yet."
 
 
 @pytest.mark.parametrize("action", REFUSED, ids=str)
 def test_what_is_not_offered_says_so(action: dict[str, Any]) -> None:
-    draft = Draft(Timeline(Config(seed=2)), False, History())
-    before = draft.timeline.state
+    transaction = Transaction(Timeline(Config(seed=2)), False, UndoStack())
+    before = transaction.timeline.state
     with pytest.raises(NotAvailable, match=r"^[A-Z].* not available yet.*\.$") as raised:
-        draft.perform(1, contract.load([action]))
+        transaction.perform(1, contract.load([action]))
     assert raised.value.errors[0].field.startswith("actions.0")
-    assert draft.timeline.state == before
+    assert transaction.timeline.state == before
 
 
 def test_nothing_is_suggested_that_is_not_offered() -> None:
-    language = Language.load(offered=lambda action: refusal(action) is None)
+    language = Language.load(offered=lambda action: refusal_of(action) is None)
     for said in ("add five potholes and order pizza", "make it rain cats", "avoid potholes or else", "zebra"):
         parse = language.parse(said)
         assert isinstance(parse, Refused), said
         for suggestion in parse.suggestions:
             meant = language.parse(suggestion)
             assert isinstance(meant, Understood)
-            assert all(refusal(action) is None for action in meant.actions), suggestion
+            assert all(refusal_of(action) is None for action in meant.actions), suggestion
     assert language.parse("add five potholes and order pizza").suggestions  # type: ignore[union-attr]

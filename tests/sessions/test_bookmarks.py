@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from service.problems import Invalid, UnknownName
-from service.sessions.bookmarks import MOST_NAMES
+from service.sessions.bookmarks import MAX_BOOKMARKS
 from tests.support.service import Service as Http
 from tests.support.session_talk import load, save
 from tests.support.sessions import ADD, ADD_CARS, UNDO, Service, do, potholes
@@ -74,7 +74,7 @@ async def test_an_unknown_name_is_told_the_nearest() -> None:
 
 async def test_there_is_a_limit_to_names() -> None:
     session = await Service().session()
-    for first in range(0, MOST_NAMES, 50):
+    for first in range(0, MAX_BOOKMARKS, 50):
         await do(session, *(save(f"n{number}") for number in range(first, first + 50)))
     with pytest.raises(Invalid, match="the limit"):
         await do(session, save("one more"))

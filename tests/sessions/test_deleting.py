@@ -11,7 +11,7 @@ import pytest
 from service.app import create_app
 from service.settings import Settings
 from service.store import MemoryStore
-from service.store.base import EntryRecord, KeptAnswer
+from service.store.base import EntryRecord, StoredResponse
 from tests.support.fakes import FewSentences, HandClock
 
 
@@ -23,7 +23,7 @@ class HeldStore(MemoryStore):
         self.reached = asyncio.Event()
         self.let = asyncio.Event()
 
-    async def append(self, session_id: str, entry: EntryRecord, *answers: KeptAnswer) -> None:
+    async def append(self, session_id: str, entry: EntryRecord, *answers: StoredResponse) -> None:
         self.reached.set()
         await self.let.wait()
         await super().append(session_id, entry, *answers)

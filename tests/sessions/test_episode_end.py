@@ -11,8 +11,8 @@ from service import actions as contract
 from service.narration import Narrator
 from service.sessions.manager import SessionManager
 from service.sessions.persistence.replay import replay
-from service.sessions.scheduler.background_task import Later
-from service.sessions.session import Session, Surroundings
+from service.sessions.scheduler.background_task import BackgroundTask
+from service.sessions.session import Session, SessionServices
 from service.sessions.utterance import Utterance
 from service.settings import Settings
 from service.store import MemoryStore
@@ -29,12 +29,12 @@ BLOCKED = Config(
 
 def lines(session: Session) -> list[tuple[int, str, str]]:
     """The lines that a replay writes as well."""
-    return [(line.tick, line.type, line.text) for line in session.log.lasting()[1]]
+    return [(line.tick, line.type, line.text) for line in session.log.durable_lines()[1]]
 
 
 async def begun(config: Config) -> tuple[Session, HandClock, MemoryStore]:
     clock, store = HandClock(), MemoryStore()
-    manager = SessionManager(Surroundings(store, clock, WORDS, Settings()))
+    manager = SessionManager(SessionServices(store, clock, WORDS, Settings()))
     return await manager.create(None, config, paused=False), clock, store
 
 
@@ -52,12 +52,12 @@ async def test_a_line_that_takes_long_comes_before_all_that_follows() -> None:
 
 async def test_it_is_told_without_anything_following() -> None:
     session, clock, _ = await begun(BLOCKED)
-    watcher = session.watchers.join()
+    subscriber = session.subscribers.subscribe()
     while session.run.world.outcome is Outcome.RUNNING:
         clock.tick()
-        clock_told = await watcher.next()
+        clock_told = await subscriber.next()
     assert clock_told is not None
-    heard = await asyncio.wait_for(watcher.next(), 60)
+    heard = await asyncio.wait_for(subscriber.next(), 60)
     assert isinstance(heard, list)
     assert b"Stuck: not arrived" in heard[-1].data
 
@@ -70,8 +70,8 @@ async def test_a_replay_writes_the_same_lines(config: Config) -> None:
     for _ in range(200):
         clock.tick()
     await session.change(Utterance(actions=contract.load([{"do": "step", "ticks": 30}])))
-    around = Surroundings(store, clock, WORDS, Settings())
-    replayed = Session(session.record, Timeline(config), around)
+    services = SessionServices(store, clock, WORDS, Settings())
+    replayed = Session(session.record, Timeline(config), services)
     replay(replayed, WORDS, list(await store.entries(session.id)), session.timeline.tick)
     assert lines(replayed) == lines(session)
     assert any(text.startswith(("Reached", "Crash", "Stuck")) for _, _, text in lines(replayed))
@@ -79,11 +79,11 @@ async def test_a_replay_writes_the_same_lines(config: Config) -> None:
 
 async def test_work_beside_is_taken_once_and_in_its_place() -> None:
     taken: list[int] = []
-    later: Later[int] = Later(taken.append)
-    later.begin(lambda: 1)
-    later.begin(lambda: 2)
+    later: BackgroundTask[int] = BackgroundTask(taken.append)
+    later.start(lambda: 1)
+    later.start(lambda: 2)
     assert taken == [1]
-    later.settle()
-    later.settle()
+    later.finish()
+    later.finish()
     await asyncio.sleep(0)
     assert taken == [1, 2]

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import orjson
 
-from service.contract.encode.state import Standing
+from service.contract.encode.state import SessionStatus
 from service.sessions.messages import changed_message, motion_json
 from sim.config import Config
 from sim.state import SimState
@@ -40,6 +40,6 @@ def test_what_has_come_has_moved_and_turned_nowhere() -> None:
 
 def test_the_type_stands_first_whatever_else_is_told() -> None:
     run = SimState.start(Config(seed=3))
-    told = changed_message(Standing("s", False, 1), run, None, "Done.", (), (), {"road": True})
+    told = changed_message(SessionStatus("s", False, 1), run, None, "Done.", (), (), {"road": True})
     assert told.startswith(b'{"type":"changed",')
     assert orjson.loads(told)["views"] == {"road": True}

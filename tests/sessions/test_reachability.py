@@ -10,7 +10,7 @@ from service import actions as contract
 from service.narration import Narrator
 from service.sessions.manager import SessionManager
 from service.sessions.persistence.replay import replay
-from service.sessions.session import Session, Surroundings
+from service.sessions.session import Session, SessionServices
 from service.sessions.utterance import Outcome, Utterance
 from service.settings import Settings
 from service.store import MemoryStore
@@ -34,7 +34,7 @@ def wall(*columns: int, row: int = 2) -> list[dict[str, Any]]:
 
 async def begun(config: Config, *, paused: bool = True) -> tuple[Session, HandClock, MemoryStore]:
     clock, store = HandClock(), MemoryStore()
-    manager = SessionManager(Surroundings(store, clock, WORDS, Settings()))
+    manager = SessionManager(SessionServices(store, clock, WORDS, Settings()))
     return await manager.create(None, config, paused=paused), clock, store
 
 
@@ -89,10 +89,10 @@ async def test_a_closed_road_is_told_of_when_it_is_made_and_when_it_begins_again
     again = await do(session, {"do": "reset"})
     text = notices(session)[-1][2]
     assert again.reply == f"Back at the start of this road. {text}"
-    watcher = session.watchers.join()
+    subscriber = session.subscribers.subscribe()
     while session.run.world.episode == 1:
         clock.tick()
-    await session.outlooks.settled()
+    await session.reachability.wait_until_idle()
     begins = session.run.world.episode_start
     assert [(at, kind) for at, kind, _ in notices(session)] == [
         (0, "no_way"),
@@ -101,7 +101,7 @@ async def test_a_closed_road_is_told_of_when_it_is_made_and_when_it_begins_again
     ]
     heard: list[Any] = []
     while not heard or heard[-1]["type"] != "changed":
-        told = await asyncio.wait_for(watcher.next(), 60)
+        told = await asyncio.wait_for(subscriber.next(), 60)
         assert isinstance(told, list)
         heard += [json.loads(each.data) for each in told]
     assert heard[-1]["reply"] == heard[-1]["events"][0]["text"]
@@ -115,7 +115,7 @@ async def test_what_is_found_out_too_late_is_not_told() -> None:
     while session.run.world.outcome is not End.RUNNING:
         clock.tick()  # the next road begins, and is looked at beside
     await do(session, {"do": "scenario", "barriers": 0, "vehicles": 0, "potholes": 0})
-    await session.outlooks.settled()
+    await session.reachability.wait_until_idle()
     assert [tick for tick, _, _ in notices(session)] == [0]
 
 
@@ -124,12 +124,12 @@ async def test_a_replay_has_all_lines_but_these() -> None:
     await do(session, *wall(0, 1, 2))
     await do(session, {"do": "step", "ticks": 3})
     assert notices(session)
-    replayed = Session(session.record, Timeline(EMPTY), Surroundings(store, clock, WORDS, Settings()))
+    replayed = Session(session.record, Timeline(EMPTY), SessionServices(store, clock, WORDS, Settings()))
     replay(replayed, WORDS, list(await store.entries(session.id)), session.timeline.tick)
     assert notices(replayed) == []
-    number, kept = session.log.lasting()
+    number, kept = session.log.durable_lines()
     assert (number, [line.text for line in kept]) == (
-        replayed.log.last,
+        replayed.log.last_number,
         [line.text for line in replayed.log.latest(100)],
     )
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from service.problems import Invalid, NothingToUndo, ProblemError
 from service.sessions.persistence.recording import recording_json
-from service.sessions.rewind import to_tick
+from service.sessions.rewind import rewind_to
 from service.store import EntryRecord
 from tests.support.service import Service as Http
 from tests.support.session_talk import SAID, anew, rewind
@@ -81,7 +81,7 @@ async def test_a_jump_is_to_the_tick_that_was_named_however_long_it_waits() -> N
         await do(session, {"do": "step", "ticks": 10_000})
     await do(session, {"do": "step", "ticks": 7}, {"do": "resume"})
     adding = asyncio.create_task(do(session, ADD))
-    jumping = asyncio.create_task(session.change(to_tick(5)))
+    jumping = asyncio.create_task(session.change(rewind_to(5)))
     await asyncio.sleep(0)
     service.clock.tick(3)
     await adding
@@ -137,7 +137,7 @@ def test_wherever_time_went_the_log_leads_to_the_same_state(
         again = await Service(service.store).manager.get(session.id)
         for other in (again, copy):
             assert other.run == session.run
-            assert other.history == session.history
+            assert other.undo_stack == session.undo_stack
             assert (other.sequence, other.timeline.entries) == (session.sequence, session.timeline.entries)
 
     asyncio.run(talk())
@@ -157,7 +157,7 @@ def test_undoing_everything_leaves_an_empty_log(
                 await do(session, *actions)
             except ProblemError:
                 continue
-        while session.history.done:
+        while session.undo_stack.done:
             await do(session, UNDO)
         assert session.timeline.entries == []
         assert session.run == anew(session)

@@ -13,7 +13,7 @@ from service.problems import (
     TooManySessions,
     UnknownSession,
 )
-from service.sessions.manager import Recorded
+from service.sessions.manager import Recording
 from service.sessions.utterance import Utterance
 from service.store import EntryRecord
 from tests.support.sessions import (
@@ -74,10 +74,10 @@ async def test_an_undo_of_long_ago_leaves_the_loop_free() -> None:
 
 async def test_a_failed_tick_pauses_and_tells() -> None:
     session = await Service().session()
-    watcher = session.watchers.join()
+    subscriber = session.subscribers.subscribe()
     session.tick_failed(RuntimeError("boom"))
     assert session.paused
-    heard = await watcher.next()
+    heard = await subscriber.next()
     assert isinstance(heard, list)
     assert b"defect" in heard[0].data
     assert b"boom" not in heard[0].data
@@ -90,7 +90,7 @@ async def test_a_failed_tick_pauses_and_tells() -> None:
 async def test_a_session_that_ended_is_gone_for_changes_under_way() -> None:
     service = Service()
     session = await service.session()
-    watcher = session.watchers.join()
+    subscriber = session.subscribers.subscribe()
     await service.manager.delete(session.id)
     with pytest.raises(UnknownSession):
         await do(session, ADD)
@@ -99,7 +99,7 @@ async def test_a_session_that_ended_is_gone_for_changes_under_way() -> None:
     with pytest.raises(UnknownSession):
         await service.manager.delete(session.id)
     assert service.clock.tickers == []
-    assert type(await watcher.next()).__name__ == "Gone"
+    assert type(await subscriber.next()).__name__ == "Gone"
 
 
 async def test_all_who_ask_for_a_sleeping_session_get_the_same() -> None:
@@ -109,7 +109,7 @@ async def test_all_who_ask_for_a_sleeping_session_get_the_same() -> None:
     manager = Service(service.store).manager
     found = await asyncio.gather(*(manager.get(session.id) for _ in range(5)))
     assert len({id(each) for each in found}) == 1
-    assert manager.live == 1
+    assert manager.live_count == 1
 
 
 async def test_after_a_crash_it_stands_at_its_last_change() -> None:
@@ -152,13 +152,13 @@ async def test_a_recording_that_was_tampered_with_is_refused() -> None:
     session = await service.session()
     await do(session, ADD)
     good = await recorded(session, service)
-    other = Recorded(entries=[], tick=good.tick, digest=good.digest)
+    other = Recording(entries=[], tick=good.tick, digest=good.digest)
     with pytest.raises(RecordingMismatch):
         await service.manager.create(None, CONFIG, paused=True, recorded=other)
     undone = EntryRecord(sequence=1, tick=0, text=None, actions=[{"do": "undo"}])
     with pytest.raises(Invalid) as raised:
         await service.manager.create(
-            None, CONFIG, paused=True, recorded=Recorded(entries=[undone], tick=0, digest=good.digest)
+            None, CONFIG, paused=True, recorded=Recording(entries=[undone], tick=0, digest=good.digest)
         )
     assert raised.value.errors[0].field == "recording.entries.0"
-    assert service.manager.live == 1
+    assert service.manager.live_count == 1

@@ -16,7 +16,7 @@ from service.problems import (
     NotSaved,
     ProblemError,
 )
-from service.store import EntryRecord, KeptAnswer, MemoryStore, StoreError
+from service.store import EntryRecord, MemoryStore, StoredResponse, StoreError
 from sim.types import Kind
 from tests.support.sessions import (
     ADD,
@@ -93,7 +93,7 @@ async def test_a_change_is_stored_before_it_is_told() -> None:
     store = Slow()
     service = Service(store)
     session = await service.session()
-    watcher = session.watchers.join()
+    subscriber = session.subscribers.subscribe()
     task = asyncio.create_task(do(session, ADD))
     await asyncio.wait_for(store.asked.wait(), 60)
 
@@ -101,7 +101,7 @@ async def test_a_change_is_stored_before_it_is_told() -> None:
     assert (session.timeline.tick, potholes(session), session.sequence) == (0, 4, 0), (
         "time waits for the store"
     )
-    hearing = asyncio.create_task(watcher.next())
+    hearing = asyncio.create_task(subscriber.next())
     await asyncio.sleep(0)
     assert not hearing.done()
 
@@ -132,7 +132,7 @@ async def test_a_change_is_finished_even_when_its_caller_goes() -> None:
     written = asyncio.Event()
 
     class Slow(MemoryStore):
-        async def append(self, session_id: str, entry: EntryRecord, *answer: KeptAnswer | None) -> None:
+        async def append(self, session_id: str, entry: EntryRecord, *answer: StoredResponse | None) -> None:
             await written.wait()
             await super().append(session_id, entry, *answer)
 
@@ -237,7 +237,7 @@ def test_any_talk_comes_back_from_the_store_to_the_same_digest(
         assert again.run == session.run
         assert again.run.world.digest() == session.run.world.digest()
         assert (again.sequence, again.paused) == (session.sequence, True)
-        assert again.history.done == session.history.done
+        assert again.undo_stack.done == session.undo_stack.done
         assert again.log.latest(400) == session.log.latest(400)
 
     asyncio.run(talk())
@@ -254,7 +254,7 @@ def test_undoing_everything_is_the_road_nobody_touched(said: list[list[dict[str,
                 await do(session, *actions)
             except NothingToUndo:
                 continue
-        while session.history.done:
+        while session.undo_stack.done:
             await do(session, UNDO)
         assert list(session.timeline.entries) == []
         untouched = await Service().session()

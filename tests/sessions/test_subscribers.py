@@ -4,44 +4,44 @@ from __future__ import annotations
 
 import asyncio
 
-from service.sessions.subscribers import SLOT_MESSAGES, Gone, Missed, Watchers
+from service.sessions.subscribers import QUEUE_SIZE, MissedTicks, SessionDeleted, Subscribers
 
 
 async def test_a_reader_that_keeps_up_hears_all_in_order() -> None:
-    watchers = Watchers()
-    watcher = watchers.join()
+    subscribers = Subscribers()
+    subscriber = subscribers.subscribe()
     heard: list[bytes] = []
     for tick in range(100):
-        watchers.publish(tick, lambda tick=tick: b"%d" % tick)
-        got = await watcher.next()
+        subscribers.publish(tick, lambda tick=tick: b"%d" % tick)
+        got = await subscriber.next()
         assert isinstance(got, list)
         heard += [notice.data for notice in got]
     assert heard == [b"%d" % tick for tick in range(100)]
 
 
 async def test_a_slow_reader_is_told_the_whole_span() -> None:
-    watchers = Watchers()
-    watcher = watchers.join()
-    for tick in range(5, 5 + SLOT_MESSAGES + 30):
-        watchers.publish(tick, lambda: b"")
-    assert await watcher.next() == Missed(5, 5 + SLOT_MESSAGES + 29)
-    watchers.publish(99, lambda: b"on")
-    got = await watcher.next()
+    subscribers = Subscribers()
+    subscriber = subscribers.subscribe()
+    for tick in range(5, 5 + QUEUE_SIZE + 30):
+        subscribers.publish(tick, lambda: b"")
+    assert await subscriber.next() == MissedTicks(5, 5 + QUEUE_SIZE + 29)
+    subscribers.publish(99, lambda: b"on")
+    got = await subscriber.next()
     assert isinstance(got, list)
     assert [notice.data for notice in got] == [b"on"]
 
 
 async def test_a_message_is_made_once_and_only_for_someone() -> None:
-    watchers, made = Watchers(), []
+    subscribers, made = Subscribers(), []
 
     def encode() -> bytes:
         made.append(1)
         return b"x"
 
-    watchers.publish(1, encode)
+    subscribers.publish(1, encode)
     assert made == []
-    readers = [watchers.join() for _ in range(50)]
-    watchers.publish(2, encode)
+    readers = [subscribers.subscribe() for _ in range(50)]
+    subscribers.publish(2, encode)
     assert made == [1]
     first, last = await readers[0].next(), await readers[-1].next()
     assert isinstance(first, list)
@@ -50,12 +50,12 @@ async def test_a_message_is_made_once_and_only_for_someone() -> None:
 
 
 async def test_leaving_and_ending() -> None:
-    watchers = Watchers()
-    stays, leaves = watchers.join(), watchers.join()
+    subscribers = Subscribers()
+    stays, leaves = subscribers.subscribe(), subscribers.subscribe()
     waiting = asyncio.create_task(stays.next())
     await asyncio.sleep(0)
-    watchers.leave(leaves)
-    assert len(watchers) == 1
-    watchers.end()
-    assert isinstance(await asyncio.wait_for(waiting, 60), Gone)
-    assert len(watchers) == 0
+    subscribers.unsubscribe(leaves)
+    assert len(subscribers) == 1
+    subscribers.close()
+    assert isinstance(await asyncio.wait_for(waiting, 60), SessionDeleted)
+    assert len(subscribers) == 0

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from service import actions as contract
 from service.problems import NothingToUndo, ProblemError, UnknownName, UnknownSession
-from service.sessions.manager import Recorded
+from service.sessions.manager import Recording
 from service.sessions.persistence.recording import recording_json
 from service.sessions.session import Session
 from service.store import EntryRecord, SqlStore
@@ -22,7 +22,7 @@ from tests.support.sessions import ADD, ADD_CARS, CONFIG, UNDO, Service, do, pot
 
 
 def stands(session: Session) -> tuple[object, ...]:
-    return (session.run, session.sequence, list(session.timeline.entries), session.history.steps)
+    return (session.run, session.sequence, list(session.timeline.entries), session.undo_stack.steps)
 
 
 async def typed_afresh(session: Session) -> Session:
@@ -76,7 +76,7 @@ def test_forks_of_forks(
                     await other.get(each.id)
             else:
                 assert stands(await other.get(each.id)) == stood
-        recorded = Recorded(
+        recorded = Recording(
             entries=[EntryRecord(**entry) for entry in recording["entries"]],
             tick=recording["tick"],
             digest=recording["digest"],
@@ -99,7 +99,7 @@ async def test_everything_of_a_fork_can_be_undone_live_and_after_a_restart() -> 
     await do(parent, ADD_CARS)
     await do(parent, UNDO)
     child = await service.manager.fork(parent, None)
-    assert (potholes(child), child.history.steps, child.sequence) == (8, 3, 2)
+    assert (potholes(child), child.undo_stack.steps, child.sequence) == (8, 3, 2)
     await do(child, ADD)
     await service.manager.close()
     again = await Service(service.store).manager.get(child.id)
@@ -113,7 +113,7 @@ async def test_everything_of_a_fork_can_be_undone_live_and_after_a_restart() -> 
         await do(again, UNDO)
     fresh = Service(service.store).manager
     again = await fresh.get(child.id)
-    assert (potholes(again), again.history.steps, len(again.history.undone)) == (4, 0, 4)
+    assert (potholes(again), again.undo_stack.steps, len(again.undo_stack.undone)) == (4, 0, 4)
     for _ in range(4):
         await do(again, {"do": "redo"})
     assert potholes(again) == 9
@@ -155,7 +155,7 @@ async def test_a_deleted_parent_takes_no_more_changes_and_is_seen_nowhere() -> N
     with pytest.raises(UnknownSession):
         await service.manager.delete(parent.id)
     assert [each.id for each in await service.store.newest(5)] != [parent.id]
-    assert await service.manager.moments(5, None) == []
+    assert await service.manager.bookmarks(5, None) == []
 
 
 async def test_a_name_of_another_session_is_told_where_it_is() -> None:

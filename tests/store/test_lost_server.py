@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from service.store import EntryRecord, KeptAnswer, SessionRecord, SqlStore, StoreError
+from service.store import EntryRecord, SessionRecord, SqlStore, StoredResponse, StoreError
 
 
 class Line:
@@ -39,8 +39,8 @@ def entry(number: int) -> EntryRecord:
     return EntryRecord(sequence=number, tick=0, text=None, actions=[])
 
 
-def under(key: str) -> KeptAnswer:
-    return KeptAnswer(key=key, request="r", at=1, status=200, headers={}, body=b"")
+def under(key: str) -> StoredResponse:
+    return StoredResponse(key=key, request="r", at=1, status=200, headers={}, body=b"")
 
 
 @pytest.fixture
@@ -62,7 +62,7 @@ async def test_it_is_tried_once_more(store: SqlStore) -> None:
     cut(store, 1)
     await store.append("a", entry(2), under("two"))
     assert [each.sequence for each in await store.entries("a")] == [1, 2]
-    assert await store.kept("two") is not None
+    assert await store.get_response("two") is not None
 
 
 async def test_what_was_refused_is_taken_out(store: SqlStore) -> None:
@@ -71,8 +71,8 @@ async def test_what_was_refused_is_taken_out(store: SqlStore) -> None:
     cut(store, 2)
     with pytest.raises(StoreError, match="line was cut"):
         await store.append("a", entry(2), under("two"))
-    assert await store.kept("two") is None
-    assert await store.kept("one") is not None
+    assert await store.get_response("two") is None
+    assert await store.get_response("one") is not None
     assert [each.sequence for each in await store.entries("a")] == [1]
     await store.append("a", entry(2), under("two"))
     assert [each.sequence for each in await store.entries("a")] == [1, 2]
@@ -82,7 +82,11 @@ async def test_a_session_that_was_refused_is_not_there(store: SqlStore) -> None:
     cut(store, 1)
     with pytest.raises(StoreError):
         await store.create(RECORD, [entry(1)], under("made"))
-    assert (await store.get("a"), await store.kept("made"), list(await store.newest(9))) == (None, None, [])
+    assert (await store.get("a"), await store.get_response("made"), list(await store.newest(9))) == (
+        None,
+        None,
+        [],
+    )
     await store.create(RECORD, [entry(1)], under("made"))
     assert await store.get("a") is not None
 

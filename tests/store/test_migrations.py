@@ -66,7 +66,7 @@ async def test_a_name_given_in_version_3_is_listed(tmp_path: Path) -> None:
     shutil.copy(DATA / "version3.sqlite", path)
     store = SqlStore(f"sqlite:///{path}")
     await store.open()
-    found = [(each.name, each.session_name, each.sequence, each.tick) for each in await store.moments(9)]
+    found = [(each.name, each.session_name, each.sequence, each.tick) for each in await store.bookmarks(9)]
     branches = [each.branch for each in await store.newest(9)]
     await store.close()
     assert found == [("hill", "road 7", 3, 9)]
@@ -185,6 +185,6 @@ async def test_names_given_before_version_4_are_listed(tmp_path: Path) -> None:
     connection.close()
     store = SqlStore(f"sqlite:///{path}")
     await store.open()
-    found = [(each.name, each.sequence, each.tick) for each in await store.moments(9)]
+    found = [(each.name, each.sequence, each.tick) for each in await store.bookmarks(9)]
     await store.close()
     assert found == [("hill", 903, 51), ("dale", 902, 53)]

@@ -73,6 +73,6 @@ async def test_a_server_database_of_version_1_is_brought_up(postgres: Server) ->
     assert version == str(VERSION)
     store = SqlStore(url)
     await store.open()
-    found = [(each.session, each.name) for each in await store.moments(9)]
+    found = [(each.session, each.name) for each in await store.bookmarks(9)]
     await store.close()
     assert found == [(named, "hill")]

@@ -26,7 +26,7 @@ from service.store import (
     StoreError,
     open_store,
 )
-from service.store.fork_log import standing
+from service.store.fork_log import encode_standing
 from tests.support.postgres import Server
 
 MOMENT = datetime(2026, 3, 29, 1, 30, 15, 250_000, tzinfo=UTC)
@@ -145,7 +145,7 @@ async def test_numbers_are_never_given_twice(store: Store) -> None:
 def branch(parent: str, sequence: int) -> Branch:
     instead = [{"sequence": 2, "tick": 9, "actions": entry(2).actions}]
     return Branch(
-        parent=parent, sequence=sequence, tick=9, standing=standing([1, 4], sequence), instead=instead
+        parent=parent, sequence=sequence, tick=9, standing=encode_standing([1, 4], sequence), instead=instead
     )
 
 
@@ -194,12 +194,12 @@ async def test_the_latest_snapshot_of_a_session_is_kept(store: Store) -> None:
     await store.create(record("a"), [entry(1)])
     await store.create(record("b"), [entry(1)])
     assert await store.snapshot("a") is None
-    await store.keep_snapshot(snapshot("a", 1))
-    await store.keep_snapshot(snapshot("a", 2, bytes(range(256)) * 999))
-    await store.keep_snapshot(snapshot("b", 1))
+    await store.save_snapshot(snapshot("a", 1))
+    await store.save_snapshot(snapshot("a", 2, bytes(range(256)) * 999))
+    await store.save_snapshot(snapshot("b", 1))
     assert await store.snapshot("a") == snapshot("a", 2, bytes(range(256)) * 999)
     assert await store.snapshot("b") == snapshot("b", 1)
-    await store.keep_snapshot(snapshot("nobody", 1))
+    await store.save_snapshot(snapshot("nobody", 1))
     assert await store.snapshot("nobody") is None
 
 
@@ -207,10 +207,10 @@ async def test_a_snapshot_goes_with_its_session_also_where_a_fork_needs_the_log(
     await store.create(record("a"), [entry(number) for number in range(1, 7)])
     await store.create(record("b", branch=branch("a", 4)))
     for name in "ab":
-        await store.keep_snapshot(snapshot(name, 6))
+        await store.save_snapshot(snapshot(name, 6))
     await store.delete("a")
     assert await store.snapshot("a") is None
-    await store.keep_snapshot(snapshot("a", 7))
+    await store.save_snapshot(snapshot("a", 7))
     assert await store.snapshot("a") is None, "one that was still being made"
     await store.delete("b")
     assert await store.snapshot("b") is None
@@ -229,16 +229,16 @@ async def test_named_moments_of_all_sessions(store: Store) -> None:
     await store.create(record("b"))
     await store.append("b", replace(entry(1), names={"hill": 7}))
     await store.append("a", replace(entry(2), names={"dale": 9}))
-    found = await store.moments(9)
+    found = await store.bookmarks(9)
     assert [(each.session, each.session_name, each.name, each.sequence, each.tick) for each in found] == [
         ("a", "road a", "dale", 2, 9),
         ("b", "road b", "hill", 1, 7),
         ("a", "road a", "hill", 1, 3),
     ]
-    assert [each.tick for each in await store.moments(1, before=found[0].number)] == [7]
-    assert [each.session for each in await store.moments(9, name="hill")] == ["b", "a"]
+    assert [each.tick for each in await store.bookmarks(1, before=found[0].number)] == [7]
+    assert [each.session for each in await store.bookmarks(9, name="hill")] == ["b", "a"]
     await store.delete("b")
-    assert [each.session for each in await store.moments(9)] == ["a", "a"]
+    assert [each.session for each in await store.bookmarks(9)] == ["a", "a"]
 
 
 async def test_ticks_are_remembered(store: Store) -> None:

@@ -87,7 +87,7 @@ class HandClock:
             self.tickers.remove(ticker)
 
     def lateness(self) -> Lateness:
-        return Lateness.of([])
+        return Lateness.from_samples([])
 
     def tick(self, times: int = 1) -> None:
         """All sessions that run, one tick on, `times` times."""

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import uvicorn
 from fastapi import FastAPI
 
-from service.cli.main import server_config
+from service.cli.serve import server_config
 from service.settings import Settings
 
 SMALL_BYTES = 16_384
@@ -47,7 +47,7 @@ class _Ready(uvicorn.Server):
         self.listening = asyncio.Event()
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
-        self.config.app.state.readers.stop()  # type: ignore[union-attr]
+        self.config.app.state.context.event_streams.stop()  # type: ignore[union-attr]
         await super().shutdown(sockets)
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:

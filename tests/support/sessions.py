@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from service import actions as contract
 from service.narration import Narrator
-from service.sessions.manager import Recorded, SessionManager
+from service.sessions.manager import Recording, SessionManager
 from service.sessions.persistence.recording import recording_json
-from service.sessions.session import Session, Surroundings
+from service.sessions.session import Session, SessionServices
 from service.sessions.utterance import Utterance
 from service.settings import Settings
 from service.store import EntryRecord, MemoryStore
@@ -28,8 +28,8 @@ class Service:
     def __init__(self, store: MemoryStore | None = None, **settings: int) -> None:
         self.store = store or MemoryStore()
         self.clock = HandClock()
-        around = Surroundings(self.store, self.clock, WORDS, Settings(**settings))
-        self.manager = SessionManager(around)
+        services = SessionServices(self.store, self.clock, WORDS, Settings(**settings))
+        self.manager = SessionManager(services)
 
     async def session(self, config: Config = CONFIG, *, paused: bool = False) -> Session:
         return await self.manager.create(None, config, paused=paused)
@@ -45,10 +45,16 @@ def potholes(session: Session) -> int:
 
 
 def fingerprint(session: Session) -> tuple[object, ...]:
-    return (session.run, session.paused, session.sequence, session.log.last, list(session.timeline.entries))
+    return (
+        session.run,
+        session.paused,
+        session.sequence,
+        session.log.last_number,
+        list(session.timeline.entries),
+    )
 
 
-async def recorded(session: Session, service: Service) -> Recorded:
+async def recorded(session: Session, service: Service) -> Recording:
     recording = recording_json(session, await service.manager.entries(session))
     entries = [EntryRecord(**each) for each in recording["entries"]]
-    return Recorded(entries=entries, tick=recording["tick"], digest=recording["digest"])
+    return Recording(entries=entries, tick=recording["tick"], digest=recording["digest"])

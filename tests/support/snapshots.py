@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from service.grammar.topic import Phrases
 from service.problems import ProblemError
-from service.sessions.fork import way_of
+from service.sessions.fork import fork_point
 from service.sessions.session import Session
 from service.store import MemoryStore
 from tests.support.session_talk import SAID, load, rewind, save
@@ -20,23 +20,27 @@ AFTERWARDS = ([UNDO], [UNDO], [REDO], [ADD], [load("a")], [UNDO, ADD], [rewind(2
 
 def all_of(session: Session) -> dict[str, Any]:
     """Whatever a user could see of it, now or later."""
-    footing = session.footing
-    steps = (*session.history.done, *session.history.undone)
+    footing = session.log_position
+    steps = (*session.undo_stack.done, *session.undo_stack.undone)
     jumps = [(each.jump.before, each.jump.after) for each in steps if each.jump is not None]
     return {
         **whole(session),
-        "paused": (session.paused, footing.paused, footing.tick, footing.trail),
-        "ground": (session.history.ground, session.history.ground_steps, session.history.ground_paused),
+        "paused": (session.paused, footing.paused, footing.tick, footing.digest),
+        "ground": (
+            session.undo_stack.base_entries,
+            session.undo_stack.base_steps,
+            session.undo_stack.base_paused,
+        ),
         "past": list(session.timeline.between(0, session.timeline.tick)),
         "moments": [
             (name, each.timeline.state, list(each.timeline.entries))
-            for name, each in session.history.saved.items()
+            for name, each in session.undo_stack.bookmarks.items()
         ],
         "jumps": [(one.state, other.state, [*one.entries], [*other.entries]) for one, other in jumps],
-        "standing": session.standing,
+        "standing": session.status,
         "state": session.state(),
-        "talk": session.conversation.values(),
-        "first line": session.log.first_kept,
+        "talk": session.conversation.to_json(),
+        "first line": session.log.first_number,
     }
 
 
@@ -54,7 +58,7 @@ async def back(store: MemoryStore, session: str, *, short: bool, **given: int) -
         copied._snapshots.clear()
     service = Service(copied, **given)
     found = await service.manager.get(session)
-    fates = service.manager.keeper.fates
+    fates = service.manager.snapshots.counts
     assert (fates["used"], fates["unfit"]) == ((1, 0) if short else (0, 0))
     return found
 
@@ -66,7 +70,10 @@ async def compared(store: MemoryStore, session: str, **given: int) -> None:
     for actions in AFTERWARDS:
         assert await said(short, actions) == await said(long, actions)
         assert all_of(short) == all_of(long)
-    ways = [way_of(each.id, each.mixed, each.timeline, each.timeline.tick // 2) for each in (short, long)]
+    ways = [
+        fork_point(each.id, each.partial_changes, each.timeline, each.timeline.tick // 2)
+        for each in (short, long)
+    ]
     assert ways[0].branch == ways[1].branch, "what a fork and a link are made of"
 
 
@@ -80,13 +87,13 @@ def whole(session: Session) -> dict[str, Any]:
     return {
         "run": session.run,
         "sequence": session.sequence,
-        "pace": session.pace,
+        "pace": session.playback_speed,
         "entries": list(session.timeline.entries),
-        "done": session.history.done,
-        "undone": session.history.undone,
-        "steps": session.history.steps,
-        "saved": {name: (each.sequence, each.tick) for name, each in session.history.saved.items()},
+        "done": session.undo_stack.done,
+        "undone": session.undo_stack.undone,
+        "steps": session.undo_stack.steps,
+        "saved": {name: (each.sequence, each.tick) for name, each in session.undo_stack.bookmarks.items()},
         "topic": session.conversation.topic(session.run.world, Phrases()),
-        "mixed": session.mixed,
-        "log": (session.log.last, session.log.latest(400)),
+        "mixed": session.partial_changes,
+        "log": (session.log.last_number, session.log.latest(400)),
     }

@@ -107,7 +107,7 @@ def position(world: World) -> Position:
 def moved_bodies(now: Position, courteous: Collection[Cell] = ()) -> tuple[Body, ...]:
     """Where the movers of this moment will be, and facing which way. `courteous`: cells of movers
     that count the vehicle's cell as blocked."""
-    standing = {body.cell for body in now.bodies}
+    status = {body.cell for body in now.bodies}
     planning = [
         body
         for body in now.bodies
@@ -115,7 +115,7 @@ def moved_bodies(now: Position, courteous: Collection[Cell] = ()) -> tuple[Body,
     ]
 
     def blocked(body: Body, wanted: Cell) -> bool:
-        if not now.holds(wanted) or wanted in now.fixed or wanted in standing:
+        if not now.holds(wanted) or wanted in now.fixed or wanted in status:
             return True
         return body.cell in courteous and wanted == now.av
 

@@ -3,14 +3,15 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { endWords, fetchBeside, nameOfOther, partOf, sumOf, titleOf } from "../../web/src/why/counterfactual.js";
+import { fetchBeside, nameOfOther, partOf, titleOf } from "../../web/src/why/counterfactual.js";
 import { isDriving, moveOf } from "../../web/src/road/drivingKeys.js";
 import { hindrance, isLoose, moving, placing, removing } from "../../web/src/road/edit.js";
-import { cellWords, decidedAbout, decidedOn, headingWords, onRoad, placeWords, thingAt, thingIn } from "../../web/src/road/hitTest.js";
+import { onRoad, thingAt, thingIn } from "../../web/src/road/hitTest.js";
+import { cellWords, headingWords, placeWords } from "../../web/src/road/placeTexts.js";
 import { fetchDecision, labelOf } from "../../web/src/why/alternatives.js";
 import { servedView } from "../../web/src/road/serverCamera.js";
 import { INITIAL } from "../../web/src/core/state.js";
-import { tellOf } from "../../web/src/why/why.js";
+import { linesAbout, optionTo, tellOf } from "../../web/src/why/why.js";
 import { worldOf } from "../../web/src/road/world.js";
 import { wireState } from "./fakes.mjs";
 
@@ -22,9 +23,9 @@ const decision = {
   causes: ["pothole-1"],
   narration: "Forward left, since a pothole is ahead.",
   options: [
-    { move: "forward", cell: [4, 20], verdict: "blocked", cost: null, reason: "pothole", causes: ["pothole-1"] },
+    { move: "forward", cell: [4, 20], verdict: "blocked", cost: null, reason: "pothole", causes: ["pothole-1"], text: "a pothole in the way" },
     { move: "forward_left", cell: [3, 20], verdict: "free", cost: 1, reason: "free", causes: [] },
-    { move: "left", cell: [3, 21], verdict: "free", cost: 2, reason: "free", causes: [] },
+    { move: "left", cell: [3, 21], verdict: "free", cost: 2, reason: "free", causes: [], text: "free, less preferred" },
     { move: "right", cell: null, verdict: "off_road", cost: null, reason: "off_road", causes: [] },
   ],
 };
@@ -37,8 +38,8 @@ test("a place is told as seen from the vehicle", () => {
 });
 
 test("a cell is said with what is in it, for those who do not see it", () => {
-  assert.equal(cellWords(world, [3, 15]), "lane 4, 5 rows ahead: pothole");
-  assert.equal(cellWords(world, [2, 19]), "lane 3, 1 row ahead: car, heading right");
+  assert.equal(cellWords(world, [3, 15]), "lane 4, 5 rows ahead: a pothole");
+  assert.equal(cellWords(world, [2, 19]), "lane 3, 1 row ahead: a car, heading right");
   assert.equal(cellWords(world, [0, 0]), "lane 1, 20 rows ahead: free");
 });
 
@@ -68,24 +69,26 @@ test("what is seen between two cells is pointed at where it is seen", () => {
   assert.equal(thingAt({ ...places, poses: undefined }, world, 29, 195)?.id, "vehicle-1");
 });
 
-test("what was decided about a thing comes from the trace, and from less where there is less", () => {
-  assert.equal(decidedAbout(decision, "pothole-1"), "It ruled out forward: a pothole. So the move was forward left.");
+test("what was decided about a thing comes from the trace, in the service's words, and from less where there is less", () => {
+  const why = "Forward left, since a pothole is ahead.";
+  assert.deepEqual(linesAbout(decision, "pothole-1"), ["Forward: a pothole in the way", why]);
   const brief = { ...decision, options: undefined };
-  assert.equal(decidedAbout(brief, "pothole-1"), "Because of it the move was forward left: a pothole.");
-  assert.equal(decidedAbout(decision, "vehicle-1"), null);
-  assert.equal(decidedAbout(null, "pothole-1"), null);
+  assert.deepEqual(linesAbout(brief, "pothole-1"), [why]);
+  assert.deepEqual(linesAbout(decision, "vehicle-1"), []);
+  assert.deepEqual(linesAbout(null, "pothole-1"), []);
 });
 
 test("a cell that a move led to is told with that move", () => {
-  assert.match(decidedOn(decision, [4, 20]).text, /\(forward\) was ruled out: a pothole/);
-  assert.match(decidedOn(decision, [3, 21]).text, /\(left\) was possible; forward left was preferred/);
-  assert.equal(decidedOn(decision, [3, 20]).taken, true);
-  assert.equal(decidedOn(decision, [0, 0]), null);
+  const lines = (cell) => tellOf({ kind: "cell", cell, id: null }, { ...INITIAL, world, decision }, decision).lines.slice(1);
+  assert.deepEqual(lines([3, 21]), ["Left: free, less preferred"]);
+  assert.deepEqual(lines([0, 0]), []);
+  assert.equal(optionTo(decision, [3, 20]).move, "forward_left");
+  assert.equal(optionTo(decision, [0, 0]), null);
 });
 
 test("a thing is offered away, and to be imagined away, by its id", () => {
   const told = tellOf({ kind: "cell", cell: [3, 15], id: "pothole-1" }, { ...INITIAL, world, decision }, decision);
-  assert.equal(told.title, "pothole");
+  assert.equal(told.title, "Pothole");
   assert.equal(told.note, "pothole-1");
   const [why, whatIf, remove] = told.offers;
   assert.deepEqual(why.act.actions, [{ do: "ask", about: "why", tick: 9 }]);
@@ -93,7 +96,7 @@ test("a thing is offered away, and to be imagined away, by its id", () => {
     kind: "change",
     tick: null,
     actions: removing({ kind: "pothole", id: "pothole-1" }),
-    label: "If pothole-1 wasn’t there",
+    label: "Without pothole-1",
   });
   assert.deepEqual(remove.act.actions, [{ do: "remove", kind: "pothole", count: 1, where: { id: "pothole-1" } }]);
 });
@@ -173,13 +176,14 @@ const SIDE = (moves, end) => ({
     decision: { tick: 9 + at, move, reason: "free", causes: [], planner: "priority", weight: 0 },
     cause: at === moves.length - 1 ? end.cause : null,
   })),
-  end: { by_hand: false, waited: 0, digest: "d", tick: 9 + moves.length, driven: moves.length, cause: null, ...end },
+  end: { text: end.outcome, by_hand: false, waited: 0, digest: "d", tick: 9 + moves.length, driven: moves.length, cause: null, ...end },
 });
 const CRASH = { outcome: "crash", cause: { kind: "pothole", how: "hit", ids: ["pothole-1"], cell: [4, 18] } };
 const TOLD = {
   at_tick: 9,
   instead_of: "left",
   said_since: 0,
+  text: "At tick 9 I go forward instead of moving left.",
   real: SIDE(["left", "forward", "forward"], { outcome: "success" }),
   changed: SIDE(["forward", "forward"], CRASH),
 };
@@ -214,10 +218,8 @@ test("both runs come as worlds in step", async () => {
   assert.equal(found.changed.frames.at(-1).world.status, "crash");
   assert.deepEqual(found.changed.frames.at(-1).world.cause.ids, ["pothole-1"]);
   assert.deepEqual(partOf(found), { at: 1, tick: 9, real: "left", changed: "forward" });
-  assert.deepEqual(sumOf(found), {
-    text: "At tick 9 it goes forward instead of going left.",
-    ends: "It crashes into a pothole at tick 11; in the real run it arrives after 3 ticks.",
-  });
+  assert.equal(found.text, TOLD.text);
+  assert.deepEqual([found.real.end.text, found.changed.end.text], ["success", "crash"]);
 });
 
 test("a change now is sent without a tick", async () => {
@@ -226,14 +228,6 @@ test("a change now is sent without a tick", async () => {
   const found = await fetchBeside("s1", { kind: "change", tick: null, actions, label: "x" }, http);
   assert.deepEqual(asked[0][1], { actions });
   assert.equal(partOf(found), null);
-  assert.equal(sumOf(found).text, "It is driven the same way. It arrives at the same tick.");
-});
-
-test("how much later or earlier it arrives is told", () => {
-  const side = (driven) => ({ frames: [], end: { outcome: "success", driven } });
-  const found = { tick: 1, insteadOf: null, saidSince: 2, real: side(10), changed: side(11) };
-  assert.match(sumOf(found).text, /It arrives 1 tick later\. What was said after that tick is left out of both\./);
-  assert.match(sumOf({ ...found, changed: side(7) }).text, /It arrives 3 ticks earlier\./);
 });
 
 test("a refusal is told with its reason, and a service that is not there too", async () => {
@@ -245,16 +239,14 @@ test("a refusal is told with its reason, and a service that is not there too", a
   await assert.rejects(fetchDecision("s1", 3, undefined, gone), /cannot be reached/);
 });
 
-test("ends, titles and names are in words", () => {
-  assert.equal(endWords({ outcome: "success", driven: 1, tick: 5 }), "arrives after 1 tick");
-  assert.equal(endWords({ outcome: "stuck", driven: 200, tick: 5 }), "is stuck after 200 ticks");
-  assert.equal(endWords({ outcome: "running", driven: 9, tick: 5 }), "goes on too long to tell");
+test("titles and names of what is imagined", () => {
   const move = { kind: "move", tick: 4, move: "stay" };
-  assert.equal(titleOf(move, { tick: 4 }), "If it had waited at tick 4");
-  assert.equal(titleOf({ ...move, move: "left" }, { tick: 4 }), "If it had gone left at tick 4");
-  assert.equal(nameOfOther(move), "If it waits");
-  assert.equal(labelOf([{ do: "remove", kind: "pothole", count: "all" }]), "If there were no potholes");
-  assert.equal(labelOf([{ do: "remove", kind: "vehicle", count: "all" }]), "If there were no cars");
-  assert.equal(labelOf([{ do: "remove", kind: "everything", count: "all" }]), "If the road were empty");
+  assert.equal(titleOf(move), "Instead: stay");
+  assert.equal(titleOf({ ...move, move: "left" }, 4), "Instead: left, at tick 4");
+  assert.equal(nameOfOther(move), "If stay");
+  const remove = (kind, where) => ({ do: "remove", kind, count: where ? 1 : "all", where });
+  assert.equal(labelOf([remove("pothole")]), "Without potholes");
+  assert.equal(labelOf([remove("everything")]), "With an empty road");
+  assert.equal(labelOf([remove("pothole", { id: "pothole-1" }), remove("vehicle", { id: "vehicle-2" })]), "Without pothole-1 and vehicle-2");
   assert.equal(labelOf([{ do: "add", kind: "pothole", count: 1 }]), "With that change");
 });

@@ -13,7 +13,7 @@ function recording() {
 }
 
 const INKS = { band: "band", ahead: "ahead", text: "text", ink: "ink", surface: "surface", accent: "accent", danger: "danger", warn: "warn", good: "good" };
-const line = (changes = {}) => ({ width: 500, span: 250, now: 200, at: null, over: null, marks: [], known: () => true, ...changes });
+const line = (changes = {}) => ({ width: 500, span: 250, now: 200, at: null, over: null, events: [], ...changes });
 
 test("places and ticks are each other's inverse", () => {
   for (const tick of [0, 1, 77, 249, 250]) assert.equal(tickAt(line(), xOf(line(), tick)), tick);
@@ -23,29 +23,29 @@ test("places and ticks are each other's inverse", () => {
 test("a crash, an arrival and what was said are told apart by shape, not by colour alone", () => {
   const shapes = ["crash", "success", "command", "fork", "stuck"].map((kind) => {
     const { pen, drawn } = recording();
-    drawLine(pen, line({ marks: [{ tick: 50, kind }] }), INKS);
+    drawLine(pen, line({ events: [{ tick: 50, kind }] }), INKS);
     const from = drawn.findIndex(({ what }) => what === "translate");
     return drawn.slice(from + 1, drawn.findIndex(({ what }) => what === "restore")).map(({ what, numbers }) => `${what}${numbers}`).join(" ");
   });
   assert.equal(new Set(shapes).size, 5);
 });
 
-test("of marks that share a place the loudest is drawn", () => {
+test("of events that share a place the most important is drawn", () => {
   const { pen, drawn } = recording();
-  drawLine(pen, line({ span: 10_000, now: 9_000, marks: [{ tick: 500, kind: "command" }, { tick: 505, kind: "crash" }, { tick: 510, kind: "success" }] }), INKS);
+  drawLine(pen, line({ span: 10_000, now: 9_000, events: [{ tick: 500, kind: "command" }, { tick: 505, kind: "crash" }, { tick: 510, kind: "success" }] }), INKS);
   assert.equal(drawn.filter(({ what }) => what === "translate").length, 1);
   assert.equal(pen.strokeStyle, "danger");
 });
 
 test("a wait is a high bar, a detour a low one, and many in a pixel are fainter", () => {
   const { pen, drawn } = recording();
-  drawLine(pen, line({ marks: [{ tick: 10, kind: "wait", ticks: 5 }, { tick: 40, kind: "detour", ticks: 5 }] }), INKS);
+  drawLine(pen, line({ events: [{ tick: 10, kind: "wait", ticks: 5 }, { tick: 40, kind: "detour", ticks: 5 }] }), INKS);
   const wait = drawn.find(({ fill, what }) => fill === "warn" && what === "fillRect");
   const detour = drawn.find(({ fill, what }) => fill === "accent" && what === "fillRect");
   assert.ok(wait.numbers[3] > detour.numbers[3]);
   assert.equal(wait.alpha, 1);
   const crowded = recording();
-  drawLine(crowded.pen, line({ span: 10_000, now: 9_000, marks: [{ tick: 10, kind: "wait", ticks: 1 }] }), INKS);
+  drawLine(crowded.pen, line({ span: 10_000, now: 9_000, events: [{ tick: 10, kind: "wait", ticks: 1 }] }), INKS);
   const faint = crowded.drawn.find(({ fill, what }) => fill === "warn" && what === "fillRect");
   assert.ok(faint.alpha < 0.5);
   assert.ok(faint.numbers[2] >= 1, "yet never nothing");

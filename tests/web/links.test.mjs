@@ -1,9 +1,10 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { fileName, filmPath, recordingIn, sizeWords, stretch } from "../../web/src/timeline/downloads.js";
+import { fileName, videoPath, recordingIn, sizeText, stretch } from "../../web/src/timeline/downloads.js";
 import { ask, askJson, Refused } from "../../web/src/core/http.js";
-import { forkAt, forks, hashOf, noteFork, placeInHash, shareLink } from "../../web/src/timeline/links.js";
+import { hashOf, placeInHash } from "../../web/src/core/address.js";
+import { forkAt, forks, noteFork, shareLink } from "../../web/src/timeline/links.js";
 
 const page = new URL("http://localhost:8000/?x=1#/s/a");
 
@@ -62,8 +63,8 @@ test("a film is of the latest ticks, or around the one that is looked at", () =>
   assert.deepEqual(stretch(300, 3), { from: 0, to: 20 });
   assert.deepEqual(stretch(300, 298), { from: 280, to: 300 });
   const wish = { from: 0, to: 20, format: "gif", view: "road", side: 480 };
-  assert.match(filmPath("a", wish, 0.5), /film\?from=0&to=20&format=gif&fps=12&view=road&side=480$/);
-  assert.match(filmPath("a", { ...wish, to: 160 }, 0.5), /fps=3&/);
+  assert.match(videoPath("a", wish, 0.5), /film\?from=0&to=20&format=gif&fps=12&view=road&side=480$/);
+  assert.match(videoPath("a", { ...wish, to: 160 }, 0.5), /fps=3&/);
 });
 
 test("a file that is no recording says what it is instead", () => {
@@ -75,5 +76,5 @@ test("a file that is no recording says what it is instead", () => {
 });
 
 test("a file's size is told in three figures or so", () => {
-  assert.deepEqual([1, 1_499, 987_400, 1_568_000, 12_340_000].map(sizeWords), ["1 kB", "1 kB", "987 kB", "1.6 MB", "12.3 MB"]);
+  assert.deepEqual([1, 1_499, 987_400, 1_568_000, 12_340_000].map(sizeText), ["1 kB", "1 kB", "987 kB", "1.6 MB", "12.3 MB"]);
 });

@@ -1,8 +1,11 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { Looking, PAGE, pastOf } from "../../web/src/timeline/past.js";
-import { FakeClock, settle, wireState } from "./fakes.mjs";
+import { INITIAL, reduce } from "../../web/src/core/state.js";
+import { createStore } from "../../web/src/core/store.js";
+import { pastOf } from "../../web/src/timeline/momentCache.js";
+import { TimeTravel } from "../../web/src/timeline/timeTravel.js";
+import { FakeClock, hello, settle, wireState } from "./fakes.mjs";
 
 const NOW = 100;
 
@@ -34,18 +37,14 @@ class SlowService {
 function stage(now = NOW) {
   const service = new SlowService();
   const clock = new FakeClock();
+  const store = createStore(reduce, INITIAL);
+  const present = (tick) => store.dispatch(hello({ state: wireState({ tick, playback_speed: 2 }) }));
+  store.dispatch({ type: "session", id: "s1" });
+  present(now);
   const seen = [];
-  const failures = [];
-  const present = { session: "s1", tick: now, stepS: 0.5, pace: 2 };
-  const looking = new Looking({
-    present: () => present,
-    look: (past) => seen.push(past && past.world.tick),
-    failed: (error) => failures.push(error.message),
-    http: service.http,
-    later: clock.later,
-    cancel: clock.cancel,
-  });
-  return { service, clock, seen, failures, looking, present };
+  store.subscribe(({ past }, before) => past !== before.past && seen.push(past && past.world.tick));
+  const looking = new TimeTravel(store, { http: service.http, later: clock.later, cancel: clock.cancel });
+  return { service, clock, seen, looking, present, store };
 }
 
 test("a moment is shown as a present would be: its decision with reason and causes", () => {
@@ -117,11 +116,11 @@ test("playing goes on at the session's speed and ends at the present", async () 
 });
 
 test("a refusal is told, and the present is shown again", async () => {
-  const { service, failures, looking } = stage();
+  const { service, looking, store } = stage();
   service.failing = { title: "x", status: 503, detail: "The service is being stopped.", errors: [] };
   void looking.at(10);
   await service.answer();
-  assert.deepEqual(failures, ["The service is being stopped."]);
+  assert.deepEqual(store.state().notice, { text: "The service is being stopped.", tone: "bad" });
   assert.equal(looking.tick, null);
   service.failing = null;
   void looking.at(10);
@@ -130,23 +129,46 @@ test("a refusal is told, and the present is shown again", async () => {
 });
 
 test("a run that has become another is asked for anew", async () => {
-  const { service, looking, present, seen } = stage();
+  const { service, looking, store, seen, present } = stage();
   void looking.at(20);
   await service.answer();
   void looking.at(70);
-  looking.rewritten(); // with a question under way
+  // With a question under way, and then with the present before what is looked at.
+  store.dispatch({ type: "timeline-changes", items: [{ tick: 5, sequence: 1, text: "add a pothole" }], more: false, forks: [] });
   await service.answer();
   assert.deepEqual(seen, [20], "what was asked before is not shown");
   await service.answer();
   assert.deepEqual(seen, [20, 70]);
-  present.tick = 12;
-  looking.rewritten();
+  present(12);
   assert.deepEqual([looking.tick, seen.at(-1)], [null, null]);
 });
 
+test("when the stream is opened again, the tick that was looked at is shown again", async () => {
+  const { service, looking, seen, present } = stage();
+  void looking.at(20);
+  await service.answer();
+  present(NOW);
+  await service.answer();
+  assert.deepEqual([looking.tick, seen], [20, [20, null, 20]]);
+});
+
+test("what was just changed is to be seen; in another session nothing is looked at", async () => {
+  const { service, looking, store } = stage();
+  void looking.at(20);
+  await service.answer();
+  store.dispatch({ type: "said", id: "c1", text: "add a pothole", quiet: false });
+  const result = { text: null, actions: [], changes: [{ path: "potholes", before: 1, after: 2 }], reply: "Done.", answer: null, sequence: 101 };
+  store.dispatch({ type: "result", id: "c1", result });
+  assert.deepEqual([looking.tick, store.state().past], [null, null]);
+  void looking.at(40);
+  store.dispatch({ type: "session", id: "s2" });
+  await service.answer();
+  assert.deepEqual([looking.tick, store.state().past], [null, null]);
+});
+
 test("time going on lengthens a page that ended at the present", async () => {
-  const { service, looking, present } = stage();
-  present.tick = 101;
+  const { service, looking, present } = stage(101);
+  present(101);
   void looking.at(98);
   await service.answer();
   service.held.length = 0;

@@ -17,8 +17,8 @@ test("what is not a message is refused with a reason", () => {
 });
 
 test("a message that lacks what it needs names what is lacking", () => {
-  assert.throws(() => decode('{"type":"tick","tick":1}'), /without sequence, episode, status, metrics/);
-  assert.throws(() => decode('{"type":"result","id":"c1"}'), /without result/);
+  assert.throws(() => decode('{"type":"tick","tick":1}'), /no sequence, episode, status, metrics/);
+  assert.throws(() => decode('{"type":"result","id":"c1"}'), /no result/);
 });
 
 test("types of a later service are let through as unknown, names of Object.prototype too", () => {

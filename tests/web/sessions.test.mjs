@@ -1,7 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { createSession, findSession, hashOfSession, sessionInHash } from "../../web/src/core/sessions.js";
+import { hashOf, momentInHash } from "../../web/src/core/address.js";
+import { createSession, findSession } from "../../web/src/core/sessions.js";
 
 const answering = (status, body = {}) => async () => new Response(JSON.stringify(body), { status });
 const failing = async () => {
@@ -9,8 +10,8 @@ const failing = async () => {
 };
 
 test("the address names a session, whatever its id", () => {
-  for (const id of ["abc", "a b", "ä/ö", "50%"]) assert.equal(sessionInHash(hashOfSession(id)), id);
-  for (const hash of ["", "#", "#/s/", "#/s/a/b", "#/t/a", "#/s/%"]) assert.equal(sessionInHash(hash), null, hash);
+  for (const id of ["abc", "a b", "ä/ö", "50%"]) assert.deepEqual(momentInHash(hashOf(id)), { session: id, tick: null });
+  for (const hash of ["", "#", "#/s/", "#/s/a/b", "#/t/a", "#/s/%"]) assert.equal(momentInHash(hash), null, hash);
 });
 
 test("a session is missing only when the service says so", async () => {

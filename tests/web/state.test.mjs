@@ -3,7 +3,7 @@ import { test } from "node:test";
 
 import { INITIAL, reduce, sceneOf } from "../../web/src/core/state.js";
 import { shown } from "../../web/src/talk/exchanges.js";
-import { countsOf, describe, egoOf, toGo } from "../../web/src/road/world.js";
+import { countTexts, describe, egoOf, toGo } from "../../web/src/road/world.js";
 import { hello, logEvent, tick, wireState } from "./fakes.mjs";
 
 const after = (...events) => events.reduce(reduce, INITIAL);
@@ -23,7 +23,7 @@ test("hello brings the whole road", () => {
   assert.equal(world.things.size, 4);
   assert.deepEqual(egoOf(world).cell, [4, 20]);
   assert.deepEqual(toGo(world), { rows: 20, metres: 100 });
-  assert.deepEqual(countsOf(world), { av: 1, vehicle: 1, pedestrian: 1, pothole: 1 });
+  assert.deepEqual(countTexts(world), ["1 pothole", "1 car", "1 walker"]);
   assert.match(describe(world), /8 lanes and 30 rows.*1 pothole.*lane 5, 20 rows from/);
 });
 

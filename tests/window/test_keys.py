@@ -110,20 +110,20 @@ def test_arrows_alone_say_what_to_press(window: Open) -> None:
 def test_plus_and_minus_change_the_pace(window: Open) -> None:
     driver = window()
     driver.letter("+")
-    assert driver.game.session.pace == 2.0
+    assert driver.game.session.playback_speed == 2.0
     began = tick(driver)
     driver.seconds(2.1)
     assert tick(driver) in (began + 8, began + 9)
     driver.letter("-")
     driver.letter("-")
-    assert driver.game.session.pace == 0.5
+    assert driver.game.session.playback_speed == 0.5
 
 
 @pytest.mark.parametrize(("pace", "at_least"), [(32, 60), (64, 120)])
 def test_no_pace_is_held_up_by_the_frames(window: Open, pace: int, at_least: int) -> None:
     driver = window(config=Config(seed=1, potholes=0, vehicles=0, rows=400))
     driver.say(f"set the playback speed to {pace}")
-    assert driver.game.session.pace == pace
+    assert driver.game.session.playback_speed == pace
     began = tick(driver)
     driver.seconds(1)
     assert tick(driver) - began >= at_least

@@ -90,7 +90,7 @@ def test_a_choice_is_made_by_its_number(window: Open, focused: bool) -> None:
         driver.press(pygame.K_ESCAPE)
     driver.letter("1")
     assert driver.answered().said == "make the simulation faster"
-    assert driver.game.session.pace == 2.0
+    assert driver.game.session.playback_speed == 2.0
 
 
 def test_a_digit_in_a_sentence_is_no_choice(window: Open) -> None:
@@ -276,6 +276,6 @@ def test_a_defect_is_told_and_the_window_goes_on(window: Open, monkeypatch: pyte
         raise ZeroDivisionError
 
     with monkeypatch.context() as patch:
-        patch.setattr(driver.game._listener, "do", broken)
+        patch.setattr(driver.game._listener, "execute", broken)
         assert "defect" in driver.say("add a pothole").reply
     assert driver.say("add a pothole").done

@@ -6,8 +6,7 @@ from dataclasses import asdict
 from typing import Any
 
 from sim.hazard_advice import Advice, Prospect
-from sim.hazard_advice.parameters import Quantity, parameters
-from sim.hazard_advice.samples import SEED
+from sim.hazard_advice.parameters import SEED, Quantity, parameters
 
 Json = dict[str, Any]
 

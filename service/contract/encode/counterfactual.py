@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from service.contract.encode.decision import brief_decision_json
-from service.contract.encode.state import Standing, cause_json, state_json
+from service.contract.encode.state import SessionStatus, cause_json, state_json
+from service.sessions.facts import SideBySideTexts
 from service.sessions.messages import motion_json
 from sim.explain.side_by_side import Side, SideBySide
 from sim.state import SimState, StepResult
@@ -13,18 +14,19 @@ from sim.state import SimState, StepResult
 Json = dict[str, Any]
 
 
-def beside_json(standing: Standing, found: SideBySide, most: int) -> Json:
+def beside_json(status: SessionStatus, found: SideBySide, most: int, texts: SideBySideTexts) -> Json:
     """Both runs, at most so many ticks of each."""
     return {
         "at_tick": found.tick,
         "instead_of": found.instead_of,
+        "text": texts.difference,
         "said_since": found.said_since,
-        "real": _side_json(standing, found.real, most),
-        "changed": _side_json(standing, found.changed, most),
+        "real": _side_json(status, found.real, most, texts.real_end),
+        "changed": _side_json(status, found.changed, most, texts.changed_end),
     }
 
 
-def _side_json(standing: Standing, side: Side, most: int) -> Json:
+def _side_json(status: SessionStatus, side: Side, most: int, text: str) -> Json:
     story = side.story
     end = {
         "outcome": story.outcome,
@@ -34,16 +36,17 @@ def _side_json(standing: Standing, side: Side, most: int) -> Json:
         "by_hand": story.by_hand,
         "cause": cause_json(side.ticks[-1][1].state.world) if side.ticks else None,
         "digest": story.digest,
+        "text": text,
     }
-    ticks = [_tick_json(standing, before, tick) for before, tick in side.ticks[:most]]
-    return {"state": state_json(standing, side.start), "ticks": ticks, "end": end}
+    ticks = [_tick_json(status, before, tick) for before, tick in side.ticks[:most]]
+    return {"state": state_json(status, side.start), "ticks": ticks, "end": end}
 
 
-def _tick_json(standing: Standing, before: SimState, tick: StepResult) -> Json:
+def _tick_json(status: SessionStatus, before: SimState, tick: StepResult) -> Json:
     world = tick.state.world
     told: Json = {"tick": world.tick, "episode": world.episode, "status": world.outcome}
     if world.episode != before.world.episode:
-        told["state"] = state_json(standing, tick.state)
+        told["state"] = state_json(status, tick.state)
     else:
         told |= motion_json(before.world, world)
     decision = tick.decision

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from sim.forecast import StepVerdict
 from sim.plan import Decision, Option
 
 
-def decision_json(decision: Decision, narration: str) -> dict[str, Any]:
-    """A decision with its trace: the `Decision` of the interface."""
+def decision_json(decision: Decision, narration: str, texts: Sequence[str]) -> dict[str, Any]:
+    """A decision with its trace: the `Decision` of the interface; `texts`: one for each of its options."""
     return {
         "tick": decision.tick,
         "planner": decision.planner,
         "move": decision.move,
         "asked": decision.asked,
-        "options": [option_json(option) for option in decision.options],
+        "options": options_json(decision, texts),
         "narration": narration,
         "weight": decision.weight,
     }
@@ -44,8 +45,12 @@ def brief_decision_json(decision: Decision) -> dict[str, Any]:
     }
 
 
-def option_json(option: Option) -> dict[str, Any]:
-    """One move with what spoke for or against it."""
+def options_json(decision: Decision, texts: Sequence[str]) -> list[dict[str, Any]]:
+    """Every move with what spoke for or against it."""
+    return [_option_json(option, text) for option, text in zip(decision.options, texts, strict=True)]
+
+
+def _option_json(option: Option, text: str) -> dict[str, Any]:
     return {
         "move": option.move,
         "cell": option.cell,
@@ -53,4 +58,5 @@ def option_json(option: Option) -> dict[str, Any]:
         "cost": option.cost,
         "reason": option.reason,
         "causes": option.causes,
+        "text": text,
     }

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from service import actions as contract
-from service.contract.encode.decision import option_json
+from service.contract.encode.decision import options_json
 from sim.explain import Alternatives, Cause, Counterfactual, Explanation, Future
 from sim.explain.crash import Crash, LastAvoidance
 
 Json = dict[str, Any]
 
 
-def explanation_json(explanation: Explanation) -> Json:
-    """Causes, alternatives, proofs; every `change` is a list of actions to try it with at that tick."""
+def explanation_json(explanation: Explanation, texts: Sequence[str]) -> Json:
+    """Causes, alternatives, proofs; every `change` is a list of actions to try it with at that tick.
+
+    `texts`: one for each option of the decision.
+    """
     decision, verified = explanation.decision, explanation.verified
     flips = [_flip_json(flip, decision.tick) for flip in explanation.counterfactuals]
     return {
@@ -21,7 +25,7 @@ def explanation_json(explanation: Explanation) -> Json:
         "move": decision.move,
         "foil": explanation.foil,
         "causes": [_cause_json(cause, explanation) for cause in explanation.causes],
-        "alternatives": [option_json(option) for option in decision.options],
+        "alternatives": options_json(decision, texts),
         "verified": {
             "necessary": verified.necessary,
             "sufficient": verified.sufficient,
@@ -33,9 +37,9 @@ def explanation_json(explanation: Explanation) -> Json:
     }
 
 
-def crash_json(crash: Crash) -> Json:
+def crash_json(crash: Crash, texts: Sequence[str]) -> Json:
     """The explanation of the last tick, and with its evidence what happened and what would have saved it."""
-    told = explanation_json(crash.explanation)
+    told = explanation_json(crash.explanation, texts)
     told["evidence"]["crash"] = {
         "tick": crash.end,
         "how": crash.cause.how,

@@ -14,7 +14,7 @@ Json = dict[str, Any]
 
 
 @dataclass(frozen=True, slots=True)
-class Standing:
+class SessionStatus:
     """What of a session is not in its run: who it is and how it stands."""
 
     session: str
@@ -25,12 +25,12 @@ class Standing:
     redo: int = 0
 
 
-def state_json(standing: Standing, run: SimState) -> Json:
+def state_json(status: SessionStatus, run: SimState) -> Json:
     """Everything there is to see at one tick: the `State` of the interface."""
     world, config = run.world, run.config
     things = list(world.things())
     return {
-        "session": standing.session,
+        "session": status.session,
         "tick": world.tick,
         "time_s": round(world.tick * config.step_seconds, 6),
         "episode": world.episode,
@@ -41,8 +41,8 @@ def state_json(standing: Standing, run: SimState) -> Json:
         "rows": world.road.rows,
         "visible_rows": config.visible_rows,
         "step_seconds": config.step_seconds,
-        "paused": standing.paused,
-        "playback_speed": standing.playback_speed,
+        "paused": status.paused,
+        "playback_speed": status.playback_speed,
         "mode": run.mode,
         "planner": config.planner,
         "vehicles": vehicles_json(world),
@@ -50,9 +50,9 @@ def state_json(standing: Standing, run: SimState) -> Json:
         "hazards": [_hazard_json(thing) for thing in things if thing.kind.fixed],
         "metrics": metrics_json(run.metrics),
         "digest": world.digest(),
-        "sequence": standing.sequence,
-        "undo": standing.undo,
-        "redo": standing.redo,
+        "sequence": status.sequence,
+        "undo": status.undo,
+        "redo": status.redo,
     }
 
 

@@ -1,11 +1,11 @@
-"""`ETag`, `If-Match`, `If-None-Match`: who changes a session may say what it was when last seen.
+"""`ETag`, `If-Match`, `If-None-Match`: a change may name the version of a session it was made for.
 
-A tag begins with the session's sequence. What is looked at (a GET) goes on with a digest of the answer,
-since time passes and no change is counted for that. A change asks for the sequence alone, so the tag of
-any answer about a session serves as `If-Match`.
+A tag begins with the session's sequence. The tag of a GET continues with a digest of the answer, since time
+passes without a change being counted. `If-Match` compares sequences alone, so the tag of any answer about a
+session will do.
 
-`If-Match` is looked at after all that a request must be by its form, and before anything is done (RFC 9110,
-13.2.1): a bad body is 422 whatever the tag says.
+`If-Match` is checked after the form of a request and before anything is done (RFC 9110, 13.2.1): a bad body
+is 422 whatever the tag.
 """
 
 from __future__ import annotations
@@ -19,147 +19,154 @@ from typing import Annotated, Any, ParamSpec, TypeVar
 
 from fastapi import Depends, Request, Response
 
-from service.http.conditional.idempotency import UNDER_KEY, Once
+from service.http.conditional.idempotency import keyed_request
 from service.problems import FieldProblem, Invalid
-from service.sessions.preconditions import Terms
+from service.sessions.preconditions import Preconditions
 from service.sessions.utterance import Outcome
-from service.store import KeptAnswer
+from service.store import StoredResponse
 
 _TAG = re.compile(r'(W/)?"([\x21\x23-\x7e]*)"')
 _BLANK = " \t"
-"""What HTTP calls white space: less than a text does."""
+"""White space in HTTP, which is less than in text."""
 _TAGS = re.compile(rf"[ \t]*{_TAG.pattern}([ \t]*,[ \t]*{_TAG.pattern})*[ \t]*")
-_DOCUMENTED = r'^[ \t]*(\*|(W/)?"[!#-~]*"([ \t]*,[ \t]*(W/)?"[!#-~]*")*)[ \t]*$'
-"""What may stand in `If-Match`, in words that every reader of schemas knows."""
+_SCHEMA_PATTERN = r'^[ \t]*(\*|(W/)?"[!#-~]*"([ \t]*,[ \t]*(W/)?"[!#-~]*")*)[ \t]*$'
+"""`If-Match` as a pattern that every reader of JSON schema knows."""
 _SEQUENCE = re.compile(r"([0-9]{1,15})(-[0-9a-f]+)?")
 
-OnTerms = Callable[[Callable[[Outcome], Response]], Terms]
-"""Given how an outcome is answered, the terms of a request."""
+Conditions = Callable[[Callable[[Outcome], Response]], Preconditions]
+"""Given how an outcome is answered, the preconditions under which a request changes a session."""
 
 
-def matched(request: Request) -> frozenset[int] | None:
-    """The sequences a session may stand at for this request; None for any. Raises `Invalid`."""
-    said = _listed(request, "if-match")
-    if said is None or said.strip(_BLANK) == "*":
+def if_match(request: Request) -> frozenset[int] | None:
+    """The sequences that `If-Match` allows; None for any. Raises `Invalid`."""
+    value = _list_header(request, "if-match")
+    if value is None or value.strip(_BLANK) == "*":
         return None
-    if not _TAGS.fullmatch(said):
+    if not _TAGS.fullmatch(value):
         message = 'must be the ETag of an answer about this session, such as "3", or *'
         raise Invalid(f"If-Match {message}.", errors=[FieldProblem("If-Match", message)])
     # A weak tag never matches here, and neither does one that is not ours.
-    strong = (tag for weak, tag in _TAG.findall(said) if not weak)
+    strong = (tag for weak, tag in _TAG.findall(value) if not weak)
     found = (_SEQUENCE.fullmatch(tag) for tag in strong)
     return frozenset(int(each[1]) for each in found if each)
 
 
-def _listed(request: Request, header: str) -> str | None:
-    """A header that is a list: said on several lines, it is one (RFC 9110, 5.3)."""
+def check_if_match(request: Request, sequence: int) -> None:
+    """Raises `Stale` if the session is not at a version that `If-Match` allows."""
+    Preconditions(if_match(request)).check(sequence)
+
+
+def _list_header(request: Request, header: str) -> str | None:
+    """A header that is a list: sent on several lines, it is one (RFC 9110, 5.3)."""
     lines = request.headers.getlist(header)
     return ", ".join(lines) if lines else None
 
 
-def checked(request: Request, sequence: int) -> None:
-    """Raise `Stale` where this is not the session that the request was meant for."""
-    Terms(matched(request)).check(sequence)
-
-
 Check = Callable[[Mapping[str, Any]], Awaitable[None]]
-"""Given what an endpoint is called with."""
+"""Given the arguments of an endpoint, raises a problem or does nothing."""
 
-_BEFORE: ContextVar[Check | None] = ContextVar("before", default=None)
-"""What is to be looked at between a request's form and what it asks for."""
+_CHECK: ContextVar[Check | None] = ContextVar("check", default=None)
+"""The check between the validation of a request and its endpoint."""
 
 Given = ParamSpec("Given")
 Made = TypeVar("Made")
 
 
-def before(check: Check | None) -> None:
-    """What is looked at once the request that is being handled is known to be well formed; None: nothing."""
-    _BEFORE.set(check)
+def set_check(check: Check | None) -> None:
+    """Sets what is checked once the request under way is known to be well formed."""
+    _CHECK.set(check)
 
 
-def checked_first(endpoint: Callable[Given, Awaitable[Made]]) -> Callable[Given, Awaitable[Made]]:
-    """An endpoint that is reached only if what was asked for by `before` holds."""
+def check_before_call(endpoint: Callable[Given, Awaitable[Made]]) -> Callable[Given, Awaitable[Made]]:
+    """Wraps an endpoint so that the check of `set_check` comes first."""
 
     @wraps(endpoint)
-    async def meant(*args: Given.args, **given: Given.kwargs) -> Made:
-        check = _BEFORE.get()
+    async def call(*args: Given.args, **given: Given.kwargs) -> Made:
+        check = _CHECK.get()
         if check is not None:
             await check(given)
         return await endpoint(*args, **given)
 
-    return meant
+    return call
 
 
-Told = TypeVar("Told")
+Subject = TypeVar("Subject")
 
 
-def made_once(told: Callable[[Told], Response]) -> Callable[[Told], Response]:
-    """An answer that is made the first time it is asked for: what is kept is what is sent."""
+def respond_once(respond: Callable[[Subject], Response]) -> Callable[[Subject], Response]:
+    """A response that is made the first time it is asked for: what is stored is what is sent."""
     made: list[Response] = []
 
-    def again(of: Told) -> Response:
+    def respond_again(subject: Subject) -> Response:
         if not made:
-            made.append(told(of))
+            made.append(respond(subject))
         return made[0]
 
-    return again
+    return respond_again
 
 
-def kept_answer(request: Request, told: Callable[[Told], Response]) -> Callable[[Told], KeptAnswer] | None:
-    """What is to be kept with what a request does, if it came under a key."""
-    once: Once | None = request.scope.get(UNDER_KEY)
-    return None if once is None else lambda of: once.keeping(told(of))
+def answer_to_keep(
+    request: Request, respond: Callable[[Subject], Response]
+) -> Callable[[Subject], StoredResponse] | None:
+    """What has to be stored with what a request does, if it came under an idempotency key."""
+    keyed = keyed_request(request)
+    return None if keyed is None else lambda subject: keyed.keep(respond(subject))
 
 
-async def terms_of(request: Request) -> OnTerms:
-    """The terms a request comes on. Raises `Invalid`."""
-    sequences = matched(request)
-    return lambda told: Terms(sequences, kept_answer(request, told))
+async def conditions_of(request: Request) -> Conditions:
+    """The conditions of a request. Raises `Invalid`."""
+    sequences = if_match(request)
+    return lambda respond: Preconditions(sequences, answer_to_keep(request, respond))
 
 
-TheTerms = Annotated[OnTerms, Depends(terms_of)]
+TheConditions = Annotated[Conditions, Depends(conditions_of)]
 
 
-def tagged(request: Request, response: Response, sequence: int) -> Response:
-    """An answer about a session under its own tag, or a 304 where the caller has it already."""
+def add_tag(request: Request, response: Response, sequence: int) -> Response:
+    """The response under its own tag, or a 304 if the client has it already."""
     digest = hashlib.blake2b(response.body, digest_size=8).hexdigest()
     tag = f"{sequence}-{digest}"
-    said = _listed(request, "if-none-match")
-    if said is not None and (said.strip(_BLANK) == "*" or any(tag == own for _, own in _TAG.findall(said))):
+    known = _list_header(request, "if-none-match")
+    if known is not None and (
+        known.strip(_BLANK) == "*" or any(tag == own for _, own in _TAG.findall(known))
+    ):
         return Response(status_code=304, headers={"ETag": f'"{tag}"'})
     response.headers["ETag"] = f'"{tag}"'
     return response
 
 
-def document(method: str, path: str, operation: dict[str, Any], problem: Callable[..., Any]) -> None:
-    """Tell of these headers in the documentation of a call; `problem` makes an error's documentation."""
+def document(
+    method: str, path: str, tagged: bool, operation: dict[str, Any], add_problems: Callable[..., Any]
+) -> None:
+    """Adds these headers to the documentation of a call; `tagged` is its route's policy."""
     responses = operation["responses"]
     if "201" in responses:
-        where = {"Location": _told("Where what was made is."), "ETag": _told("Its version, for `If-Match`.")}
-        responses["201"]["headers"] = where
-    if "{session_id}" not in path or path.endswith("/events/stream"):
+        location, tag = "Where what was made is.", "Its version, for `If-Match`."
+        responses["201"]["headers"] = {"Location": _answered(location), "ETag": _answered(tag)}
+    if "{session_id}" not in path or not tagged:
         if method not in ("get", "head"):
             operation["description"] += "\n\n`If-Match` is not looked at: this changes no session."
         return
     parameters = operation.setdefault("parameters", [])
     if method == "get":
-        told = "The ETag of an answer that is at hand: 304 if it still is so; anything else is ignored."
-        parameters.append(_header("If-None-Match", told, {"type": "string"}))
+        text = "The ETag of an answer that is at hand: 304 if it still is so; anything else is ignored."
+        parameters.append(_sent("If-None-Match", text, {"type": "string"}))
         responses["304"] = {"description": "As it was: the answer at hand still holds"}
     else:
-        told = "An ETag of this session, or several: done only if nothing was changed since; otherwise 412."
-        schema = {"type": "string", "pattern": _DOCUMENTED, "examples": ["*"]}
-        parameters.append(_header("If-Match", told, schema))
-        problem(operation, "stale", "invalid")
-        responses["412"]["headers"] = {"ETag": _told("Where the session stands.")}
+        text = "An ETag of this session, or several: done only if nothing was changed since; otherwise 412."
+        schema = {"type": "string", "pattern": _SCHEMA_PATTERN, "examples": ["*"]}
+        parameters.append(_sent("If-Match", text, schema))
+        add_problems(operation, "stale", "invalid")
+        responses["412"]["headers"] = {"ETag": _answered("Where the session stands.")}
     if "200" in responses:
-        responses["200"]["headers"] = {"ETag": _told("The session's version, for `If-Match`.")}
+        responses["200"]["headers"] = {"ETag": _answered("The session's version, for `If-Match`.")}
 
 
-def _header(name: str, description: str, schema: dict[str, Any]) -> dict[str, Any]:
+def _sent(name: str, description: str, schema: dict[str, Any]) -> dict[str, Any]:
+    """A header of a request."""
     return {"name": name, "in": "header", "required": False, "schema": schema, "description": description}
 
 
-def _told(description: str) -> dict[str, Any]:
-    """A header of an answer."""
+def _answered(description: str) -> dict[str, Any]:
+    """A header of a response."""
     return {"description": description, "required": True, "schema": {"type": "string", "minLength": 1}}

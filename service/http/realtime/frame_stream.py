@@ -148,7 +148,7 @@ class Reel:
             due_s = await _next_turn(due_s, max((slot.fps for slot in self._slots), default=1))
 
     def _lasts_s(self, run: SimState) -> float:
-        pace = self._session.pace
+        pace = self._session.playback_speed
         return 0.0 if pace == MAX else run.config.step_seconds / float(pace)
 
     def _drawn(self, timeline: Timeline, run: SimState, before: SimState | None, phase: float) -> bytes:

@@ -1,9 +1,9 @@
-"""`/sessions/{id}/events/stream`: the stream for those who only read, as server-sent events.
+"""`/sessions/{id}/events/stream`: the stream of a session as server-sent events (SSE), read-only.
 
-The same messages as on the socket, in the same bytes: `hello`, `tick`, `changed`, `state`, `gone`, each with
-an id. Whoever comes back says the last id it saw (`Last-Event-ID`, which browsers send by themselves) and
-is sent only what it missed, if that is still kept; otherwise `hello` again. A slow reader is treated as on
-the socket. When the service stops, the last event is `stopping`, with the code 1012 of the socket.
+The messages are those of the WebSocket, byte for byte: `hello`, `tick`, `changed`, `state`, `gone`, each with
+an id. A client that reconnects sends the last id it saw (`Last-Event-ID`, as browsers do by themselves) and
+gets what it missed, if that is still kept; otherwise `hello` again. Slow clients are treated as on the
+WebSocket. When the service stops, the last event is `stopping`, with the close code of the WebSocket, 1012.
 """
 
 from __future__ import annotations
@@ -12,53 +12,29 @@ import asyncio
 from collections.abc import AsyncIterator
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Header, Query, Response
+from fastapi import Header, Query, Response
 from fastapi.responses import StreamingResponse
-from starlette.requests import Request
 
 from service.contract.encode.json import encoded
 from service.http.deps import Here, TheSession
 from service.http.errors import documented
-from service.http.realtime.websocket import hello
-from service.http.responses import StrictRoute
+from service.http.realtime.hello import hello
+from service.http.realtime.open_streams import OpenStreams
+from service.http.route import api_router, policy
 from service.problems import Invalid, NotRestorable, UnknownSession
 from service.sessions.messages import state_message
 from service.sessions.session import Session
-from service.sessions.subscribers import Gone, Missed, Watcher, stamped
+from service.sessions.subscribers import MissedTicks, SessionDeleted, Subscriber, add_event_id
 
-KEEP_ALIVE_S = 15
-"""After so much silence a comment is sent, so that a reader that has gone is noticed."""
+HEARTBEAT_S = 15
+"""After so much silence a comment is sent, so that a client that has gone is noticed."""
 
 RETRY_MS = 1_000
-"""How long browsers are to wait before they come back."""
+"""How long browsers wait before they reconnect."""
 
 MEDIA_TYPE = "text/event-stream"
 
-router = APIRouter(tags=["watching"], route_class=StrictRoute)
-
-
-class Readers:
-    """All who read such streams now, to be let go when the service stops."""
-
-    def __init__(self) -> None:
-        self.stopping = False
-        self._watchers: set[Watcher] = set()
-
-    def add(self, watcher: Watcher) -> None:
-        """One more."""
-        self._watchers.add(watcher)
-        if self.stopping:
-            watcher.end()
-
-    def remove(self, watcher: Watcher) -> None:
-        """It has gone."""
-        self._watchers.discard(watcher)
-
-    def stop(self) -> None:
-        """End all streams: a server that stops waits for what is being answered."""
-        self.stopping = True
-        for watcher in self._watchers:
-            watcher.end()
+router = api_router("watching")
 
 
 _DOCUMENTED: dict[int | str, dict[str, Any]] = {
@@ -75,10 +51,10 @@ _DOCUMENTED: dict[int | str, dict[str, Any]] = {
     summary="Watch, by server-sent events",
     responses=_DOCUMENTED | documented(UnknownSession, Invalid, NotRestorable),
 )
-async def events_stream(
+@policy(entity_tag=False)
+async def stream_events(
     session: TheSession,
     here: Here,
-    request: Request,
     last_event_id: Annotated[
         str | None, Header(max_length=100, description="The id of the last event that was seen.")
     ] = None,
@@ -91,45 +67,47 @@ async def events_stream(
     Each event is one JSON object, as on the socket. The last is `gone` (the session was deleted) or
     `stopping` (the service stops: come back later).
     """
-    readers: Readers = request.app.state.readers
+    streams = here.event_streams
 
-    async def told() -> AsyncIterator[bytes]:
-        # Joined here, so that nobody is left behind of whom nothing was ever read.
-        missed = session.watchers.missed(last_event_id or after or "")
-        watcher = session.watchers.join(missed or ())
-        first = _event(hello(here, session), session.watchers.event) if missed is None else b""
-        readers.add(watcher)
+    async def body() -> AsyncIterator[bytes]:
+        # Joins when the body is first read: a response that is never read leaves no reader behind.
+        missed = session.subscribers.messages_since(last_event_id or after or "")
+        subscriber = session.subscribers.subscribe(missed or ())
+        first = _event(hello(here, session), session.subscribers.last_event_id) if missed is None else b""
+        streams.add(subscriber)
         try:
             yield b"retry: %d\n\n" % RETRY_MS + first
-            async for part in _told(session, watcher, readers):
+            async for part in _read_events(session, subscriber, streams):
                 yield part
         finally:
-            readers.remove(watcher)
-            session.watchers.leave(watcher)
+            streams.remove(subscriber)
+            session.subscribers.unsubscribe(subscriber)
 
     headers = {"Cache-Control": "no-store", "X-Accel-Buffering": "no"}
-    return StreamingResponse(told(), media_type=MEDIA_TYPE, headers=headers)
+    return StreamingResponse(body(), media_type=MEDIA_TYPE, headers=headers)
 
 
-async def _told(session: Session, watcher: Watcher, readers: Readers) -> AsyncIterator[bytes]:
-    """What is published, at the pace of whoever reads."""
+async def _read_events(
+    session: Session, subscriber: Subscriber, streams: OpenStreams
+) -> AsyncIterator[bytes]:
+    """What is published, at the pace of the client."""
     while True:
         try:
-            heard = await asyncio.wait_for(watcher.next(), KEEP_ALIVE_S)
+            heard = await asyncio.wait_for(subscriber.next(), HEARTBEAT_S)
         except TimeoutError:
             yield b": still here\n\n"
             continue
         match heard:
-            case Gone():
-                last = {"type": "stopping", "code": 1012} if readers.stopping else {"type": "gone"}
+            case SessionDeleted():
+                last = {"type": "stopping", "code": 1012} if streams.stopping else {"type": "gone"}
                 yield _event(encoded(last), None)
                 return
-            case Missed():
-                event = session.watchers.event
-                yield _event(stamped(state_message(session.standing, session.run, heard), event), event)
+            case MissedTicks():
+                event = session.subscribers.last_event_id
+                yield _event(add_event_id(state_message(session.state_body(), heard), event), event)
             case notices:
                 # In one piece: fewer turns of the loop for a reader that keeps up.
-                events = session.watchers.event_of
+                events = session.subscribers.event_id
                 yield b"".join(_event(notice.data, events(notice.number)) for notice in notices)
 
 

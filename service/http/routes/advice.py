@@ -4,26 +4,29 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from fastapi import APIRouter, Body, Response
+from fastapi import Body, Response
 
 from service.actions import Advise
 from service.contract import advice as schemas_advice
 from service.contract import requests as bodies
 from service.contract.encode.advice import advice_json
 from service.http import examples
-from service.http.deps import JSON_ONLY, Context, Here
-from service.http.errors import documented, invalid
-from service.http.responses import StrictRoute, json_response
+from service.http.content_type import JSON_ONLY
+from service.http.deps import Context, Here
+from service.http.errors import documented
+from service.http.responses import json_response
+from service.http.route import api_router, policy
+from service.http.validation import invalid
 from service.interpreter.interpreter import Source
 from service.problems import (
     Ambiguous,
+    ContentTooLarge,
     FieldProblem,
     Invalid,
     Malformed,
     NotAQuestion,
-    NotJson,
     NotUnderstood,
-    TooLarge,
+    UnsupportedMediaType,
 )
 from service.refusals import refusals
 from service.sessions.facts import Advised
@@ -31,7 +34,7 @@ from sim.actions import PlaceableKind
 from sim.hazard_advice import NoAdviceError, advise
 from sim.types import Kind
 
-router = APIRouter(tags=["talking"], route_class=StrictRoute)
+router = api_router("talking")
 
 _FIGURES = ("hazard", "distance_m", "speed_kmh")
 
@@ -41,34 +44,39 @@ _FIGURES = ("hazard", "distance_m", "speed_kmh")
     response_model=schemas_advice.Advice,
     summary="Ask what to do about a hazard",
     dependencies=[JSON_ONLY],
-    responses=documented(Malformed, Ambiguous, TooLarge, NotJson, Invalid, NotUnderstood, NotAQuestion),
+    responses=documented(
+        Malformed, Ambiguous, ContentTooLarge, UnsupportedMediaType, Invalid, NotUnderstood, NotAQuestion
+    ),
 )
-async def advice(
+@policy(idempotency_key=False)
+async def ask_advice(
     body: Annotated[bodies.AdviceQuestion, Body(openapi_examples=examples.ADVICE)], here: Here
 ) -> Response:
     """Brake, steer or keep on, with the chance of each and where every number is from.
 
     The hazard is straight ahead and stays where it is. The same question has the same answer.
     """
-    hazard, distance_m, speed_kmh, source = await _asked(body, here)
+    hazard, distance_m, speed_kmh, source = await _read_question(body, here)
     try:
         found = advise(Kind(hazard), distance_m, speed_kmh, body.weather or "clear")
     except NoAdviceError as error:
         field = error.field if body.text is None else "text"
         sentence = refusals(body.language).advice(error)
         raise Invalid(sentence, errors=[FieldProblem(field, sentence)]) from error
-    told = here.words.in_language(body.language).answer(Advised(found))
-    said = {"question": told["question"], "text": told["text"], "source": source}
-    return json_response(said | advice_json(found))
+    answer = here.narrator.in_language(body.language).answer(Advised(found))
+    text = {"question": answer["question"], "text": answer["text"], "source": source}
+    return json_response(text | advice_json(found))
 
 
-async def _asked(body: bodies.AdviceQuestion, here: Context) -> tuple[PlaceableKind, float, float, Source]:
-    """What is asked about. Raises a problem where it is said twice, in part, or not at all."""
+async def _read_question(
+    body: bodies.AdviceQuestion, here: Context
+) -> tuple[PlaceableKind, float, float, Source]:
+    """Hazard, distance, speed and where they are from. Raises a problem if one is missing or sent twice."""
     if body.text is not None:
         twice = [name for name in _FIGURES if getattr(body, name) is not None]
         if twice:
             raise invalid(FieldProblem(name, "is said in the text already") for name in twice)
-        heard = await here.listener.hear(body.text, code=body.language)
+        heard = await here.interpreter.interpret(body.text, code=body.language)
         match heard.actions:
             case (Advise() as asked,):
                 return asked.hazard, asked.distance_m, asked.speed_kmh, heard.source

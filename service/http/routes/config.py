@@ -11,30 +11,33 @@ from collections.abc import Mapping
 from dataclasses import asdict, fields
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Body, Depends, Response
+from fastapi import Body, Depends, Response
 from pydantic import WithJsonSchema
 from starlette.requests import HTTPConnection
 
 from service.contract import answers as schemas
 from service.http import examples
-from service.http.conditional.etag import TheTerms, made_once
+from service.http.conditional.etag import TheConditions, respond_once
 from service.http.config_schema import CONFIG_SCHEMA
-from service.http.deps import Here, TheSession, json_only
-from service.http.errors import documented, invalid
-from service.http.responses import StrictRoute, etag, json_response
-from service.http.suggestions import meant
+from service.http.content_type import require_json
+from service.http.deps import Here, TheSession
+from service.http.errors import documented
+from service.http.responses import etag, json_response
+from service.http.route import api_router
+from service.http.suggestions import suggest
+from service.http.validation import invalid
 from service.problems import (
+    ContentTooLarge,
     DoesNotFit,
     FieldProblem,
     Invalid,
     Malformed,
     NotAvailable,
-    NotJson,
     NotRestorable,
     NotSaved,
     ProblemError,
-    TooLarge,
     UnknownSession,
+    UnsupportedMediaType,
 )
 from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE
@@ -62,25 +65,25 @@ _SCHEMA = {
 }
 Patch = Annotated[dict[str, Any], WithJsonSchema(_SCHEMA)]
 
-router = APIRouter(tags=["sessions"], route_class=StrictRoute)
+router = api_router("sessions")
 
 
-async def _patch_only(connection: HTTPConnection) -> None:
+async def _require_patch(connection: HTTPConnection) -> None:
     said = connection.headers.get("content-type", "")
     if said.partition(";")[0].strip().lower() != MERGE_PATCH:
-        await json_only(connection)
+        await require_json(connection)
 
 
 @router.patch(
     "/sessions/{session_id}/config",
     response_model=schemas.ConfigChanged,
     summary="Change settings",
-    dependencies=[Depends(_patch_only)],
+    dependencies=[Depends(_require_patch)],
     responses=documented(
         Malformed,
         UnknownSession,
-        TooLarge,
-        NotJson,
+        ContentTooLarge,
+        UnsupportedMediaType,
         Invalid,
         DoesNotFit,
         NotAvailable,
@@ -88,11 +91,11 @@ async def _patch_only(connection: HTTPConnection) -> None:
         NotSaved,
     ),
 )
-async def patch(
+async def patch_config(
     body: Annotated[Patch, Body(openapi_examples=examples.CONFIG_PATCH)],
     session: TheSession,
     here: Here,
-    terms: TheTerms,
+    conditions: TheConditions,
 ) -> Response:
     """All or nothing, and one undo takes the whole back; `null` asks for the default.
 
@@ -100,18 +103,21 @@ async def patch(
     """
     actions = actions_for(session.run.config, body, here.settings.max_road_cells, session.language)
 
-    @made_once
-    def told(outcome: Outcome) -> Response:
-        return _told(outcome.changes, outcome.reply, outcome.sequence)
+    @respond_once
+    def respond(outcome: Outcome) -> Response:
+        return _changes_response(outcome.changes, outcome.reply, outcome.sequence)
 
     if not actions:
-        sequences = terms(told).sequences
-        if sequences is not None:
-            terms(told).check(session.sequence)
-        return _told((), refusals(session.language).session("as_it_is"), session.sequence)
+        preconditions = conditions(respond)
+        if preconditions.sequences is not None:
+            preconditions.check(session.sequence)
+        return _changes_response((), refusals(session.language).session("as_it_is"), session.sequence)
     try:
         done = tuple(action for _, action in actions)
-        return told(await here.listener.do(session, Utterance(actions=done), terms=terms(told)))
+        preconditions = conditions(respond)
+        return respond(
+            await here.interpreter.execute(session, Utterance(actions=done), preconditions=preconditions)
+        )
     except Invalid as problem:
         raise _of_fields(problem, [name for name, _ in actions]) from problem
 
@@ -161,7 +167,7 @@ def _same(now: Any, value: Any) -> bool:
 def _unchangeable(name: str, value: Any, wanted: Mapping[str, Any]) -> str | None:
     """Why a field cannot be made so while the road runs; None if it can, as far as is known here."""
     if name not in _FIELDS:
-        return f"is not a setting of a road{meant(name, _FIELDS)}"
+        return f"is not a setting of a road{suggest(name, _FIELDS)}"
     if name == "preferences":
         if not isinstance(value, list | tuple) or not all(isinstance(each, str) for each in value):
             return f"must be a list of any of {', '.join(LISTS[name])}, each once"
@@ -192,5 +198,5 @@ def _of_fields(problem: Invalid, names: list[str]) -> ProblemError:
     return type(problem)(problem.detail, errors=told)
 
 
-def _told(changes: Any, reply: str, sequence: int) -> Response:
+def _changes_response(changes: Any, reply: str, sequence: int) -> Response:
     return json_response({"changes": changes, "reply": reply, "sequence": sequence}, headers=etag(sequence))

@@ -8,31 +8,34 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from fastapi import APIRouter, Body, Response
+from fastapi import Body, Response
 from pydantic import Field
 
 from service.actions import Action
 from service.contract.counterfactual import Counterfactual
 from service.contract.encode.counterfactual import beside_json
 from service.contract.requests import MAX_ACTIONS, Sent, Strictly, Tick
-from service.http.deps import JSON_ONLY, TheSession
-from service.http.errors import documented, invalid
-from service.http.responses import StrictRoute, etag, json_response
+from service.http.content_type import JSON_ONLY
+from service.http.deps import TheSession
+from service.http.errors import documented
+from service.http.responses import etag, json_response
+from service.http.route import api_router
+from service.http.validation import invalid
 from service.problems import (
+    ContentTooLarge,
     DoesNotFit,
     FieldProblem,
     Invalid,
     Malformed,
     NotAvailable,
-    NotJson,
     NotRestorable,
-    TooLarge,
     UnknownSession,
+    UnsupportedMediaType,
 )
 from service.refusals import refusals
-from service.sessions.availability import refusal
-from service.sessions.scheduler.offload import QUESTION_S, asks_others, off_loop
-from service.sessions.scheduler.playback_speed import sets_pace
+from service.sessions.availability import refusal_of
+from service.sessions.scheduler.offload import QUESTION_S, run_in_thread, uses_external_planner
+from service.sessions.scheduler.playback_speed import sets_playback_speed
 from sim.actions import (
     Add,
     Adjust,
@@ -51,7 +54,7 @@ from sim.explain.side_by_side import compare_change, compare_move
 from sim.session.errors import EditError
 from sim.types import Move
 
-router = APIRouter(tags=["time"], route_class=StrictRoute)
+router = api_router("time")
 
 MAX_TICKS = 500
 """Ticks of each run that are told at most; how it ends is told of the whole."""
@@ -88,10 +91,17 @@ class Otherwise(Sent):
     summary="Watch what would have been",
     dependencies=[JSON_ONLY],
     responses=documented(
-        Malformed, UnknownSession, TooLarge, NotJson, Invalid, DoesNotFit, NotAvailable, NotRestorable
+        Malformed,
+        UnknownSession,
+        ContentTooLarge,
+        UnsupportedMediaType,
+        Invalid,
+        DoesNotFit,
+        NotAvailable,
+        NotRestorable,
     ),
 )
-async def counterfactual(
+async def run_counterfactual(
     body: Annotated[Otherwise, Body(openapi_examples=_EXAMPLES)], session: TheSession
 ) -> Response:
     """Both runs from that tick on: where they begin, tick by tick what moved, and how each ends.
@@ -100,22 +110,22 @@ async def counterfactual(
     """
     if (body.move is None) == (body.actions is None):
         raise invalid([FieldProblem("move", "say either a move or actions")])
-    timeline, standing = session.timeline.copy(), session.standing
+    timeline, status = session.timeline.copy(), session.status
     if body.at_tick is not None:
         tick = body.at_tick
     else:
         tick = timeline.tick if body.actions else max(0, timeline.tick - 1)
-    actions = _possible(body.actions or [], session.language)
+    actions = _world_actions(body.actions or [], session.language)
 
-    def found() -> dict[str, Any]:
+    def compare() -> dict[str, Any]:
         if body.move is not None:
-            told = compare_move(timeline, tick, Move(body.move))
+            compared = compare_move(timeline, tick, Move(body.move))
         else:
-            told = compare_change(timeline, tick, actions)
-        return beside_json(standing, told, body.ticks)
+            compared = compare_change(timeline, tick, actions)
+        return beside_json(status, compared, body.ticks, session.narrator.side_by_side(compared))
 
     try:
-        value = await off_loop(asks_others(timeline), QUESTION_S, found)
+        value = await run_in_thread(uses_external_planner(timeline), QUESTION_S, compare)
     except QuestionError as error:
         field = "move" if error.code in ("off_road", "same_move") else "at_tick"
         sentence = refusals(session.language).beside(error.code, error.facts)
@@ -124,17 +134,17 @@ async def counterfactual(
         kind = NotAvailable if error.category == "not-available" else DoesNotFit
         sentence = refusals(session.language).edit(error)
         raise kind(sentence, errors=[FieldProblem(f"actions.{error.field}", sentence)]) from error
-    return json_response(value, headers=etag(standing.sequence))
+    return json_response(value, headers=etag(status.sequence))
 
 
-def _possible(actions: list[Action], language: str) -> list[WorldAction]:
-    """Those, where all of them change the road. Raises `NotAvailable` or `Invalid`."""
+def _world_actions(actions: list[Action], language: str) -> list[WorldAction]:
+    """The actions, if all of them change the road. Raises `NotAvailable` or `Invalid`."""
     changing: list[WorldAction] = []
     for position, action in enumerate(actions):
-        sentence = refusal(action, language)
+        sentence = refusal_of(action, language)
         if sentence is not None:
             raise NotAvailable(sentence, errors=[FieldProblem(f"actions.{position}", sentence)])
-        if not isinstance(action, _WORLD_ACTIONS) or sets_pace(action):
+        if not isinstance(action, _WORLD_ACTIONS) or sets_playback_speed(action):
             raise invalid([FieldProblem(f"actions.{position}", "changes nothing on the road")])
         changing.append(action)
     return changing

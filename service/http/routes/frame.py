@@ -9,17 +9,18 @@ from __future__ import annotations
 from typing import Annotated, Any, Literal
 
 from anyio import to_thread
-from fastapi import APIRouter, Query, Response
+from fastapi import Query, Response
 
 from service.http.deps import Here, TheSession
 from service.http.errors import documented
-from service.http.responses import StrictRoute, etag
+from service.http.responses import etag
+from service.http.route import api_router
 from service.problems import Invalid, NotRestorable, UnknownSession
 from sim.plan import Decision
 from sim.render import encode, render
 from sim.state import SimState
 
-router = APIRouter(tags=["watching"], route_class=StrictRoute)
+router = api_router("watching")
 
 View = Literal["road", "schematic"]
 Format = Literal["png", "jpeg", "webp"]
@@ -41,7 +42,7 @@ _PICTURE: dict[int | str, dict[str, Any]] = {
     summary="One picture",
     responses=_PICTURE | documented(UnknownSession, Invalid, NotRestorable),
 )
-async def frame(
+async def read_frame(
     session: TheSession,
     here: Here,
     view: Annotated[View, Query(description="The road as one sees it, or its plan.")] = "road",
@@ -49,11 +50,11 @@ async def frame(
 ) -> Response:
     """The road as it is now, with the move that led here."""
     run, latest = session.run, session.latest_decision()
-    data = await to_thread.run_sync(_drawn, run, latest, view, form, limiter=here.drawing)
+    data = await to_thread.run_sync(_draw, run, latest, view, form, limiter=here.drawing)
     headers = {"Cache-Control": "no-store", **etag(session.sequence)}
     return Response(data, headers=headers, media_type=f"image/{form}")
 
 
-def _drawn(run: SimState, latest: tuple[Decision, SimState] | None, view: View, form: Format) -> bytes:
+def _draw(run: SimState, latest: tuple[Decision, SimState] | None, view: View, form: Format) -> bytes:
     decision, before = latest or (None, None)
     return encode(render(view, run, decision=decision, before=before.world if before else None), form)

@@ -5,19 +5,20 @@ from __future__ import annotations
 from typing import Annotated, Any
 
 from anyio import to_thread
-from fastapi import APIRouter, Query, Response
+from fastapi import Query, Response
 
 from service import actions as contract
 from service.contract import answers as schemas
 from service.http.deps import Here
 from service.http.errors import documented
-from service.http.responses import StrictRoute, json_response
+from service.http.responses import json_response
+from service.http.route import api_router
 from service.interpreter.guide import Intent
 from service.interpreter.interpreter import language_of
 from service.interpreter.preview import Preview
 from service.problems import Invalid, NotRestorable, UnknownSession
 
-router = APIRouter(tags=["talking"], route_class=StrictRoute)
+router = api_router("talking")
 
 
 @router.get(
@@ -26,7 +27,7 @@ router = APIRouter(tags=["talking"], route_class=StrictRoute)
     summary="What can be said",
     responses=documented(UnknownSession, Invalid, NotRestorable),
 )
-async def language(
+async def read_language(
     here: Here,
     prefix: Annotated[
         str | None,
@@ -44,12 +45,12 @@ async def language(
 
     With a `session` as well: what the prefix would do there if it were sent as it stands.
     """
-    listener = here.listener
+    interpreter = here.interpreter
     live = None if session is None else await here.manager.get(session)
     language = language or language_of(live)
-    guide = listener.languages.guide(language)
-    taught = listener.phrasebook.listed(language)
-    told: dict[str, Any] = {"language": language, "languages": listener.languages.codes, "prefix": prefix}
+    guide = interpreter.languages.guide(language)
+    taught = interpreter.aliases.list(language)
+    told: dict[str, Any] = {"language": language, "languages": interpreter.languages.codes, "prefix": prefix}
     if prefix is None:
         intents = () if guide is None else await to_thread.run_sync(lambda: guide.intents)
         told["intents"] = [_intent_json(intent) for intent in intents]
@@ -57,17 +58,17 @@ async def language(
             {
                 "phrase": each.phrase,
                 "meaning": each.meaning,
-                "sentence": listener.phrasebook.told(contract.load(each.meaning), language),
+                "sentence": interpreter.aliases.describe(contract.load(each.meaning), language),
             }
             for each in taught
         ]
         told["completions"], told["preview"] = [], None
     else:
-        topic = listener.topic(live, language)
+        topic = interpreter.topic(live, language)
         told["intents"], told["taught"] = [], []
         phrases = [each.phrase for each in taught]
-        told["completions"] = [] if guide is None else await guide.completed(prefix, live, topic, phrases)
-        found = None if live is None else await listener.foresee(prefix, live, language)
+        told["completions"] = [] if guide is None else await guide.completions(prefix, live, topic, phrases)
+        found = None if live is None else await interpreter.preview(prefix, live, language)
         told["preview"] = _preview_json(found)
     return json_response(told)
 

@@ -13,21 +13,25 @@ from dataclasses import asdict, dataclass
 from typing import Annotated
 
 from anyio import to_thread
-from fastapi import APIRouter, Query, Response
+from fastapi import Query, Response
 from pydantic import ValidationError
 
 from service.contract import answers as schemas
 from service.contract import requests as bodies
 from service.contract.encode.json import encoded
 from service.http.deps import TheSession
-from service.http.errors import documented, invalid
-from service.http.responses import StrictRoute, etag, json_response
+from service.http.errors import documented
+from service.http.pagination import MAX_INTEGER
+from service.http.responses import etag, json_response
+from service.http.route import api_router
+from service.http.ticks import check_tick
+from service.http.validation import invalid
 from service.problems import FieldProblem, Invalid, NotRestorable, UnknownSession
-from service.sessions.fork import way_to, written_out
+from service.sessions.fork import flatten_log, timeline_until
 from service.sessions.persistence.recording import FORMAT, VERSION, recorded_language
 from sim.session.timeline import Timeline
 
-router = APIRouter(tags=["time"], route_class=StrictRoute)
+router = api_router("time")
 
 MOST_CARRIED = 2_000
 """Characters of a link that carries its session; a longer one names it."""
@@ -52,9 +56,9 @@ class Named:
     summary="A link to a tick",
     responses=documented(UnknownSession, Invalid, NotRestorable),
 )
-async def link(
+async def read_link(
     session: TheSession,
-    tick: Annotated[int | None, Query(ge=0, le=2**53 - 1, description="Default: now.")] = None,
+    tick: Annotated[int | None, Query(ge=0, le=MAX_INTEGER, description="Default: now.")] = None,
 ) -> Response:
     """Append it to the page's address, or send it as `link` to `POST /sessions`.
 
@@ -62,15 +66,14 @@ async def link(
     """
     timeline = session.timeline.copy()
     at = timeline.tick if tick is None else tick
-    if at > timeline.tick:
-        raise invalid([FieldProblem("tick", f"has not come yet: it is tick {timeline.tick}")])
-    carried = await to_thread.run_sync(_carried, timeline, at, session.language)
+    check_tick(at, timeline.tick)
+    carried = await to_thread.run_sync(_carry, timeline, at, session.language)
     fits = len(carried) <= MOST_CARRIED
-    told = carried if fits else f"{_NAMES}{session.id}/{at}"
-    return json_response({"link": told, "tick": at, "carries": fits}, headers=etag(session.sequence))
+    text = carried if fits else f"{_NAMES}{session.id}/{at}"
+    return json_response({"link": text, "tick": at, "carries": fits}, headers=etag(session.sequence))
 
 
-def opened(said: str, most_bytes: int) -> bodies.Recording | Named:
+def open_link(said: str, most_bytes: int) -> bodies.Recording | Named:
     """What a link carries or names; a whole address will do. Raises `Invalid`."""
     start = said.find("#")
     fragment = said[start:] if start >= 0 else said
@@ -82,11 +85,11 @@ def opened(said: str, most_bytes: int) -> bodies.Recording | Named:
     return Named(named["session"], None if named["tick"] is None else int(named["tick"]))
 
 
-def _carried(timeline: Timeline, tick: int, language: str) -> str:
-    way = way_to(timeline, tick)
+def _carry(timeline: Timeline, tick: int, language: str) -> str:
+    way = timeline_until(timeline, tick)
     entries = [
         {"sequence": each.sequence, "tick": each.tick, "text": None, "actions": each.actions}
-        for each in written_out(way)
+        for each in flatten_log(way)
     ]
     recording = {
         "format": FORMAT,

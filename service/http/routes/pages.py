@@ -1,13 +1,11 @@
-"""The page at `/` with its files, and the interactive documentation at `/docs`: all local, no CDN.
+"""The page at `/` and its static files; open to all. `service.http.static` reads and compresses them.
 
-Only files of the page's own kinds are answered, by their address inside its folder: everything else is
-a plain 404 problem, and no path leads out.
+Only files of the page's own kinds are served, by their path inside its folder: no path leads out.
 """
 
 from __future__ import annotations
 
 import mimetypes
-from importlib.resources import files
 from pathlib import Path
 
 from fastapi import FastAPI
@@ -15,66 +13,55 @@ from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import Response
 
-from service.http.static import ServedFile, ServedPage
+from service.http.page_texts import StaticTexts, page_languages
+from service.http.static import StaticFile, StaticPage
 from service.resources import web_folder
 
-_DOCS = Path(__file__).parents[1] / "docs"
-_WEB_KINDS = (".css", ".js", ".svg")
-_DOCS_POLICY = {
-    # Swagger UI draws its icons from data: URLs; it needs no other exception.
-    "Content-Security-Policy": (
-        "default-src 'self'; img-src 'self' data:; base-uri 'none'; frame-ancestors 'none'; object-src 'none'"
-    )
-}
+_KINDS = (".css", ".js", ".svg")
 
 
 def install(app: FastAPI) -> None:
-    """Serve the page and the documentation."""
+    """Adds the routes of the page and its files."""
     # Some systems' tables call modules text/plain, which browsers then refuse to run.
     mimetypes.add_type("text/javascript", ".js")
-    _install_docs(app)
     web = web_folder()
-    _serve(app, "/", ServedPage(web / "index.html"))
+    add_file(app, "/", StaticPage(web / "index.html"))
+    for code in page_languages():
+        add_file(app, f"/texts/{code}.json", StaticTexts(code))
     for path in sorted(web.iterdir()):
         if not path.resolve().is_relative_to(web.resolve()):
             continue  # a link that leads out
         if path.is_dir():
-            _serve_folder(app, path)
-        elif path.suffix in _WEB_KINDS:
-            _serve(app, f"/{path.name}", ServedFile(path))
+            _add_folder(app, path)
+        elif path.suffix in _KINDS:
+            add_file(app, f"/{path.name}", StaticFile(path))
 
 
-def _install_docs(app: FastAPI) -> None:
-    _serve(app, "/docs", ServedFile(_DOCS / "index.html", _DOCS_POLICY))
-    _serve(app, "/docs/start.js", ServedFile(_DOCS / "start.js"))
-    assets = Path(str(files("fastapi_offline"))) / "static"
-    for name in ("swagger-ui.css", "swagger-ui-bundle.js"):
-        _serve(app, f"/docs/{name}", ServedFile(assets / name))
+def add_file(app: FastAPI, path: str, file: StaticFile) -> None:
+    """Adds a route that serves one file."""
 
-
-def _serve(app: FastAPI, path: str, file: ServedFile) -> None:
     async def serve(request: Request) -> Response:
-        return file.answer(request.headers)
+        return file.respond(request.headers)
 
     app.add_route(path, serve, methods=["GET"], include_in_schema=False)
 
 
-def _serve_folder(app: FastAPI, folder: Path) -> None:
-    served: dict[str, ServedFile] = {}
+def _add_folder(app: FastAPI, folder: Path) -> None:
+    files: dict[str, StaticFile] = {}
 
     async def serve(request: Request) -> Response:
         path: str = request.path_params["path"]
-        if path not in served:
-            served[path] = ServedFile(_inside(folder, path))
-        return served[path].answer(request.headers)
+        if path not in files:
+            files[path] = StaticFile(_find_inside(folder, path))
+        return files[path].respond(request.headers)
 
     app.add_route(f"/{folder.name}/{{path:path}}", serve, methods=["GET"], include_in_schema=False)
 
 
-def _inside(folder: Path, path: str) -> Path:
+def _find_inside(folder: Path, path: str) -> Path:
     try:
         file = (folder / path).resolve()
-        if file.is_relative_to(folder.resolve()) and file.suffix in _WEB_KINDS and file.is_file():
+        if file.is_relative_to(folder.resolve()) and file.suffix in _KINDS and file.is_file():
             return file
     except (OSError, ValueError):
         pass  # longer than a name can be, or with a NUL in it

@@ -4,19 +4,28 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from fastapi import APIRouter, Body, Response
+from fastapi import Body, Response
 
 from service import actions as contract
 from service.contract import answers as schemas
 from service.contract import requests as bodies
 from service.http import examples
-from service.http.deps import JSON_ONLY, Here
+from service.http.content_type import JSON_ONLY
+from service.http.deps import Here
 from service.http.errors import documented
 from service.http.outcome_json import corrections_json
-from service.http.responses import StrictRoute, json_response
-from service.problems import Ambiguous, Invalid, Malformed, NotJson, NotUnderstood, TooLarge
+from service.http.responses import json_response
+from service.http.route import api_router, policy
+from service.problems import (
+    Ambiguous,
+    ContentTooLarge,
+    Invalid,
+    Malformed,
+    NotUnderstood,
+    UnsupportedMediaType,
+)
 
-router = APIRouter(tags=["talking"], route_class=StrictRoute)
+router = api_router("talking")
 
 
 @router.post(
@@ -24,11 +33,14 @@ router = APIRouter(tags=["talking"], route_class=StrictRoute)
     response_model=schemas.Parsed,
     summary="Understand a sentence",
     dependencies=[JSON_ONLY],
-    responses=documented(Malformed, Ambiguous, TooLarge, NotJson, Invalid, NotUnderstood),
+    responses=documented(Malformed, Ambiguous, ContentTooLarge, UnsupportedMediaType, Invalid, NotUnderstood),
 )
-async def parse(body: Annotated[bodies.Text, Body(openapi_examples=examples.TEXT)], here: Here) -> Response:
+@policy(idempotency_key=False)
+async def parse_text(
+    body: Annotated[bodies.Text, Body(openapi_examples=examples.TEXT)], here: Here
+) -> Response:
     """The actions a sentence means, whether or not this version does them."""
-    heard = await here.listener.hear(body.text, code=body.language)
+    heard = await here.interpreter.interpret(body.text, code=body.language)
     return json_response(
         {
             "text": heard.text,

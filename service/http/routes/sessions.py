@@ -1,126 +1,21 @@
-"""`/sessions`: make, list, look at, end."""
+"""`/sessions`: list, read, delete. `create_session` makes them."""
 
 from __future__ import annotations
 
-import secrets
-from typing import Annotated, Any
+from fastapi import Request, Response
 
-from fastapi import APIRouter, Body, Query, Request, Response
-
-from service import actions as contract
 from service.contract import answers as schemas
-from service.contract import requests as bodies
-from service.http import examples
-from service.http.conditional.etag import kept_answer, made_once, matched
-from service.http.deps import JSON_ONLY, Context, Here, TheSession
-from service.http.errors import documented, invalid
-from service.http.responses import StrictRoute, etag, json_response
-from service.http.routes.links import Named, opened
-from service.http.session_json import links_json, session_json, summary_json
-from service.problems import (
-    Ambiguous,
-    DoesNotFit,
-    FieldProblem,
-    Invalid,
-    Malformed,
-    NotAvailable,
-    NotJson,
-    NotRestorable,
-    NotSaved,
-    NotUnderstood,
-    RecordingMismatch,
-    TooLarge,
-    TooManySessions,
-    UnknownSession,
-)
-from service.refusals import refusals
-from service.resources import DEFAULT_LANGUAGE
-from service.sessions.manager import Recorded
-from service.sessions.preconditions import Terms
-from service.sessions.session import Session
-from service.settings import Settings
-from service.store import EntryRecord
-from sim.actions import Scenario
-from sim.config import Config, ConfigError
-from sim.generation import GenerationError
-from sim.rules.versions import NewerRulesError
-from sim.session.saved_config import new_config, saved_config
-from sim.session.scenario import config_of_scenario, find_unavailable
+from service.http.conditional.etag import if_match
+from service.http.deps import Here, TheSession
+from service.http.errors import documented
+from service.http.pagination import After, Limit, cursor, page_json
+from service.http.responses import etag, json_response
+from service.http.route import api_router
+from service.http.session_json import session_json, summary_json
+from service.problems import Invalid, NotRestorable, NotSaved, UnknownSession
+from service.sessions.preconditions import Preconditions
 
-router = APIRouter(tags=["sessions"], route_class=StrictRoute)
-
-
-@router.post(
-    "/sessions",
-    status_code=201,
-    response_model=schemas.Session,
-    summary="Make a session",
-    dependencies=[JSON_ONLY],
-    responses=documented(
-        Malformed,
-        Ambiguous,
-        TooLarge,
-        NotJson,
-        Invalid,
-        DoesNotFit,
-        NotAvailable,
-        NotUnderstood,
-        RecordingMismatch,
-        UnknownSession,
-        TooManySessions,
-        NotSaved,
-        NotRestorable,
-    ),
-)
-async def make(
-    body: Annotated[bodies.NewSession, Body(openapi_examples=examples.NEW_SESSION)],
-    here: Here,
-    request: Request,
-) -> Response:
-    """A new road with a vehicle on it, running unless `paused`.
-
-    `scenario` is a sentence; `config` any part of the configuration. With `recording` a session is
-    replayed to the digest it names; a `link` opens what it carries, or forks the session it names.
-    """
-
-    @made_once
-    def told(session: Session) -> Response:
-        headers = {"Location": links_json(session.id)["self"], **etag(session.sequence)}
-        sentence = here.listener.sentence(session.run.config, session.language)
-        return json_response(session_json(session, sentence), 201, headers)
-
-    answer = kept_answer(request, told)
-    recording, named = _linked(here.settings, body)
-    language = body.language or (recording and recording.language) or DEFAULT_LANGUAGE
-    here.listener.languages.check(language)
-    if named is not None:
-        paused = body.paused is not False
-        parent = await here.manager.get(named.session)
-        session = await here.manager.fork(
-            parent, named.tick, name=body.name, paused=paused, answer=answer, field="link"
-        )
-    elif recording is None:
-        config = await _config(here, body, language)
-        try:
-            session = await here.manager.create(
-                body.name, config, paused=bool(body.paused), language=language, answer=answer
-            )
-        except GenerationError as error:
-            raise invalid(
-                FieldProblem(f"config.{each.field}", refusals(language).problem(each))
-                for each in error.problems
-            ) from error
-    else:
-        config, recorded = _recorded(here.settings, body, recording, language)
-        session = await here.manager.create(
-            body.name or recording.name,
-            config,
-            paused=body.paused is not False,
-            language=language,
-            recorded=recorded,
-            answer=answer,
-        )
-    return told(session)
+router = api_router("sessions")
 
 
 @router.get(
@@ -129,22 +24,11 @@ async def make(
     summary="List sessions",
     responses=documented(Invalid, NotSaved),
 )
-async def newest(
-    here: Here,
-    after: Annotated[
-        str | None, Query(pattern=r"^[0-9]{1,15}$", description="`after` of the page before.")
-    ] = None,
-    limit: Annotated[int, Query(ge=1, le=200)] = 50,
-) -> Response:
+async def list_sessions(here: Here, after: After = None, limit: Limit = 50) -> Response:
     """Newest first, in pages."""
-    found = await here.manager.newest(limit + 1, int(after) if after else None)
-    page = found[:limit]
+    found = await here.manager.newest(limit + 1, cursor(after))
     return json_response(
-        {
-            "items": [summary_json(record, live) for record, live in page],
-            "after": str(page[-1][0].number) if page else None,
-            "more": len(found) > limit,
-        }
+        page_json(found, limit, lambda each: each[0].number, lambda each: summary_json(*each))
     )
 
 
@@ -154,10 +38,10 @@ async def newest(
     summary="Look at a session",
     responses=documented(UnknownSession, NotRestorable),
 )
-async def look(session: TheSession, here: Here) -> Response:
+async def read_session(session: TheSession, here: Here) -> Response:
     """A session as it stands. One that is kept but not live is brought back, paused."""
-    told = session_json(session, here.listener.sentence(session.run.config, session.language))
-    return json_response(told, headers=etag(session.sequence))
+    value = session_json(session, here.interpreter.sentence_for(session.run.config, session.language))
+    return json_response(value, headers=etag(session.sequence))
 
 
 @router.delete(
@@ -167,119 +51,8 @@ async def look(session: TheSession, here: Here) -> Response:
     summary="End a session",
     responses=documented(UnknownSession, NotSaved),
 )
-async def end(session_id: str, here: Here, request: Request) -> Response:
+async def delete_session(session_id: str, here: Here, request: Request) -> Response:
     """End it and forget it; whoever watches is told."""
-    await here.manager.delete(session_id, Terms(matched(request)))
+    await here.manager.delete(session_id, Preconditions(if_match(request)))
+    here.guard.quotas.release(session_id)
     return Response(status_code=204)
-
-
-async def _config(here: Context, body: bodies.NewSession, language: str) -> Config:
-    """The configuration that was asked for, in figures and in words."""
-    parts = dict(body.config or {})
-    for name in ("seed", "planner"):
-        value = getattr(body, name)
-        if value is not None and name in parts:
-            raise invalid([FieldProblem(name, "is said twice: here and in config")])
-        if value is not None:
-            parts[name] = value
-    parts.setdefault("seed", secrets.randbits(32))
-    try:
-        config = new_config(parts)
-        if body.scenario is not None:
-            scenario = await _scenario(here, body.scenario, language)
-            planner = scenario.planner or config.planner
-            config = config_of_scenario(config, scenario).with_parts(planner=planner)
-    except ConfigError as error:
-        words = refusals(language)
-        beside = [name for name in ("seed", "planner") if getattr(body, name) is not None]
-        problems = [
-            FieldProblem(each.field if each.field in beside else f"config.{each.field}", words.problem(each))
-            for each in error.problems
-        ]
-        missing = [f"{each.field} {words.problem(each)}." for each in error.problems if not each.available]
-        if missing:
-            raise NotAvailable(" ".join(missing), errors=problems) from error
-        raise invalid(problems) from error
-    _check_offered(here.settings, config)
-    return config
-
-
-async def _scenario(here: Context, text: str, language: str) -> Scenario:
-    """The one scenario a sentence describes; a planner named beside it stands unless it names one."""
-    parse = await here.listener.hear(text, code=language, field="scenario")
-    words = refusals(language)
-    if len(parse.actions) != 1 or not isinstance(parse.actions[0], Scenario):
-        raise NotUnderstood(
-            words.said("no_road_told", text=text),
-            errors=[FieldProblem("scenario", words.said("no_road"))],
-            understood=[text],
-        )
-    scenario = parse.actions[0]
-    missing = find_unavailable(scenario)
-    if missing is not None:
-        sentence = words.problem(missing)
-        raise NotAvailable(sentence, errors=[FieldProblem("scenario", sentence)])
-    return scenario
-
-
-def _check_offered(settings: Settings, config: Config) -> None:
-    if config.columns * config.rows > settings.max_road_cells:
-        message = f"makes a road of more than {settings.max_road_cells} cells, the most there can be here"
-        raise invalid([FieldProblem("config.rows", message)])
-
-
-def _linked(settings: Settings, body: bodies.NewSession) -> tuple[bodies.Recording | None, Named | None]:
-    """The recording that was sent or is in a link, or what a link names."""
-    if body.link is None:
-        return body.recording, None
-    names = ("scenario", "config", "seed", "planner", "recording")
-    beside = [name for name in names if getattr(body, name) is not None]
-    if beside:
-        raise invalid(FieldProblem(name, "cannot stand beside a link") for name in beside)
-    found = opened(body.link, settings.max_recording_bytes)
-    return (None, found) if isinstance(found, Named) else (found, None)
-
-
-def _of_rules(recording: bodies.Recording) -> dict[str, Any]:
-    """The configuration of a recording with the version it is of. Raises `Invalid` where it names two."""
-    parts = dict(recording.config)
-    if recording.rules is not None and parts.setdefault("rules", recording.rules) != recording.rules:
-        raise invalid([FieldProblem("recording.rules", "is another than in its config")])
-    return parts
-
-
-def _recorded(
-    settings: Settings, body: bodies.NewSession, recording: bodies.Recording, language: str
-) -> tuple[Config, Recorded]:
-    """What a recording says, checked as far as can be before it is replayed."""
-    beside = [name for name in ("scenario", "config", "seed", "planner") if getattr(body, name) is not None]
-    if beside:
-        raise invalid(FieldProblem(name, "cannot stand beside a recording") for name in beside)
-    if recording.tick > settings.max_recording_ticks:
-        raise invalid([FieldProblem("recording.tick", f"is more than {settings.max_recording_ticks}")])
-    most = settings.max_recording_ticks
-    late = [number for number, entry in enumerate(recording.entries) if entry.tick > most]
-    if late:
-        raise invalid(FieldProblem(f"recording.entries.{each}.tick", f"is more than {most}") for each in late)
-    try:
-        config = saved_config(_of_rules(recording))
-    except NewerRulesError as error:
-        sentence = refusals(language).newer_rules(error, "recording")
-        raise Invalid(sentence, errors=[FieldProblem("recording.rules", sentence)]) from error
-    except ConfigError as error:
-        raise invalid(
-            FieldProblem(f"recording.config.{each.field}", refusals(language).problem(each))
-            for each in error.problems
-        ) from error
-    _check_offered(settings, config)
-    entries = [
-        EntryRecord(
-            sequence=entry.sequence,
-            tick=entry.tick,
-            text=entry.text,
-            actions=contract.dump(tuple(entry.actions)),
-            digest=entry.digest,
-        )
-        for entry in recording.entries
-    ]
-    return config, Recorded(entries=entries, tick=recording.tick, digest=recording.digest)

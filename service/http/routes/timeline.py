@@ -1,43 +1,35 @@
-"""A whole run at a glance and at a touch: `timeline`, `changes`, `moments`.
+"""`/sessions/{id}/timeline`: a letter a tick, and the ticks that matter, for runs of thousands of ticks.
 
-`state` and `decisions` tell one tick in full. Who shows a run of thousands needs a letter a tick and the
-places that matter; who drags along it needs several worlds at once. Both come in pages, replayed beside
-the event loop. Leaves out what was undone: it is no part of the run any more.
+In pages, replayed beside the event loop. What was undone is no part of the run any more and left out.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from itertools import groupby, pairwise
+from itertools import pairwise
 from typing import Annotated, Any, Literal
 
 from anyio import to_thread
-from fastapi import APIRouter, Query, Response
+from fastapi import Query, Response
 from pydantic import Field
 
-from service import actions as contract
-from service.contract.encode.state import Standing, state_json
-from service.contract.parts import Answered, CellPair, Decision, State
+from service.contract.parts import Answered, CellPair
 from service.contract.requests import Tick
-from service.http.deps import Here, TheSession
-from service.http.errors import documented, invalid
-from service.http.responses import StrictRoute, json_response
-from service.http.session_json import told_decision
-from service.problems import FieldProblem, Invalid, NotRestorable, NotSaved, UnknownSession
-from service.sessions.narrator_protocol import Words
+from service.http.deps import TheSession
+from service.http.errors import documented
+from service.http.pagination import MAX_INTEGER
+from service.http.responses import json_response
+from service.http.route import api_router
+from service.http.ticks import check_tick
+from service.problems import Invalid, NotRestorable, UnknownSession
 from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.types import Cell, Move, Outcome
 
-router = APIRouter(tags=["time"], route_class=StrictRoute)
+router = api_router("time")
 
 MOST_TICKS = 1_000
 """Ticks in a page of a timeline."""
-MOST_MOMENTS = 64
-"""Worlds in a page of moments."""
-MOST_CHANGES = 1_000
 
-_MOST = 2**53 - 1
 _LETTERS = {
     Move.FORWARD: "F",
     Move.LEFT: "L",
@@ -47,9 +39,8 @@ _LETTERS = {
     Move.STAY: "s",
 }
 _BY_OFFSET = {move.offset: letter for move, letter in _LETTERS.items()}
-_HELD = "-"
-"""The letter of a tick at which a result stood."""
-_ALWAYS = (UnknownSession, Invalid, NotRestorable)
+_NO_MOVE = "-"
+"""The letter of a tick at which the result of an episode stood."""
 
 
 class TimelineMark(Answered):
@@ -77,45 +68,15 @@ class TimelinePage(Answered):
     more: bool
 
 
-class RoadChange(Answered):
-    """Something said or done that changed the road, and still stands."""
-
-    tick: Tick
-    sequence: int
-    text: str = Field(description="As it was said; of typed actions, what says the same.")
-    said: bool = Field(description="Whether it was said, rather than done by typed actions.")
-
-
-class RoadChanges(Answered):
-    """The newest changes that stand, oldest first."""
-
-    items: list[RoadChange]
-    more: bool = Field(description="Whether older ones are left out.")
-
-
-class Moment(Answered):
-    """A world, with the decision that led to it."""
-
-    state: State
-    decision: Decision | None
-
-
-class Moments(Answered):
-    """Several ticks in a row."""
-
-    items: list[Moment]
-    now: Tick = Field(description="The session's present tick.")
-
-
 @router.get(
     "/sessions/{session_id}/timeline",
     response_model=TimelinePage,
     summary="A stretch of the run at a glance",
-    responses=documented(*_ALWAYS),
+    responses=documented(UnknownSession, Invalid, NotRestorable),
 )
-async def timeline(
+async def read_timeline(
     session: TheSession,
-    first: Annotated[int, Query(alias="from", ge=0, le=_MOST, description="First tick.")] = 0,
+    first: Annotated[int, Query(alias="from", ge=0, le=MAX_INTEGER, description="First tick.")] = 0,
     limit: Annotated[int, Query(ge=1, le=MOST_TICKS)] = 500,
 ) -> Response:
     """How it moved at each tick, and where something ended, began or nearly happened.
@@ -123,93 +84,27 @@ async def timeline(
     What was said is in `changes`.
     """
     way = session.timeline.copy()
-    _check(first, way.tick)
+    check_tick(first, way.tick, "from")
     stop = min(way.tick, first + limit)
-    moves, marks = await to_thread.run_sync(_seen, way, first, stop)
+    moves, marks = await to_thread.run_sync(_scan, way, first, stop)
     return json_response(
         {"from": first, "now": way.tick, "moves": moves, "marks": marks, "more": stop < way.tick}
     )
 
 
-@router.get(
-    "/sessions/{session_id}/changes",
-    response_model=RoadChanges,
-    summary="What was said and stands",
-    responses=documented(*_ALWAYS, NotSaved),
-)
-async def changes(
-    session: TheSession, here: Here, limit: Annotated[int, Query(ge=1, le=MOST_CHANGES)] = 200
-) -> Response:
-    """Every change of the road that was not undone, with its tick: what makes this run what it is.
-
-    Where it differs from what it was, the run is another from that tick on.
-    """
-    entries = list(session.timeline.entries)
-    said = {entry.sequence: entry.text for entry in await here.manager.entries(session)}
-    groups = [list(group) for _, group in groupby(entries, key=lambda each: (each.sequence, each.tick))]
-    items = []
-    for group in groups[-limit:]:
-        sequence, text = group[0].sequence, said.get(group[0].sequence)
-        if text is None:
-            dumped = contract.dump(tuple(entry.action for entry in group))
-            told = here.listener.phrasebook.told(contract.load(dumped), session.language)
-        else:
-            told = text
-        items.append({"tick": group[0].tick, "sequence": sequence, "text": told, "said": text is not None})
-    return json_response({"items": items, "more": len(groups) > limit})
-
-
-@router.get(
-    "/sessions/{session_id}/moments",
-    response_model=Moments,
-    summary="Several ticks in full",
-    responses=documented(*_ALWAYS),
-)
-async def moments(
-    session: TheSession,
-    first: Annotated[int, Query(alias="from", ge=0, le=_MOST, description="First tick.")] = 0,
-    limit: Annotated[int, Query(ge=1, le=MOST_MOMENTS)] = 16,
-) -> Response:
-    """Worlds in a row, each with the decision that led to it, as a reader of the stream had them."""
-    way, standing = session.timeline.copy(), session.standing
-    _check(first, way.tick)
-    stop = min(way.tick + 1, first + limit)
-    items = await to_thread.run_sync(lambda: list(_moments(session.words, standing, way, first, stop)))
-    return json_response({"items": items, "now": way.tick})
-
-
-def _check(first: int, now: int) -> None:
-    if first > now:
-        raise invalid([FieldProblem("from", f"has not come yet: it is tick {now}")])
-
-
-def _moments(
-    words: Words, standing: Standing, way: Timeline, first: int, stop: int
-) -> Iterator[dict[str, Any]]:
-    before: SimState | None = None
-    for run in way.between(max(0, first - 1), stop):
-        if run.world.tick >= first:
-            decision = None if before is None else way.decided(before)
-            told = None
-            if before is not None and decision is not None:
-                told = told_decision(words, before, decision)
-            yield {"state": state_json(standing, run), "decision": told}
-        before = run
-
-
-def _seen(way: Timeline, first: int, stop: int) -> tuple[str, list[dict[str, Any]]]:
+def _scan(way: Timeline, first: int, stop: int) -> tuple[str, list[dict[str, Any]]]:
     """A letter for each tick from `first` up to but without `stop`, and the marks of these ticks.
 
     Up to the present, its own marks come along.
     """
-    said_at = {entry.tick for entry in way.entries}
+    changed_at = {entry.tick for entry in way.entries}
     runs = list(way.between(max(0, first - 1), min(stop, way.tick) + 1))
     letters = []
     marks = _own_marks(runs[0]) if first == 0 else []
     for before, after in pairwise(runs):
         tick = before.world.tick
         if tick >= first:
-            letters.append(_letter(way, before, after, by_itself=tick + 1 not in said_at))
+            letters.append(_letter(way, before, after, by_itself=tick + 1 not in changed_at))
         if first <= tick + 1 < stop or tick + 1 == way.tick:
             marks += _near_miss(before, after) + _own_marks(after)
     return "".join(letters), marks
@@ -218,7 +113,7 @@ def _seen(way: Timeline, first: int, stop: int) -> tuple[str, list[dict[str, Any
 def _letter(way: Timeline, before: SimState, after: SimState, *, by_itself: bool) -> str:
     """How the vehicle moved; what was said on arriving may have put it elsewhere (not `by_itself`)."""
     if before.world.outcome is not Outcome.RUNNING:
-        return _HELD
+        return _NO_MOVE
     if by_itself:
         old, new = before.world, after.world
         (column, row), (new_column, new_row) = old.road.cell(old.av), new.road.cell(new.av)

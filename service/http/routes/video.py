@@ -13,17 +13,20 @@ from contextlib import contextmanager
 from typing import Annotated, Any, Literal
 
 from anyio import CapacityLimiter, create_task_group, from_thread, to_thread
-from fastapi import APIRouter, Query, Request, Response
+from fastapi import Query, Request, Response
 
 from service.http.deps import Here, TheSession
-from service.http.errors import documented, invalid
-from service.http.responses import StrictRoute, etag
+from service.http.errors import documented
+from service.http.pagination import MAX_INTEGER
+from service.http.responses import etag
+from service.http.route import api_router
 from service.http.routes.frame import View
+from service.http.validation import invalid
 from service.problems import FieldProblem, Invalid, NotAvailable, NotRestorable, ProblemError, UnknownSession
 from sim.render.video import FPS, VideoMissingError, frame_count, has_video, render_video
 from sim.state import SimState
 
-router = APIRouter(tags=["watching"], route_class=StrictRoute)
+router = api_router("watching")
 
 Format = Literal["gif", "mp4"]
 
@@ -32,7 +35,6 @@ DEFAULT_TICKS = 20
 GIF_PIXELS = 140_000_000
 """A GIF is held in memory until it is whole, a byte for each pixel of each frame."""
 
-_MOST = 2**53 - 1
 _FILM: dict[int | str, dict[str, Any]] = {
     200: {
         "description": "A film.",
@@ -53,15 +55,16 @@ class _GoneError(Exception):
     summary="A stretch of ticks as a film",
     responses=_FILM | documented(UnknownSession, Invalid, NotAvailable, NotRestorable),
 )
-async def moving(
+async def read_video(
     request: Request,
     session: TheSession,
     here: Here,
     first: Annotated[
-        int | None, Query(alias="from", ge=0, le=_MOST, description="First tick; default: the latest 20.")
+        int | None,
+        Query(alias="from", ge=0, le=MAX_INTEGER, description="First tick; default: the latest 20."),
     ] = None,
     last: Annotated[
-        int | None, Query(alias="to", ge=0, le=_MOST, description="Last tick; default: now.")
+        int | None, Query(alias="to", ge=0, le=MAX_INTEGER, description="Last tick; default: now.")
     ] = None,
     form: Annotated[
         Format, Query(alias="format", description="`mp4` needs the extra `video` where the service runs.")
@@ -90,7 +93,7 @@ async def moving(
         finally:
             from_thread.run_sync(here.drawing.release_on_behalf_of, me)
 
-    def made() -> bytes | None:
+    def render() -> bytes | None:
         if gone.is_set():
             return None
         runs = list(timeline.between(start, end + 1))
@@ -102,7 +105,7 @@ async def moving(
         except _GoneError:
             return None
 
-    data = await _while_there(request, gone, made, here.filming)
+    data = await _while_there(request, gone, render, here.filming)
     if data is None:
         return Response(status_code=204)  # nobody is there to read it
     kind = "image/gif" if form == "gif" else "video/mp4"

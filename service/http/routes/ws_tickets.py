@@ -1,34 +1,25 @@
-"""`POST /tickets`, and how a socket proves that it may come in."""
+"""`POST /tickets`: tickets for WebSockets, so that a page need not send its key to each."""
 
 from __future__ import annotations
 
-import asyncio
-from json import JSONDecodeError
-from typing import Annotated, Literal
+from typing import Annotated
 
-from fastapi import APIRouter, Body, Request, Response
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
-from starlette.websockets import WebSocket
+from fastapi import Body, Response
+from pydantic import BaseModel, ConfigDict, Field
 
-from service.http import json as strictly
-from service.http.deps import JSON_ONLY
+from service.http.content_type import JSON_ONLY
+from service.http.deps import Here
 from service.http.errors import documented
-from service.http.responses import StrictRoute, json_response
-from service.problems import Invalid, Malformed, NotJson, TooLarge
-from service.security.guard import guard_of
+from service.http.responses import json_response
+from service.http.route import api_router, policy
+from service.problems import ContentTooLarge, Invalid, Malformed, UnsupportedMediaType
 from service.security.ws_tickets import GOOD_FOR_S
 
-AUTH_WAIT_S = 5
-"""How long a socket may stay silent before it says who it is."""
-
-REFUSED = 4401
-"""The code a socket is closed with that brought no key and no good ticket."""
-
-router = APIRouter(tags=["operating"], route_class=StrictRoute)
+router = api_router("operating")
 
 
 class NoFields(BaseModel):
-    """Nothing to be said."""
+    """An empty object."""
 
     model_config = ConfigDict(extra="forbid")
 
@@ -40,58 +31,21 @@ class Ticket(BaseModel):
     good_for_s: int = Field(description="Seconds within which it must be used.")
 
 
-class _Auth(BaseModel):
-    """The first message of a socket where a key is asked for."""
-
-    model_config = ConfigDict(extra="forbid", strict=True)
-
-    type: Literal["auth"]
-    key: str | None = Field(default=None, max_length=1_000)
-    ticket: str | None = Field(default=None, max_length=100)
-
-
 @router.post(
     "/tickets",
     response_model=Ticket,
     summary="Get a ticket for a socket",
     dependencies=[JSON_ONLY],
-    responses=documented(Malformed, TooLarge, NotJson, Invalid),
+    responses=documented(Malformed, ContentTooLarge, UnsupportedMediaType, Invalid),
 )
-async def ticket(
+@policy(idempotency_key=False)
+async def create_ticket(
     body: Annotated[NoFields, Body(openapi_examples={"one": {"summary": "One ticket", "value": {}}})],  # noqa: ARG001
-    request: Request,
+    here: Here,
 ) -> Response:
     """Good for one socket within seconds: its first message is `{"type": "auth", "ticket": "..."}`.
 
     Only needed where the service has a key; the key itself may be sent as `key` in its place.
     """
-    issued = guard_of(request).tickets.issue()
-    told = {"ticket": issued, "good_for_s": GOOD_FOR_S}
-    return json_response(told, headers={"Cache-Control": "no-store"})
-
-
-async def admitted(socket: WebSocket) -> bool:
-    """Whether an accepted socket may go on; if not, it is closed. Reads its first message if need be."""
-    guard = guard_of(socket)
-    brought = socket.headers.get("authorization")
-    if guard.key.admits(brought):
-        return True
-    if brought is not None:  # the wrong one; nothing else is waited for
-        await socket.close(REFUSED, "a key or a ticket is needed")
-        return False
-    try:
-        received = await asyncio.wait_for(socket.receive(), AUTH_WAIT_S)
-    except TimeoutError:
-        received = {"type": "websocket.receive", "text": None}
-    if received["type"] == "websocket.disconnect":
-        return False
-    try:
-        said = _Auth.model_validate(strictly.loads(received.get("text") or ""))
-    except (JSONDecodeError, ValidationError):
-        said = _Auth(type="auth")
-    if (said.ticket is not None and guard.tickets.take(said.ticket)) or (
-        said.key is not None and guard.key.right(said.key)
-    ):
-        return True
-    await socket.close(REFUSED, "a key or a ticket is needed")
-    return False
+    value = {"ticket": here.guard.tickets.issue(), "good_for_s": GOOD_FOR_S}
+    return json_response(value, headers={"Cache-Control": "no-store"})

@@ -19,37 +19,37 @@ ENTRY_WORK = 2
 """What a change takes beside what it does, in ticks."""
 
 
-class Footing:
+class LogPosition:
     """A session as its log has it."""
 
-    __slots__ = ("owed", "paused", "seen", "tick", "trail")
+    __slots__ = ("counted_work", "digest", "paused", "tick", "work")
 
     def __init__(self, record: SessionRecord) -> None:
         self.paused = record.paused
         """whether time stands still, as the log has it"""
         self.tick = 0
         """where time stood when the latest change was done"""
-        self.owed = 0
+        self.work = 0
         """about how much work it would be to come here from the latest snapshot"""
-        self.seen = 0
+        self.counted_work = 0
         """of its timeline's work, how much is in that"""
         branch = record.branch
         shared = branch and [branch.parent, branch.sequence, branch.tick, branch.standing, [*branch.instead]]
         begun = [record.id, dict(record.config), record.paused, shared]
-        self.trail = _digest(b"", begun)
+        self.digest = _digest(b"", begun)
 
-    def kept(self, entry: EntryRecord) -> None:
+    def append(self, entry: EntryRecord) -> None:
         """One more change is in the log."""
         said = [entry.sequence, entry.tick, entry.text, [*entry.actions], entry.digest, entry.paused]
-        self.trail = _digest(self.trail, said)
+        self.digest = _digest(self.digest, said)
 
-    def owe(self, worked: int, entries: int) -> int:
+    def add_work(self, worked: int, entries: int) -> int:
         """A timeline has come to have so much work in it, by so many changes; what is owed now."""
-        self.owed += max(0, worked - self.seen) + ENTRY_WORK * entries
-        self.seen = worked
-        return self.owed
+        self.work += max(0, worked - self.counted_work) + ENTRY_WORK * entries
+        self.counted_work = worked
+        return self.work
 
-    def become(self, paused: bool, tick: int) -> None:
+    def commit(self, paused: bool, tick: int) -> None:
         """A change was done."""
         self.paused, self.tick = paused, tick
 

@@ -12,7 +12,7 @@ from dataclasses import asdict
 from typing import Any
 
 from service.resources import DEFAULT_LANGUAGE
-from service.sessions.fork import numbered
+from service.sessions.fork import renumber
 from service.sessions.session import Session
 from service.store import EntryRecord
 
@@ -24,7 +24,7 @@ def recording_json(session: Session, entries: Sequence[EntryRecord]) -> dict[str
     """The recording of a session up to its present tick."""
     kept = [entry for entry in entries if entry.sequence <= session.sequence]
     if session.record.branch is not None:
-        kept = numbered(kept)
+        kept = renumber(kept)
     return {
         "format": FORMAT,
         "version": VERSION,

@@ -18,12 +18,12 @@ from pydantic import ValidationError
 from service import actions as contract
 from service.actions import Action
 from service.problems import Invalid, ProblemError, RecordingMismatch
-from service.sessions.facts import Answerable, happened_in
-from service.sessions.fork import Way
-from service.sessions.log import Log
-from service.sessions.narrator_protocol import Words
-from service.sessions.outcome import reply
-from service.sessions.transaction import Draft, not_answered, ticks_to_run
+from service.sessions.facts import Answerable, parts_with_events
+from service.sessions.fork import ForkPoint
+from service.sessions.log import EventLog
+from service.sessions.narrator_protocol import NarratorProtocol
+from service.sessions.outcome import compose_reply
+from service.sessions.transaction import Transaction, planner_timeout_problem, step_ticks
 from service.sessions.utterance import Outcome, Utterance
 from service.store import Branch, EntryRecord
 from sim.events import Event
@@ -57,7 +57,7 @@ class _Line:
 
 def replay(
     session: Session,
-    words: Words,
+    narrator: NarratorProtocol,
     entries: Sequence[EntryRecord],
     tick: int,
     *,
@@ -70,50 +70,52 @@ def replay(
     else has yet; in any thread. Raises `ReplayError`, also where more than `most` ticks would have to be run:
     with going back, they may be more than where it ends.
     """
-    Replay(session, words, session.log).all(entries, tick, most, first)
+    Replay(session, narrator, session.log).replay_all(entries, tick, most, first)
     session.paused = True
 
 
-def repeat(session: Session, words: Words, entry: EntryRecord) -> None:
+def replay_one(session: Session, narrator: NarratorProtocol, entry: EntryRecord) -> None:
     """Do one kept utterance again. Raises `ProblemError`, or pydantic's `ValidationError`."""
-    again = Replay(session, words, session.log)
-    again.one(entry, contract.load(entry.actions))
-    again.tell()
+    again = Replay(session, narrator, session.log)
+    again.replay_entry(entry, contract.load(entry.actions))
+    again.write_log()
 
 
 class Replay:
     """Does again what was done to a session that nobody else has yet; in any thread."""
 
-    def __init__(self, session: Session, words: Words, log: Log) -> None:
+    def __init__(self, session: Session, narrator: NarratorProtocol, log: EventLog) -> None:
         self._session = session
-        self._words = words
+        self._narrator = narrator
         self._log = log
-        self._lines: deque[_Line | tuple[Event, SimState]] = deque(maxlen=log.kept)
+        self._lines: deque[_Line | tuple[Event, SimState]] = deque(maxlen=log.capacity)
         self._written = 0
 
-    def all(self, entries: Sequence[EntryRecord], tick: int, most: int | None, first: int | None) -> None:
+    def replay_all(
+        self, entries: Sequence[EntryRecord], tick: int, most: int | None, first: int | None
+    ) -> None:
         """See `replay`."""
         ticks, session = 0, self._session
-        actions = _loaded(entries[first or 0 :])
+        actions = _load_actions(entries[first or 0 :])
         branch = session.record.branch
         if first is None:
-            first = 0 if branch is None else self._common(branch, entries, actions)
+            first = 0 if branch is None else self._replay_shared(branch, entries, actions)
         for position, entry in enumerate(entries[first:], start=first):
             try:
                 said = next(actions)
-                ticks += max(0, entry.tick - session.timeline.tick) + ticks_to_run(said)
+                ticks += max(0, entry.tick - session.timeline.tick) + step_ticks(said)
                 if most is not None and ticks > most:
                     raise Invalid(f"More than {most} ticks would have to be run.")
-                self.one(entry, said, held=len(entries) - position <= self._log.kept)
+                self.replay_entry(entry, said, held=len(entries) - position <= self._log.capacity)
             except (ProblemError, ValidationError) as error:
                 raise ReplayError(position, error) from error
         try:
             self.run_to(tick)
         except ProblemError as error:
             raise ReplayError(len(entries), error) from error
-        self.tell()
+        self.write_log()
 
-    def _common(
+    def _replay_shared(
         self, branch: Branch, entries: Sequence[EntryRecord], actions: Iterator[tuple[Action, ...]]
     ) -> int:
         """Do what a fork has from its parent, and answer how many entries that is.
@@ -125,7 +127,7 @@ class Replay:
             try:
                 said = next(actions)
                 while timeline.tick < entry.tick:
-                    _went_on(timeline)
+                    _advance(timeline)
                 timeline.apply(entry.sequence, said)  # type: ignore[arg-type]  # nothing else comes along
                 self._check(entry)
             except (ProblemError, EditError, ValidationError) as error:
@@ -133,14 +135,14 @@ class Replay:
             common += 1
         try:
             while timeline.tick < branch.tick:
-                _went_on(timeline)
+                _advance(timeline)
         except ProblemError as error:
             raise ReplayError(common, error) from error
-        self._session.mixed.update(each["sequence"] for each in branch.instead)
-        self._session.begin_with(Way(timeline, branch, common))
+        self._session.partial_changes.update(each["sequence"] for each in branch.instead)
+        self._session.start_from(ForkPoint(timeline, branch, common))
         return common
 
-    def one(self, entry: EntryRecord, said: tuple[Action, ...], *, held: bool = True) -> None:
+    def replay_entry(self, entry: EntryRecord, said: tuple[Action, ...], *, held: bool = True) -> None:
         """Do one kept utterance; `held`: the log will still hold a line of it. Raises `ProblemError`."""
         session = self._session
         if entry.tick < session.timeline.tick or entry.sequence != session.sequence + 1:
@@ -148,15 +150,21 @@ class Replay:
         self.run_to(entry.tick)
         if entry.paused is not None:
             session.paused = entry.paused
-        draft = Draft(session.timeline, session.paused, session.history, session.pace, session.language)
-        facts = draft.perform(entry.sequence, said)
+        transaction = Transaction(
+            session.timeline,
+            session.paused,
+            session.undo_stack,
+            session.playback_speed,
+            session.language,
+        )
+        facts = transaction.perform(entry.sequence, said)
         before = session.run
-        session.footing.owe(draft.timeline.worked, 1)
-        session.adopt(draft, entry.sequence, said)
-        session.footing.kept(entry)
+        session.log_position.add_work(transaction.timeline.worked, 1)
+        session.adopt(transaction, entry.sequence, said)
+        session.log_position.append(entry)
         self._check(entry)
-        answers = [self._words.answer(fact) for fact in facts if isinstance(fact, Answerable)]
-        session.conversation.note(
+        answers = [self._narrator.answer(fact) for fact in facts if isinstance(fact, Answerable)]
+        session.conversation.record(
             Outcome(
                 utterance=Utterance(actions=said, text=entry.text),
                 facts=facts,
@@ -167,9 +175,9 @@ class Replay:
                 before=before,
             )
         )
-        text = reply(self._words, facts, answers) if held else ""
+        text = compose_reply(self._narrator, facts, answers) if held else ""
         self._add(_Line(entry.tick, text))
-        for run, part in happened_in(facts):
+        for run, part in parts_with_events(facts):
             for event in part.events:
                 self._add((event, run))
 
@@ -177,11 +185,11 @@ class Replay:
         """Let time pass. Raises `ProblemError` where a planner does not answer in time."""
         timeline = self._session.timeline
         while timeline.tick < tick:
-            done = _went_on(timeline)
+            done = _advance(timeline)
             for event in done.events:
                 self._add((event, done.state))
 
-    def tell(self) -> None:
+    def write_log(self) -> None:
         """Write the lines that the log still holds."""
         self._log.skip(self._written - len(self._lines))
         for line in self._lines:
@@ -189,7 +197,7 @@ class Replay:
                 self._log.add(line.tick, "changed", line.text)
             else:
                 event, run = line
-                text = self._words.event(event, run)
+                text = self._narrator.event(event, run)
                 self._log.add(event.tick, event.type, text, event.ids, event.cell)
         self._lines.clear()
         self._written = 0
@@ -207,14 +215,14 @@ class Replay:
             raise RecordingMismatch(told)
 
 
-def _went_on(timeline: Timeline) -> StepResult:
+def _advance(timeline: Timeline) -> StepResult:
     try:
         return timeline.advance()
     except PlannerSilentError as silence:
-        raise not_answered(silence) from silence
+        raise planner_timeout_problem(silence) from silence
 
 
-def _loaded(entries: Sequence[EntryRecord]) -> Iterator[tuple[Action, ...]]:
+def _load_actions(entries: Sequence[EntryRecord]) -> Iterator[tuple[Action, ...]]:
     """The actions of each entry, checked in one go; where one is bad, it raises at that one."""
     try:
         actions = iter(contract.load([action for entry in entries for action in entry.actions]))

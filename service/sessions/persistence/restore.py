@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import structlog
 
 from service.sessions.persistence.replay import ReplayError, replay
-from service.sessions.persistence.snapshots import UnfitError, opened
-from service.sessions.session import Session, Surroundings
+from service.sessions.persistence.snapshots import UnfitError, unpack
+from service.sessions.session import Session, SessionServices
 from service.store import EntryRecord, SessionRecord, SnapshotRecord
 from sim.session.saved_config import saved_config
 from sim.session.timeline import Timeline
@@ -19,11 +19,11 @@ LONG_ENTRIES = 1_000
 """A log of so many changes may take seconds to be done again, which whoever runs the service is told."""
 
 
-def woken(
+def restore(
     record: SessionRecord,
     entries: Sequence[EntryRecord],
     snapshot: SnapshotRecord | None,
-    around: Surroundings,
+    services: SessionServices,
 ) -> tuple[Session, UnfitError | None]:
     """The session, paused, and why its snapshot was not used if it was not; in any thread.
 
@@ -33,7 +33,7 @@ def woken(
     unfit: UnfitError | None = None
     if snapshot is not None:
         try:
-            return _from(snapshot, record, entries, around), None
+            return _restore_snapshot(snapshot, record, entries, services), None
         except UnfitError as error:
             unfit = error
         except ReplayError as error:
@@ -42,17 +42,17 @@ def woken(
         why = str(unfit) if unfit is not None else "there is no snapshot of it"
         said = "a session is done again from all of its log; whoever asked for it waits, nobody else"
         _LOG.info(said, session=record.id, entries=len(entries), reason=why)
-    session = Session(record, Timeline(saved_config(record.config)), around)
-    replay(session, session.words, entries, record.tick)
+    session = Session(record, Timeline(saved_config(record.config)), services)
+    replay(session, session.narrator, entries, record.tick)
     return session, unfit
 
 
-def _from(
-    snapshot: SnapshotRecord, record: SessionRecord, entries: Sequence[EntryRecord], around: Surroundings
+def _restore_snapshot(
+    snapshot: SnapshotRecord, record: SessionRecord, entries: Sequence[EntryRecord], services: SessionServices
 ) -> Session:
-    frozen, position = opened(snapshot, record, entries, around.settings.log_events)
-    session = Session(record, frozen.timeline, around)
-    frozen.give(session)
-    session.footing.seen = frozen.timeline.worked
-    replay(session, session.words, entries, record.tick, first=position)
+    frozen, position = unpack(snapshot, record, entries, services.settings.log_events)
+    session = Session(record, frozen.timeline, services)
+    frozen.apply_to(session)
+    session.log_position.counted_work = frozen.timeline.worked
+    replay(session, session.narrator, entries, record.tick, first=position)
     return session

@@ -14,12 +14,12 @@ from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 from service import actions as contract
-from service.sessions.bookmarks import Moment
+from service.sessions.bookmarks import Bookmark
 from service.sessions.conversation import Conversation
 from service.sessions.log import LogEvent
-from service.sessions.rewind import Jump
-from service.sessions.scheduler.playback_speed import Pace
-from service.sessions.undo_stack import History, Step
+from service.sessions.rewind import TimeJump
+from service.sessions.scheduler.playback_speed import PlaybackSpeed
+from service.sessions.undo_stack import UndoStack, UndoStep
 from sim.actions import WorldAction
 from sim.session.persistent_list import PersistentList
 from sim.session.serialization import Packer, Pool, Unpacker
@@ -28,102 +28,111 @@ from sim.session.timeline import Entry, Snapshot, Timeline
 if TYPE_CHECKING:
     from service.sessions.session import Session
 
-MOST_STATES = 1_024
+MAX_STATES = 1_024
 """States on the way of all timelines together; of those beside the present one fewer are written then."""
 
-AT_ONCE = 500
+ACTIONS_PER_CALL = 500
 """Actions written at once: nothing else is done meanwhile, not even in other threads."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Frozen:
+class SessionSnapshot:
     """A session as its log has it, at one moment."""
 
     session: str
     sequence: int
-    trail: bytes
+    log_digest: bytes
     changed_at: int
     """the tick at which the latest change was done"""
     paused: bool
-    pace: Pace
+    playback_speed: PlaybackSpeed
     timeline: Timeline
-    history: History
-    mixed: frozenset[int]
+    undo_stack: UndoStack
+    partial_changes: frozenset[int]
     conversation: Conversation
     last_line: int
     lines: Sequence[LogEvent]
 
     @staticmethod
-    def of(session: Session) -> Frozen:
+    def take(session: Session) -> SessionSnapshot:
         """A session as it is now; for its own thread."""
-        last, lines = session.log.lasting()
-        return Frozen(
+        last, lines = session.log.durable_lines()
+        return SessionSnapshot(
             session=session.id,
             sequence=session.sequence,
-            trail=session.footing.trail,
-            changed_at=session.footing.tick,
-            paused=session.footing.paused,
-            pace=session.pace,
+            log_digest=session.log_position.digest,
+            changed_at=session.log_position.tick,
+            paused=session.log_position.paused,
+            playback_speed=session.playback_speed,
             timeline=session.timeline.copy(),
-            history=session.history.copy(),
-            mixed=frozenset(session.mixed),
-            conversation=session.conversation.lasting,
+            undo_stack=session.undo_stack.copy(),
+            partial_changes=frozenset(session.partial_changes),
+            conversation=session.conversation.durable,
             last_line=last,
             lines=lines,
         )
 
-    def give(self, session: Session) -> None:
+    def apply_to(self, session: Session) -> None:
         """Make this of a new session, as its log has it."""
-        session.sequence, session.pace, session.paused = self.sequence, self.pace, self.paused
-        session.timeline, session.history, session.mixed = self.timeline, self.history, set(self.mixed)
+        session.sequence, session.playback_speed, session.paused = (
+            self.sequence,
+            self.playback_speed,
+            self.paused,
+        )
+        session.timeline, session.undo_stack, session.partial_changes = (
+            self.timeline,
+            self.undo_stack,
+            set(self.partial_changes),
+        )
         session.conversation = self.conversation
-        session.footing.become(self.paused, self.changed_at)
-        session.footing.trail = self.trail
+        session.log_position.commit(self.paused, self.changed_at)
+        session.log_position.digest = self.log_digest
         session.log.skip(self.last_line - len(self.lines))
         for line in self.lines:
             session.log.add(line.tick, line.type, line.text, line.ids, line.cell)
 
 
-def written(frozen: Frozen, thinned: int = 1) -> tuple[dict[str, Any], set[str]]:
+def encode(frozen: SessionSnapshot, thinned: int = 1) -> tuple[dict[str, Any], set[str]]:
     """It as JSON values, with one of so many states on the way, and the planners that drive in it."""
-    writing = _Writing(frozen, thinned)
+    writing = _Encoder(frozen, thinned)
     return writing.values, writing.packer.planners()
 
 
-class _Writing:
+class _Encoder:
     """Numbers for what is shared: entries of logs, the logs, states, timelines."""
 
-    def __init__(self, frozen: Frozen, thinned: int) -> None:
+    def __init__(self, frozen: SessionSnapshot, thinned: int) -> None:
         self.packer = Packer()
         self._entries: list[Entry] = []
         self._entry_numbers: dict[int, int] = {}
         self._timelines, self._snapshots, self._moves = Pool(), Pool(), Pool()
         self._thinned = thinned
-        history = frozen.history
+        history = frozen.undo_stack
         jumps = [step.jump for step in chain(history.done, history.undone) if step.jump is not None]
-        beside = [moment.timeline for moment in history.saved.values()]
+        beside = [moment.timeline for moment in history.bookmarks.values()]
         beside += [timeline for jump in jumps for timeline in (jump.before, jump.after)]
         self._main = frozenset(
             id(each) for place, each in enumerate(frozen.timeline.parts()[3]) if place % thinned == 0
         )
         self._gap = self._gap_beside(beside)
-        self._logs = self._written_logs([frozen.timeline, *beside])
+        self._logs = self._encode_logs([frozen.timeline, *beside])
         main = self._timeline(frozen.timeline)
         self.values: dict[str, Any] = {
             "sequence": frozen.sequence,
-            "trail": frozen.trail.hex(),
+            "trail": frozen.log_digest.hex(),
             "changed_at": frozen.changed_at,
             "paused": frozen.paused,
-            "pace": frozen.pace,
+            "pace": frozen.playback_speed,
             "timeline": main,
             "done": [self._step(step) for step in history.done],
             "undone": [self._step(step) for step in history.undone],
             "saved": [
-                [each.name, each.sequence, self._timeline(each.timeline)] for each in history.saved.values()
+                [each.name, each.sequence, self._timeline(each.timeline)]
+                for each in history.bookmarks.values()
             ],
-            "ground": [history.ground, history.ground_steps, history.ground_paused],
-            "mixed": sorted(frozen.mixed),
-            "conversation": frozen.conversation.values(),
+            "ground": [history.base_entries, history.base_steps, history.base_paused],
+            "mixed": sorted(frozen.partial_changes),
+            "conversation": frozen.conversation.to_json(),
             "last_line": frozen.last_line,
             "lines": [[line.tick, line.type, line.text, line.ids, line.cell] for line in frozen.lines],
             "timelines": self._timelines.values,
@@ -137,12 +146,12 @@ class _Writing:
     def _gap_beside(self, beside: Iterable[Timeline]) -> int:
         """One of how many states is written of what is beside the present timeline, so that all have room."""
         others = {id(each) for timeline in beside for each in timeline.parts()[3]} - self._main
-        room, gap = max(1, MOST_STATES - len(self._main)), self._thinned
+        room, gap = max(1, MAX_STATES - len(self._main)), self._thinned
         while len(others) > room * gap:
             gap *= 2
         return gap
 
-    def _written_logs(self, timelines: Sequence[Timeline]) -> tuple[dict[int, int], list[Any]]:
+    def _encode_logs(self, timelines: Sequence[Timeline]) -> tuple[dict[int, int], list[Any]]:
         """Each list that logs are beginnings of: how much is as in the one before, and what follows."""
         most: dict[int, int] = {}
         lists: dict[int, Sequence[Entry]] = {}
@@ -155,8 +164,8 @@ class _Writing:
         before: Sequence[Entry] = ()
         for key, shared in lists.items():
             log = shared[: most[key]]
-            alike = _alike(before, log)  # often they are the same but for their ends
-            logs.append([alike, *_stretches([self._entry(entry) for entry in log[alike:]])])
+            alike = _common_prefix_length(before, log)  # often they are the same but for their ends
+            logs.append([alike, *_encode_runs([self._entry(entry) for entry in log[alike:]])])
             before = log
         return {key: number for number, key in enumerate(lists)}, logs
 
@@ -168,9 +177,9 @@ class _Writing:
         return found
 
     def _timeline(self, timeline: Timeline) -> int:
-        return self._timelines.number(timeline, self._written_timeline)
+        return self._timelines.number(timeline, self._encode_timeline)
 
-    def _written_timeline(self, timeline: Timeline) -> list[Any]:
+    def _encode_timeline(self, timeline: Timeline) -> list[Any]:
         config, run, entries, snapshots, gap, work, worked, moves = timeline.parts()
         kept = [
             each for place, each in enumerate(snapshots) if id(each) in self._main or place % self._gap == 0
@@ -180,17 +189,17 @@ class _Writing:
             self.packer.run(run),
             self._logs[0][id(entries.shared)],
             len(entries),
-            _stretches([self._snapshots.number(each, self._written_snapshot) for each in kept]),
+            _encode_runs([self._snapshots.number(each, self._encode_snapshot) for each in kept]),
             gap,
             work,
             worked,
-            _stretches([self._moves.number(block, _ascii) for block in moves]),
+            _encode_runs([self._moves.number(block, _ascii) for block in moves]),
         ]
 
-    def _written_snapshot(self, snapshot: Snapshot) -> list[int]:
+    def _encode_snapshot(self, snapshot: Snapshot) -> list[int]:
         return [self.packer.run(snapshot.state), snapshot.entries]
 
-    def _step(self, step: Step) -> list[Any]:
+    def _step(self, step: UndoStep) -> list[Any]:
         jump = step.jump
         return [
             [self._entry(entry) for entry in step.before],
@@ -210,8 +219,10 @@ def _entries(entries: Sequence[Entry]) -> list[Any]:
     numbers: dict[str, int] = {}
     actions: list[Any] = []
     which = []
-    for start in range(0, len(entries), AT_ONCE):
-        for action in contract.dump(tuple(entry.action for entry in entries[start : start + AT_ONCE])):
+    for start in range(0, len(entries), ACTIONS_PER_CALL):
+        for action in contract.dump(
+            tuple(entry.action for entry in entries[start : start + ACTIONS_PER_CALL])
+        ):
             number = numbers.setdefault(repr(action), len(actions))
             if number == len(actions):
                 actions.append(action)
@@ -219,7 +230,7 @@ def _entries(entries: Sequence[Entry]) -> list[Any]:
     return [[entry.sequence for entry in entries], [entry.tick for entry in entries], which, actions]
 
 
-def read(values: Mapping[str, Any], session: str) -> Frozen:
+def decode(values: Mapping[str, Any], session: str) -> SessionSnapshot:
     """What was written.
 
     Raises `ValueError`, `TypeError` or `LookupError` for what cannot be read.
@@ -234,7 +245,7 @@ def read(values: Mapping[str, Any], session: str) -> Frozen:
     logs: list[PersistentList[Entry]] = []
     for alike, *stretches in values["logs"]:
         begin = logs[-1].shared[:alike] if alike else ()
-        logs.append(PersistentList([*begin, *_of_stretches(stretches, entries)]))
+        logs.append(PersistentList([*begin, *_decode_runs(stretches, entries)]))
     snapshots = [
         Snapshot(states.runs[run].world.tick, states.runs[run], count) for run, count in values["snapshots"]
     ]
@@ -244,44 +255,44 @@ def read(values: Mapping[str, Any], session: str) -> Frozen:
             states.configs[config],
             states.runs[run],
             logs[log].first(length),
-            _of_stretches(places, snapshots),
+            _decode_runs(places, snapshots),
             gap,
             work,
             worked,
-            _of_stretches(blocks, moves),
+            _decode_runs(blocks, moves),
         )
         for config, run, log, length, places, gap, work, worked, blocks in values["timelines"]
     ]
 
-    def step(parts: Sequence[Any]) -> Step:
+    def step(parts: Sequence[Any]) -> UndoStep:
         before, after, paused_before, paused_after, jump = parts
-        return Step(
+        return UndoStep(
             tuple(entries[number] for number in before),
             tuple(entries[number] for number in after),
             paused_before,
             paused_after,
-            None if jump is None else Jump(timelines[jump[0]], timelines[jump[1]]),
+            None if jump is None else TimeJump(timelines[jump[0]], timelines[jump[1]]),
         )
 
     ground, ground_steps, ground_paused = values["ground"]
-    return Frozen(
+    return SessionSnapshot(
         session=session,
         sequence=values["sequence"],
-        trail=bytes.fromhex(values["trail"]),
+        log_digest=bytes.fromhex(values["trail"]),
         changed_at=values["changed_at"],
         paused=values["paused"],
-        pace=values["pace"],
+        playback_speed=values["pace"],
         timeline=timelines[values["timeline"]],
-        history=History(
+        undo_stack=UndoStack(
             done=PersistentList([step(parts) for parts in values["done"]]),
             undone=PersistentList([step(parts) for parts in values["undone"]]),
-            saved={name: Moment(name, number, timelines[of]) for name, number, of in values["saved"]},
-            ground=ground,
-            ground_steps=ground_steps,
-            ground_paused=ground_paused,
+            bookmarks={name: Bookmark(name, number, timelines[of]) for name, number, of in values["saved"]},
+            base_entries=ground,
+            base_steps=ground_steps,
+            base_paused=ground_paused,
         ),
-        mixed=frozenset(values["mixed"]),
-        conversation=Conversation.of(values["conversation"]),
+        partial_changes=frozenset(values["mixed"]),
+        conversation=Conversation.from_json(values["conversation"]),
         last_line=values["last_line"],
         lines=[
             LogEvent(0, tick, kind, text, tuple(ids), None if cell is None else (cell[0], cell[1]))
@@ -290,7 +301,7 @@ def read(values: Mapping[str, Any], session: str) -> Frozen:
     )
 
 
-def _alike(one: Sequence[Entry], other: Sequence[Entry]) -> int:
+def _common_prefix_length(one: Sequence[Entry], other: Sequence[Entry]) -> int:
     """How many entries both begin with."""
     low, high = 0, min(len(one), len(other))
     while low < high:  # whole slices: comparing them is quick where they are the same objects
@@ -302,7 +313,7 @@ def _alike(one: Sequence[Entry], other: Sequence[Entry]) -> int:
     return low
 
 
-def _stretches(numbers: Sequence[int]) -> list[int]:
+def _encode_runs(numbers: Sequence[int]) -> list[int]:
     """Numbers as stretches of such that follow each other: the first of each, and how many."""
     stretches: list[int] = []
     for number in numbers:
@@ -313,7 +324,7 @@ def _stretches(numbers: Sequence[int]) -> list[int]:
     return stretches
 
 
-def _of_stretches(stretches: Sequence[int], values: Sequence[Any]) -> list[Any]:
+def _decode_runs(stretches: Sequence[int], values: Sequence[Any]) -> list[Any]:
     found: list[Any] = []
     for first, count in zip(stretches[::2], stretches[1::2], strict=True):
         part = values[first : first + count]

@@ -17,64 +17,64 @@ from typing import Literal
 import structlog
 from anyio import to_thread
 
-from service.sessions.persistence.snapshot_codec import Frozen
-from service.sessions.persistence.snapshots import TooLargeError, UnfitError, sealed
+from service.sessions.persistence.snapshot_codec import SessionSnapshot
+from service.sessions.persistence.snapshots import TooLargeError, UnfitError, pack
 from service.sessions.session import Session
 from service.settings import Settings
 from service.store import SnapshotRecord, Store, StoreError
 
 _LOG = structlog.get_logger(__name__)
 
-CALM_S = 0.25
+DELAY_S = 0.25
 """How long is waited before each: what came just before has others to serve."""
 
-WRITTEN = 2
+ENTRIES_PER_WORK = 2
 """One work for so many entries: writing a long log takes as long as that."""
 
-THINGS = 100
+THINGS_PER_DOUBLING = 100
 """A road with so many things on it takes twice as long as an empty one."""
 
-MOST_DUE = 64
+MAX_DUE = 64
 """Sessions whose snapshot is waiting to be written: each is held in memory as it was."""
 
-LEFT = 4
+REMOVE_FRACTION = 4
 """Of the work after which one is kept, one part of so many is enough where the session is let go of."""
 
-Fate = Literal["kept", "used", "unfit", "failed"]
-FATES: tuple[Fate, ...] = ("kept", "used", "unfit", "failed")
+SnapshotResult = Literal["kept", "used", "unfit", "failed"]
+SNAPSHOT_RESULTS: tuple[SnapshotResult, ...] = ("kept", "used", "unfit", "failed")
 
 
-class Keeper:
+class SnapshotScheduler:
     """Keeps snapshots of the sessions of one service."""
 
     def __init__(self, store: Store, settings: Settings) -> None:
         self._store = store
-        self._work = settings.snapshot_work
+        self._interval = settings.snapshot_work
         self._lines = settings.log_events
-        self._due: dict[str, Frozen] = {}
+        self._due: dict[str, SessionSnapshot] = {}
         self._worker: asyncio.Task[None] | None = None
         self._until_s: float | None = None
         self._hurry = asyncio.Event()
         self._said = False
-        self.fates: Counter[Fate] = Counter()
+        self.counts: Counter[SnapshotResult] = Counter()
         """what became of snapshots"""
 
-    def join(self, session: Session) -> None:
+    def add(self, session: Session) -> None:
         """A session is live from now on."""
-        session.after_change = self._changed
-        footing = session.footing
-        if footing.owe(session.timeline.worked, 0) >= self._enough(session):
+        session.after_change = self._on_change
+        position = session.log_position
+        if position.add_work(session.timeline.worked, 0) >= self._interval_of(session):
             self._take(session)
 
-    def fork(self, session: Session) -> None:
+    def add_fork(self, session: Session) -> None:
         """A session is live from now on, and has no snapshot of what it shares."""
-        session.footing.owed = session.timeline.work_since(0)
-        session.footing.seen = session.timeline.worked
-        self.join(session)
+        session.log_position.work = session.timeline.work_since(0)
+        session.log_position.counted_work = session.timeline.worked
+        self.add(session)
 
-    def leave(self, session: Session) -> None:
+    def remove(self, session: Session) -> None:
         """A session is let go of; where its clock stands is stored."""
-        if self._owed(session) * LEFT >= self._enough(session):
+        if self._work_of(session) * REMOVE_FRACTION >= self._interval_of(session):
             self._take(session)
 
     def forget(self, session_id: str) -> None:
@@ -86,90 +86,90 @@ class Keeper:
         try:
             return await self._store.snapshot(session_id)
         except StoreError as error:
-            self._unfit(session_id, error)
+            self._record_unfit(session_id, error)
             return None
 
-    def used(self, session_id: str, unfit: UnfitError | None) -> None:
+    def record_use(self, session_id: str, unfit: UnfitError | None) -> None:
         """A snapshot was used for a session that came back; or it did not fit."""
         if unfit is None:
-            self.fates["used"] += 1
+            self.counts["used"] += 1
         else:
-            self._unfit(session_id, unfit)
+            self._record_unfit(session_id, unfit)
 
-    async def settled(self) -> None:
+    async def flush(self) -> None:
         """Keep what is to be kept, now."""
-        await self._keep_all(within_s=60.0)
+        await self._save_all(within_s=60.0)
         self._until_s = None
         self._hurry.clear()
 
     async def close(self, sessions: Iterable[Session], within_s: float) -> None:
         """Keep what there is time for, of those that owe most first. Where clocks stand is stored."""
         self._until_s = time.monotonic() + within_s
-        for session in sorted(sessions, key=self._owed, reverse=True):
-            self.leave(session)
-        await asyncio.wait([asyncio.ensure_future(self._keep_all(within_s))], timeout=2 * within_s)
+        for session in sorted(sessions, key=self._work_of, reverse=True):
+            self.remove(session)
+        await asyncio.wait([asyncio.ensure_future(self._save_all(within_s))], timeout=2 * within_s)
 
-    async def _keep_all(self, within_s: float) -> None:
+    async def _save_all(self, within_s: float) -> None:
         """Keep at once what waits, as far as there is time for it."""
         self._until_s = time.monotonic() + within_s
         self._hurry.set()
         if self._worker is not None:
             await asyncio.wait([self._worker])  # it may be in the midst of one
-        await self._keep_due()
+        await self._save_due()
 
-    def _owed(self, session: Session) -> int:
-        return session.footing.owe(session.timeline.worked, 0)
+    def _work_of(self, session: Session) -> int:
+        return session.log_position.add_work(session.timeline.worked, 0)
 
-    def _enough(self, session: Session) -> float:
+    def _interval_of(self, session: Session) -> float:
         """After how much work a snapshot of it is worth its while."""
         world = session.run.world
-        slow = 1 + (len(world.movers) + len(world.hazards)) / THINGS
-        return max(self._work / slow, len(session.timeline.entries) / WRITTEN)
+        slow = 1 + (len(world.movers) + len(world.hazards)) / THINGS_PER_DOUBLING
+        return max(self._interval / slow, len(session.timeline.entries) / ENTRIES_PER_WORK)
 
-    def _changed(self, session: Session) -> None:
-        if session.footing.owe(session.timeline.worked, 1) >= self._enough(session):
+    def _on_change(self, session: Session) -> None:
+        if session.log_position.add_work(session.timeline.worked, 1) >= self._interval_of(session):
             self._take(session)
 
     def _take(self, session: Session) -> None:
-        if len(self._due) >= MOST_DUE and session.id not in self._due:
+        if len(self._due) >= MAX_DUE and session.id not in self._due:
             return  # with the next change, or never: it is only a shortcut
-        session.footing.owed = 0
+        session.log_position.work = 0
         self._due.pop(session.id, None)
-        self._due[session.id] = Frozen.of(session)
+        self._due[session.id] = SessionSnapshot.take(session)
         if self._worker is None and self._until_s is None:
-            self._worker = asyncio.ensure_future(self._keep_in_time())
-            self._worker.add_done_callback(self._ended)
+            self._worker = asyncio.ensure_future(self._save_in_background())
+            self._worker.add_done_callback(self._worker_ended)
 
-    def _ended(self, worker: asyncio.Task[None]) -> None:
+    def _worker_ended(self, worker: asyncio.Task[None]) -> None:
         self._worker = None
         if not worker.cancelled() and (error := worker.exception()) is not None:
-            self._failed("", error)
+            self._record_failure("", error)
 
-    async def _keep_in_time(self) -> None:
+    async def _save_in_background(self) -> None:
         while self._due and self._until_s is None:
             with suppress(TimeoutError):
-                await asyncio.wait_for(self._hurry.wait(), CALM_S)
+                await asyncio.wait_for(self._hurry.wait(), DELAY_S)
             if self._until_s is None and self._due:
-                await self._keep(self._due.pop(next(iter(self._due))))
+                await self._save(self._due.pop(next(iter(self._due))))
 
-    async def _keep_due(self) -> None:
+    async def _save_due(self) -> None:
         while self._due:
             frozen = self._due.pop(next(iter(self._due)))
-            if self._until_s is None or time.monotonic() + _takes_s(frozen) < self._until_s:
-                await self._keep(frozen)
+            if self._until_s is None or time.monotonic() + _estimate_s(frozen) < self._until_s:
+                await self._save(frozen)
 
-    async def _keep(self, frozen: Frozen) -> None:
+    async def _save(self, frozen: SessionSnapshot) -> None:
         try:
-            snapshot = await to_thread.run_sync(sealed, frozen, self._lines)
-            await self._store.keep_snapshot(snapshot)
+            snapshot = await to_thread.run_sync(pack, frozen, self._lines)
+            await self._store.save_snapshot(snapshot)
         except (StoreError, TooLargeError) as error:
-            self._failed(frozen.session, error)
+            self._record_failure(frozen.session, error)
         else:
-            self.fates["kept"] += 1
+            self.counts["kept"] += 1
             self._said = False
 
-    def _failed(self, session_id: str, error: BaseException) -> None:
-        self.fates["failed"] += 1
+    def _record_failure(self, session_id: str, error: BaseException) -> None:
+        self.counts["failed"] += 1
         if not self._said:
             self._said = True
             _LOG.warning(
@@ -178,12 +178,12 @@ class Keeper:
                 error=repr(error),
             )
 
-    def _unfit(self, session_id: str, error: Exception) -> None:
-        self.fates["unfit"] += 1
+    def _record_unfit(self, session_id: str, error: Exception) -> None:
+        self.counts["unfit"] += 1
         _LOG.info("a snapshot does not fit and is ignored", session=session_id, reason=str(error))
 
 
-def _takes_s(frozen: Frozen) -> float:
+def _estimate_s(frozen: SessionSnapshot) -> float:
     """About how long one takes to be written and stored."""
-    entries = len(frozen.timeline.entries) + len(frozen.history.done)
+    entries = len(frozen.timeline.entries) + len(frozen.undo_stack.done)
     return 0.01 + 4e-6 * entries + 1e-4 * len(frozen.timeline.parts()[3])

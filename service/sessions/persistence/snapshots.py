@@ -22,8 +22,8 @@ from typing import Any
 import orjson
 from pydantic import ValidationError
 
-from service.sessions.persistence.log_position import Footing
-from service.sessions.persistence.snapshot_codec import Frozen, read, written
+from service.sessions.persistence.log_position import LogPosition
+from service.sessions.persistence.snapshot_codec import SessionSnapshot, decode, encode
 from service.store import EntryRecord, SessionRecord, SnapshotRecord
 from service.version import VERSION
 from sim.plan.safe_planning import is_foreign
@@ -34,12 +34,12 @@ from sim.session.serialization import BeliefError
 FORMAT = 2
 """Of the JSON values."""
 
-MOST_BYTES = 4_000_000
+MAX_BYTES = 4_000_000
 """Of one snapshot; where it would be more, fewer states on the way are in it."""
 
-MOST_PLAIN_BYTES = 200_000_000
+MAX_PLAIN_BYTES = 200_000_000
 
-_MOST_THINNED = 64
+_MAX_THINNING = 64
 
 _UNREADABLE = (
     ValueError,
@@ -74,12 +74,12 @@ def version() -> str:
     return f"{FORMAT}.{digest.hexdigest()}"
 
 
-def sealed(frozen: Frozen, lines: int) -> SnapshotRecord:
+def pack(frozen: SessionSnapshot, lines: int) -> SnapshotRecord:
     """A snapshot of a session whose log holds so many lines. Raises `TooLargeError`; in any thread."""
     thinned = 1
     while True:
         try:
-            values, planners = written(frozen, thinned)
+            values, planners = encode(frozen, thinned)
         except BeliefError as error:
             raise TooLargeError(str(error)) from error
         values |= {"session": frozen.session, "tick": frozen.timeline.tick, "held": lines}
@@ -88,10 +88,10 @@ def sealed(frozen: Frozen, lines: int) -> SnapshotRecord:
             body = zlib.compress(orjson.dumps(values), 1)
         except TypeError as error:  # half a character
             raise TooLargeError(str(error)) from error
-        if len(body) <= MOST_BYTES:
+        if len(body) <= MAX_BYTES:
             break
         thinned *= 4
-        if thinned > _MOST_THINNED:
+        if thinned > _MAX_THINNING:
             raise TooLargeError(f"{len(body)} bytes")
     parts = (frozen.session, frozen.sequence, frozen.timeline.tick, version())
     return SnapshotRecord(
@@ -104,9 +104,9 @@ def sealed(frozen: Frozen, lines: int) -> SnapshotRecord:
     )
 
 
-def opened(
+def unpack(
     snapshot: SnapshotRecord, record: SessionRecord, entries: Sequence[EntryRecord], lines: int
-) -> tuple[Frozen, int]:
+) -> tuple[SessionSnapshot, int]:
     """What a session with this log was, and how many entries that is. Raises `UnfitError`; in any thread."""
     if snapshot.session != record.id or snapshot.version != version():
         raise UnfitError("it is of another session, or made by another version")
@@ -115,13 +115,13 @@ def opened(
         if snapshot.checksum != _checksum(parts, snapshot.body):
             raise UnfitError("it is damaged")
         unpacking = zlib.decompressobj()
-        values = orjson.loads(unpacking.decompress(snapshot.body, MOST_PLAIN_BYTES))
+        values = orjson.loads(unpacking.decompress(snapshot.body, MAX_PLAIN_BYTES))
         if (values["session"], values["sequence"], values["tick"]) != parts[:3] or values["held"] != lines:
             raise UnfitError("it is of another session or moment, or of a log of another length")
         if values["planners"] != _foreign(values["planners"]):
             raise UnfitError("a planner of another package is another now")
         position = _position(snapshot, record, entries, values["trail"])
-        frozen = read(values, record.id)
+        frozen = decode(values, record.id)
         _check(frozen, snapshot, record, entries[position - 1] if position else None)
     except _UNREADABLE as error:
         raise UnfitError(f"it cannot be read: {error!r}") from error
@@ -133,12 +133,12 @@ def _position(
 ) -> int:
     """How many of the entries it is made of."""
     shared = 0 if record.branch is None else record.branch.sequence
-    footing, position = Footing(record), 0
+    log_position, position = LogPosition(record), 0
     for entry in takewhile(lambda each: each.sequence <= snapshot.sequence, entries):
         position += 1
         if entry.sequence > shared:
-            footing.kept(entry)
-    if footing.trail.hex() != trail:
+            log_position.append(entry)
+    if log_position.digest.hex() != trail:
         raise UnfitError("it is made of another log")
     until = entries[position].tick if position < len(entries) else record.tick
     if snapshot.tick > until:
@@ -146,7 +146,9 @@ def _position(
     return position
 
 
-def _check(frozen: Frozen, snapshot: SnapshotRecord, record: SessionRecord, last: EntryRecord | None) -> None:
+def _check(
+    frozen: SessionSnapshot, snapshot: SnapshotRecord, record: SessionRecord, last: EntryRecord | None
+) -> None:
     """Raise `UnfitError` where it does not end where the log does, as far as the log tells."""
     config = saved_config(record.config)
     if frozen.timeline.tick != snapshot.tick or frozen.timeline.config != config:

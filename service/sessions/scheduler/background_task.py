@@ -17,37 +17,37 @@ Result = TypeVar("Result")
 _WORKERS = ThreadPoolExecutor(max_workers=1, thread_name_prefix="later")
 
 
-class Later(Generic[Result]):
+class BackgroundTask(Generic[Result]):
     """At most one piece of work under way."""
 
     def __init__(self, take: Callable[[Result], None]) -> None:
         """`take`: given each result, on the event loop's thread."""
-        self._take = take
-        self._owed: Future[Result] | None = None
+        self._on_result = take
+        self._future: Future[Result] | None = None
 
-    def begin(self, work: Callable[[], Result]) -> None:
+    def start(self, work: Callable[[], Result]) -> None:
         """Do this in a thread; needs a running loop."""
-        self.settle()
+        self.finish()
         loop = asyncio.get_running_loop()
 
         def wake(done: Future[Result]) -> None:
             with suppress(RuntimeError):  # the loop is gone, and nobody waits any more
-                loop.call_soon_threadsafe(self._settle_this, done)
+                loop.call_soon_threadsafe(self._finish_if_current, done)
 
-        self._owed = _WORKERS.submit(work)
-        self._owed.add_done_callback(wake)
+        self._future = _WORKERS.submit(work)
+        self._future.add_done_callback(wake)
 
     @property
     def busy(self) -> bool:
         """Whether work is under way, so that `settle` would have to wait."""
-        return self._owed is not None and not self._owed.done()
+        return self._future is not None and not self._future.done()
 
-    def settle(self) -> None:
+    def finish(self) -> None:
         """Take what is owed, waiting for it if it is not done yet."""
-        owed, self._owed = self._owed, None
+        owed, self._future = self._future, None
         if owed is not None:
-            self._take(owed.result())
+            self._on_result(owed.result())
 
-    def _settle_this(self, done: Future[Result]) -> None:
-        if self._owed is done:
-            self.settle()
+    def _finish_if_current(self, done: Future[Result]) -> None:
+        if self._future is done:
+            self.finish()

@@ -38,31 +38,31 @@ SLOT_S = 0.002
 TURN_S = 0.005
 """How long ticks may hold the event loop before waiting requests get their turn."""
 
-FULL = 4
+SLOT_CAPACITY = 4
 """So many due in one slot are enough for one that begins, if there is another slot."""
 
-HURRY_S = 0.002
+UNTHROTTLED_TURN_S = 0.002
 """How long those that tick as often as can be may hold the event loop, all together."""
 
-REST_S = 0.001
+UNTHROTTLED_PAUSE_S = 0.001
 """Until they have their next turn, at least; as long as they took, if that is longer."""
 
-PATIENCE_S = 0.1
+UNTHROTTLED_MAX_WAIT_S = 0.1
 """After so long they have a turn even where what is due is never done."""
 
-BEHIND_S = 0.02
+POSTPONE_MARGIN_S = 0.02
 """About half of this is left when deadlines are put off."""
 
-FAR_BEHIND_S = 0.05
+OVERLOAD_LATENESS_S = 0.05
 """So far behind and not more, all is caught up with: to put all off would make more ticks late than that."""
 
-CATCH_UP_S = 0.2
+OVERLOAD_AFTER_S = 0.2
 """Who is further behind for so long puts every deadline off."""
 
-TOGETHER = 32
+BATCH_SIZE = 32
 """So many are ticked before what they have to tell is told."""
 
-LATENESS_KEPT = 4_096
+LATENESS_SAMPLES = 4_096
 """How many of the latest ticks the lateness figures are taken from."""
 
 
@@ -80,13 +80,13 @@ class Ticker(Protocol):
         """Told when `tick` raised; the ticker is off the clock by then."""
 
 
-class Stages(Protocol):
+class TickOutput(Protocol):
     """What a ticker has to tell, where it can be told after others have ticked as well."""
 
     def hold(self) -> None:
         """What the next tick has to tell waits for `make` and `send`."""
 
-    def make(self) -> None:
+    def encode(self) -> None:
         """Make what was held ready."""
 
     def send(self) -> None:
@@ -125,7 +125,7 @@ class Lateness:
     max_ms: float
 
     @staticmethod
-    def of(samples_s: Sequence[float]) -> Lateness:
+    def from_samples(samples_s: Sequence[float]) -> Lateness:
         """The figures of some ticks' lateness in seconds."""
         if not samples_s:
             return Lateness(0, 0.0, 0.0, 0.0)
@@ -152,15 +152,15 @@ class WheelClock:
         self._late = late
         self._loop: asyncio.AbstractEventLoop | None = None
         self._due: dict[Ticker, float] = {}
-        self._put_off_s = 0.0
-        self._owed: dict[Ticker, float] = {}
+        self._postponed_s = 0.0
+        self._postponed_lateness: dict[Ticker, float] = {}
         """how late those are already whose deadline was put off"""
         self._behind_since: float | None = None
         self._slots: dict[int, list[Ticker]] = {}
         self._order: list[int] = []
-        self._telling: list[tuple[Ticker, Stages]] = []
-        self._hurried: dict[Ticker, None] = {}
-        self._hurry_at = 0.0
+        self._ticked: list[tuple[Ticker, TickOutput]] = []
+        self._unthrottled: dict[Ticker, None] = {}
+        self._unthrottled_at = 0.0
         self._timer: asyncio.Handle | None = None
         self._timer_at = 0.0
         self._samples = array("d")
@@ -180,26 +180,26 @@ class WheelClock:
 
     def add(self, ticker: Ticker) -> None:
         """See `Clock.add`."""
-        if ticker in self._due or ticker in self._hurried:
+        if ticker in self._due or ticker in self._unthrottled:
             return
         now, period = self._time(), ticker.period_s
         if period <= SLOT_S:
-            if not self._hurried:
-                self._hurry_at = now + period
-            self._hurried[ticker] = None
+            if not self._unthrottled:
+                self._unthrottled_at = now + period
+            self._unthrottled[ticker] = None
         else:
-            self._schedule(ticker, self._roomy(now + period, period))
+            self._schedule(ticker, self._least_loaded(now + period, period))
         self._arm()
 
     def remove(self, ticker: Ticker) -> None:
         """See `Clock.remove`. Its place in the wheel is skipped when its slot comes."""
         self._due.pop(ticker, None)
-        self._owed.pop(ticker, None)
-        self._hurried.pop(ticker, None)
+        self._postponed_lateness.pop(ticker, None)
+        self._unthrottled.pop(ticker, None)
 
     def lateness(self) -> Lateness:
         """See `Clock.lateness`."""
-        return Lateness.of(self._samples)
+        return Lateness.from_samples(self._samples)
 
     def serve(self) -> None:
         """Tick all that is due, for at most `TURN_S`; what is left comes next turn of the loop."""
@@ -207,15 +207,15 @@ class WheelClock:
         if self._serve_due(began):
             patience_s, self._behind_since = 0.0, None
         else:
-            patience_s = PATIENCE_S
+            patience_s = UNTHROTTLED_MAX_WAIT_S
             self._fall_behind(self._time())
-        self._tell()
-        if self._hurried and self._hurry_at + patience_s <= self._time():
-            self._hurry()
+        self._send_output()
+        if self._unthrottled and self._unthrottled_at + patience_s <= self._time():
+            self._serve_unthrottled()
 
     def _time(self) -> float:
         """The time in which deadlines are: it has stood still wherever they were put off."""
-        return self._now() - self._put_off_s
+        return self._now() - self._postponed_s
 
     def _fall_behind(self, now: float) -> None:
         """Something due is left, in the first slot; where that goes on and on, put all off by so much.
@@ -225,14 +225,14 @@ class WheelClock:
         late_s = now - self._order[0] * SLOT_S
         if self._behind_since is None:
             self._behind_since = now
-        elif late_s > FAR_BEHIND_S and now - self._behind_since > CATCH_UP_S:
+        elif late_s > OVERLOAD_LATENESS_S and now - self._behind_since > OVERLOAD_AFTER_S:
             self._behind_since = None
             # Not all of it, since what is still due comes before who is in a hurry; and in whole slots.
-            given_up_s = SLOT_S * int((late_s - BEHIND_S / 2) / SLOT_S)
-            self._put_off_s += given_up_s
-            self._hurry_at -= given_up_s
+            given_up_s = SLOT_S * int((late_s - POSTPONE_MARGIN_S / 2) / SLOT_S)
+            self._postponed_s += given_up_s
+            self._unthrottled_at -= given_up_s
             for ticker in self._due:
-                self._owed[ticker] = self._owed.get(ticker, 0.0) + given_up_s
+                self._postponed_lateness[ticker] = self._postponed_lateness.get(ticker, 0.0) + given_up_s
 
     def _serve_due(self, began: float) -> bool:
         """Whether all was ticked that is due."""
@@ -246,12 +246,16 @@ class WheelClock:
                 # A ticker that was removed, or added anew for another time, is not due here.
                 if due is not None and math.ceil(due / SLOT_S) == slot:
                     del due_at[ticker]
-                    self._record(now - due + (self._owed.pop(ticker, 0.0) if self._owed else 0.0))
+                    self._record(
+                        now
+                        - due
+                        + (self._postponed_lateness.pop(ticker, 0.0) if self._postponed_lateness else 0.0)
+                    )
                     # Put back first: a ticker that leaves the clock while ticking must find itself on it.
-                    self._put_back(ticker, due, now)
-                    self._tick(ticker, getattr(ticker, "stages", None))
-                    if len(self._telling) >= TOGETHER:
-                        self._tell()
+                    self._reschedule(ticker, due, now)
+                    self._tick(ticker, getattr(ticker, "tick_batch", None))
+                    if len(self._ticked) >= BATCH_SIZE:
+                        self._send_output()
                 now = self._time()  # once for each: when it ended is when the next one begins
                 if now - began > TURN_S:
                     break
@@ -263,24 +267,24 @@ class WheelClock:
                 return not order or order[0] * SLOT_S > now
         return True
 
-    def _hurry(self) -> None:
+    def _serve_unthrottled(self) -> None:
         """Each in its turn, and nobody twice."""
         began = now = self._time()
-        for ticker in list(self._hurried):
-            if ticker not in self._hurried:
+        for ticker in list(self._unthrottled):
+            if ticker not in self._unthrottled:
                 continue  # what another did took it off the clock
-            del self._hurried[ticker]
-            self._put_back(ticker, now, now)
+            del self._unthrottled[ticker]
+            self._reschedule(ticker, now, now)
             self._tick(ticker)
             now = self._time()
-            if now - began > HURRY_S:
+            if now - began > UNTHROTTLED_TURN_S:
                 break
-        self._hurry_at = now + max(REST_S, now - began)
+        self._unthrottled_at = now + max(UNTHROTTLED_PAUSE_S, now - began)
 
-    def _put_back(self, ticker: Ticker, due: float, now: float) -> None:
+    def _reschedule(self, ticker: Ticker, due: float, now: float) -> None:
         period = ticker.period_s
         if period <= SLOT_S:
-            self._hurried[ticker] = None
+            self._unthrottled[ticker] = None
         else:
             late = now - due
             if late >= period:
@@ -288,37 +292,37 @@ class WheelClock:
                 due += period * int(late / period + 0.5)
             self._schedule(ticker, due + period)
 
-    def _tick(self, ticker: Ticker, stages: Stages | None = None) -> None:
+    def _tick(self, ticker: Ticker, stages: TickOutput | None = None) -> None:
         """Tick one; where it has stages, what it has to tell of that waits for `_tell`."""
         try:
             if stages is not None:
                 stages.hold()
-                self._telling.append((ticker, stages))
+                self._ticked.append((ticker, stages))
             ticker.tick()
         except Exception as error:
-            self._failed(ticker, error)
+            self._handle_failure(ticker, error)
 
-    def _tell(self) -> None:
+    def _send_output(self) -> None:
         """Let all tell that have ticked, one stage after the other."""
-        if self._telling:
-            telling, self._telling = self._telling, []
+        if self._ticked:
+            telling, self._ticked = self._ticked, []
             for ticker, stages in telling:
                 try:
-                    stages.make()
+                    stages.encode()
                 except Exception as error:
-                    self._failed(ticker, error)
+                    self._handle_failure(ticker, error)
             for ticker, stages in telling:
                 try:
                     stages.send()
                 except Exception as error:
-                    self._failed(ticker, error)
+                    self._handle_failure(ticker, error)
 
-    def _failed(self, ticker: Ticker, error: Exception) -> None:
+    def _handle_failure(self, ticker: Ticker, error: Exception) -> None:
         _LOG.error("a tick failed", ticker=str(ticker), exc_info=error)
         self.remove(ticker)
         ticker.tick_failed(error)
 
-    def _roomy(self, due: float, period: float) -> float:
+    def _least_loaded(self, due: float, period: float) -> float:
         """A time from `due` on, within a period, at which few others are due.
 
         Those count that are due then, and those that are a period before and so will be.
@@ -329,7 +333,7 @@ class WheelClock:
             others = len(self._slots.get(slot, ())) + len(self._slots.get(slot - period_slots, ()))
             if others < fewest:
                 found, fewest = slot, others
-                if others < FULL:
+                if others < SLOT_CAPACITY:
                     break
         return due if found == first else found * SLOT_S
 
@@ -345,12 +349,12 @@ class WheelClock:
 
     def _arm(self) -> None:
         """Set the one timer to what comes next, unless it is set to that or to something before."""
-        if self._loop is None or not (self._order or self._hurried):
+        if self._loop is None or not (self._order or self._unthrottled):
             return
         at = self._order[0] * SLOT_S if self._order else math.inf
-        exact = bool(self._hurried) and self._hurry_at < at
+        exact = bool(self._unthrottled) and self._unthrottled_at < at
         if exact:
-            at = self._hurry_at
+            at = self._unthrottled_at
         if self._timer is not None:
             if self._timer_at <= at:
                 return
@@ -369,8 +373,8 @@ class WheelClock:
     def _record(self, lateness_s: float) -> None:
         if self._late is not None:
             self._late(lateness_s)
-        if len(self._samples) < LATENESS_KEPT:
+        if len(self._samples) < LATENESS_SAMPLES:
             self._samples.append(lateness_s)
         else:
             self._samples[self._next_sample] = lateness_s
-        self._next_sample = (self._next_sample + 1) % LATENESS_KEPT
+        self._next_sample = (self._next_sample + 1) % LATENESS_SAMPLES

@@ -19,18 +19,18 @@ from service.store import StoreError
 
 _LOG = structlog.get_logger(__name__)
 
-LOOKS = 4
+CHECKS_PER_TIMEOUT = 4
 """How often it is looked in the time after which a session sleeps."""
 
 
-class Idleness:
+class IdleTimes:
     """When each session was last asked for, by a clock that never runs backwards."""
 
     def __init__(self, now: Callable[[], float] = time.monotonic) -> None:
         self.now = now
         self._used_s: dict[str, float] = {}
 
-    def used(self, session_id: str) -> None:
+    def touch(self, session_id: str) -> None:
         """It was asked for just now."""
         self._used_s[session_id] = self.now()
 
@@ -38,47 +38,47 @@ class Idleness:
         """It is no more, or asleep."""
         self._used_s.pop(session_id, None)
 
-    def since_s(self, session: Session) -> float:
+    def idle_s(self, session: Session) -> float:
         """How long nobody has needed it; whoever watches or is being answered does."""
-        if len(session.watchers) or session.busy:
-            self.used(session.id)
+        if len(session.subscribers) or session.busy:
+            self.touch(session.id)
         return self.now() - self._used_s.setdefault(session.id, self.now())
 
 
-class Sleeper:
+class Evictor:
     """Puts sessions to sleep that have been idle for `after_s`."""
 
     def __init__(
         self,
         live: Callable[[], Iterable[Session]],
         let_go: Callable[[list[Session], Callable[[Session], bool]], Awaitable[int]],
-        idleness: Idleness,
+        idleness: IdleTimes,
         *,
         after_s: float,
         running: bool,
     ) -> None:
         """`let_go`: given the sessions, and whether one of them may still be let go once it is stored."""
         self._live = live
-        self._let_go = let_go
+        self._evict = let_go
         self._idleness = idleness
         self._after_s = after_s
         self._running = running
 
-    def may_sleep(self, session: Session) -> bool:
+    def is_evictable(self, session: Session) -> bool:
         """Whether nobody would miss it."""
-        idle_s = self._idleness.since_s(session)
+        idle_s = self._idleness.idle_s(session)
         return idle_s >= self._after_s and (session.paused or self._running)
 
-    async def look(self) -> int:
+    async def evict_idle(self) -> int:
         """Look once; how many went to sleep."""
-        idle = [session for session in self._live() if self.may_sleep(session)]
-        return await self._let_go(idle, self.may_sleep) if idle else 0
+        idle = [session for session in self._live() if self.is_evictable(session)]
+        return await self._evict(idle, self.is_evictable) if idle else 0
 
     async def run(self) -> None:
         """Look every now and then, until cancelled."""
         while True:
-            await asyncio.sleep(self._after_s / LOOKS)
+            await asyncio.sleep(self._after_s / CHECKS_PER_TIMEOUT)
             try:
-                await self.look()
+                await self.evict_idle()
             except StoreError as error:
                 _LOG.warning("no session could be put to sleep", error=str(error))

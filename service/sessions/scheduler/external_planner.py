@@ -21,12 +21,12 @@ from sim.state import SimState
 from sim.types import Mode, Outcome
 
 
-class Asking:
+class ExternalPlanner:
     """At most one question under way."""
 
     def __init__(self, take: Callable[[SimState, Decision], None]) -> None:
         """`take`: given each decision with the state that was asked about, on the event loop's thread."""
-        self._take = take
+        self._on_decision = take
         self._asked: Future[Answer] | None = None
 
     @property
@@ -34,9 +34,9 @@ class Asking:
         """Whether an answer is waited for."""
         return self._asked is not None
 
-    def begin(self, run: SimState) -> bool:
+    def ask(self, run: SimState) -> bool:
         """Ask what a state leads to, if another package's planner is to say; needs a running loop."""
-        if not decides(run):
+        if not is_external_turn(run):
             return False
         percept, loop = sense(run)[0], asyncio.get_running_loop()
         asked = ask(percept, run.config)
@@ -44,22 +44,22 @@ class Asking:
 
         def wake(_: Future[Answer]) -> None:
             with suppress(RuntimeError):  # the loop is gone, and nobody waits any more
-                loop.call_soon_threadsafe(self._answered, asked, run, percept)
+                loop.call_soon_threadsafe(self._on_answer, asked, run, percept)
 
         asked.add_done_callback(wake)
         return True
 
-    def forget(self) -> None:
+    def cancel(self) -> None:
         """Whatever is answered yet is not taken."""
         self._asked = None
 
-    def _answered(self, asked: Future[Answer], run: SimState, percept: Percept) -> None:
+    def _on_answer(self, asked: Future[Answer], run: SimState, percept: Percept) -> None:
         if self._asked is asked:
             self._asked = None
-            self._take(run, plan_answered(asked.result, percept, run.config))
+            self._on_decision(run, plan_answered(asked.result, percept, run.config))
 
 
-def decides(run: SimState) -> bool:
+def is_external_turn(run: SimState) -> bool:
     """Whether a planner of another package decides the next move."""
     by_hand = bool(run.queue) or run.mode is Mode.MANUAL
     alone = len(run.world.avs) == 1  # of several egos one decides after the other

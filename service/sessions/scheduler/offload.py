@@ -33,15 +33,15 @@ Result = TypeVar("Result")
 _THREADS = ThreadPoolExecutor(max_workers=THREADS, thread_name_prefix="foreign")
 
 
-async def off_loop(foreign: bool, seconds: float, work: Callable[[], Result]) -> Result:
+async def run_in_thread(foreign: bool, seconds: float, work: Callable[[], Result]) -> Result:
     """What the work results in, done in a thread; `foreign`: a planner of another package will be asked."""
-    patient = patiently(seconds, work)
+    patient = with_time_limit(seconds, work)
     if not foreign:
         return await to_thread.run_sync(patient)
     return await asyncio.get_running_loop().run_in_executor(_THREADS, copy_context().run, patient)
 
 
-def patiently(seconds: float, work: Callable[[], Result]) -> Callable[[], Result]:
+def with_time_limit(seconds: float, work: Callable[[], Result]) -> Callable[[], Result]:
     """The work, with foreign planners waited for so long in all."""
 
     def done() -> Result:
@@ -51,12 +51,12 @@ def patiently(seconds: float, work: Callable[[], Result]) -> Callable[[], Result
     return done
 
 
-def asks_others(timeline: Timeline) -> bool:
+def uses_external_planner(timeline: Timeline) -> bool:
     """Whether a question about a timeline is one for a planner of another package."""
     return is_foreign(timeline.state.config.planner) or is_foreign(timeline.config.planner)
 
 
-def names_another(actions: Iterable[Action]) -> bool:
+def names_external_planner(actions: Iterable[Action]) -> bool:
     """Whether one of these chooses a planner of another package."""
     chosen = (getattr(action, key, None) for action in actions for key in ("planner", "value"))
     return any(isinstance(each, str) and each in installed() for each in chosen)

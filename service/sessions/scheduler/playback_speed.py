@@ -17,7 +17,7 @@ from typing import Final, Literal, TypeAlias
 from service.actions import Action
 from sim.actions import Adjust, Set
 
-Pace: TypeAlias = float | Literal["max"]
+PlaybackSpeed: TypeAlias = float | Literal["max"]
 """Simulated seconds in a second, or as many as there is time for."""
 
 PARAMETER: Final = "playback_speed"
@@ -36,7 +36,7 @@ MAX_PERIOD_S: Final = 0.002
 """From one such turn to the next: half of the time at least is the others'."""
 
 
-class PaceError(Exception):
+class PlaybackSpeedError(Exception):
     """A speed that cannot be: a code with a sentence in `refusals.yaml`; `field` is that of the action."""
 
     def __init__(self, code: str, field: str, **facts: object) -> None:
@@ -47,53 +47,53 @@ class PaceError(Exception):
 
 
 @dataclass(frozen=True, slots=True)
-class PaceSet:
+class PlaybackSpeedSet:
     """The clock was set to another speed, or to the one it had, at a tick."""
 
-    before: Pace
-    after: Pace
+    before: PlaybackSpeed
+    after: PlaybackSpeed
     tick: int
 
 
-def sets_pace(action: Action) -> bool:
+def sets_playback_speed(action: Action) -> bool:
     """Whether an action is about the clock's speed, and so about no world."""
     return isinstance(action, Set | Adjust) and action.parameter == PARAMETER
 
 
-def pace_after(pace: Pace, action: Set | Adjust) -> Pace:
-    """The speed once an action is done. Raises `PaceError`."""
+def change_playback_speed(speed: PlaybackSpeed, action: Set | Adjust) -> PlaybackSpeed:
+    """The speed once an action is done. Raises `PlaybackSpeedError`."""
     if isinstance(action, Set):
         if action.value == MAX:
             return MAX
         if isinstance(action.value, str):
-            raise PaceError("not_a_speed", "value", low=SLOWEST, high=FASTEST, value=action.value)
+            raise PlaybackSpeedError("not_a_speed", "value", low=SLOWEST, high=FASTEST, value=action.value)
         return _within(float(action.value), "value")
     if action.direction == "up":
-        return _up(pace)
+        return _doubled(speed)
     if action.direction == "down":
-        return FASTEST if pace == MAX else _halved(float(pace))
-    now = FASTEST if pace == MAX else float(pace)
+        return FASTEST if speed == MAX else _halved(float(speed))
+    now = FASTEST if speed == MAX else float(speed)
     if action.factor is not None:
         wanted, field = now * action.factor, "factor"
     else:
         wanted, field = now + (action.by or 0.0), "by"
-    if pace == MAX and wanted > now:
-        raise PaceError("fastest", field)
+    if speed == MAX and wanted > now:
+        raise PlaybackSpeedError("fastest", field)
     return _within(round(wanted, 9), field)
 
 
 @lru_cache(maxsize=256)  # asked at every tick
-def period_s(pace: Pace, step_seconds: float) -> float:
+def period_s(speed: PlaybackSpeed, step_seconds: float) -> float:
     """Seconds from one turn of the clock to the next."""
-    return MAX_PERIOD_S if pace == MAX else step_seconds / float(pace) * _ticks_a_turn(pace, step_seconds)
+    return MAX_PERIOD_S if speed == MAX else step_seconds / float(speed) * _ticks_a_turn(speed, step_seconds)
 
 
-def turn(pace: Pace, step_seconds: float) -> Iterable[object]:
+def ticks_of_turn(speed: PlaybackSpeed, step_seconds: float) -> Iterable[object]:
     """Once for each tick of one turn; as fast as possible ends when the turn has become long."""
-    return _hurried_turn() if pace == MAX else range(_ticks_a_turn(pace, step_seconds))
+    return _max_speed_turn() if speed == MAX else range(_ticks_a_turn(speed, step_seconds))
 
 
-def _hurried_turn() -> Iterator[None]:
+def _max_speed_turn() -> Iterator[None]:
     began = time.monotonic()
     for _ in range(MAX_TURN_TICKS):
         yield
@@ -101,31 +101,31 @@ def _hurried_turn() -> Iterator[None]:
             return
 
 
-def hurried(pace: Pace) -> bool:
+def is_accelerated(speed: PlaybackSpeed) -> bool:
     """Whether ticks come sooner than in real time."""
-    return pace == MAX or float(pace) > NORMAL
+    return speed == MAX or float(speed) > NORMAL
 
 
 @lru_cache(maxsize=256)
-def _ticks_a_turn(pace: Pace, step_seconds: float) -> int:
-    return max(1, math.ceil(SHORTEST_TURN_S * float(pace) / step_seconds - 1e-9))
+def _ticks_a_turn(speed: PlaybackSpeed, step_seconds: float) -> int:
+    return max(1, math.ceil(SHORTEST_TURN_S * float(speed) / step_seconds - 1e-9))
 
 
-def _up(pace: Pace) -> Pace:
-    if pace == MAX:
-        raise PaceError("fastest", "direction")
-    if pace == FASTEST:
+def _doubled(speed: PlaybackSpeed) -> PlaybackSpeed:
+    if speed == MAX:
+        raise PlaybackSpeedError("fastest", "direction")
+    if speed == FASTEST:
         return MAX
-    return min(FASTEST, float(pace) * 2)
+    return min(FASTEST, float(speed) * 2)
 
 
-def _halved(pace: float) -> Pace:
-    if pace == SLOWEST:
-        raise PaceError("slowest", "direction", low=SLOWEST)
-    return max(SLOWEST, pace / 2)
+def _halved(speed: float) -> PlaybackSpeed:
+    if speed == SLOWEST:
+        raise PlaybackSpeedError("slowest", "direction", low=SLOWEST)
+    return max(SLOWEST, speed / 2)
 
 
 def _within(value: float, field: str) -> float:
     if not SLOWEST <= value <= FASTEST:  # false for what is no number, too
-        raise PaceError("out_of_range", field, low=SLOWEST, high=FASTEST, value=value)
+        raise PlaybackSpeedError("out_of_range", field, low=SLOWEST, high=FASTEST, value=value)
     return value

@@ -10,50 +10,50 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from service.sessions.subscribers import Notice, Watchers
+from service.sessions.subscribers import StreamMessage, Subscribers
 
 
-class Stages:
+class TickBatch:
     """What one session has not told yet. Empty whenever no turn of the clock is under way."""
 
-    __slots__ = ("_holding", "_made", "_untold", "_watchers")
+    __slots__ = ("_encoded", "_holding", "_pending", "_subscribers")
 
-    def __init__(self, watchers: Watchers) -> None:
-        self._watchers = watchers
+    def __init__(self, subscribers: Subscribers) -> None:
+        self._subscribers = subscribers
         self._holding = False
-        self._untold: list[tuple[int, Callable[[], bytes]]] = []
-        self._made: list[Notice] = []
+        self._pending: list[tuple[int, Callable[[], bytes]]] = []
+        self._encoded: list[StreamMessage] = []
 
     def hold(self) -> None:
         """Ticks are not told until `make` and `send` are called."""
         self._holding = True
 
-    def tick(self, tick: int, encode: Callable[[], bytes]) -> None:
+    def publish_tick(self, tick: int, encode: Callable[[], bytes]) -> None:
         """Tell of a tick, now or when its stage comes."""
         if self._holding:
-            self._untold.append((tick, encode))
+            self._pending.append((tick, encode))
         else:
-            self._watchers.publish(tick, encode)
+            self._subscribers.publish(tick, encode)
 
-    def now(self, tick: int, encode: Callable[[], bytes]) -> None:
+    def publish_now(self, tick: int, encode: Callable[[], bytes]) -> None:
         """Tell of something else at once, after all that is not told yet."""
-        self.make()
+        self.encode()
         self.send()
-        self._watchers.publish(tick, encode)
+        self._subscribers.publish(tick, encode)
 
-    def make(self) -> None:
+    def encode(self) -> None:
         """Make the messages of what was held. Raises what making one raises; those before it are made."""
         self._holding = False
-        if self._untold:
-            untold, self._untold = self._untold, []
+        if self._pending:
+            untold, self._pending = self._pending, []
             for tick, encode in untold:
-                notice = self._watchers.made(tick, encode)
+                notice = self._subscribers.prepare(tick, encode)
                 if notice is not None:
-                    self._made.append(notice)
+                    self._encoded.append(notice)
 
     def send(self) -> None:
         """Hand out what was made."""
-        if self._made:
-            made, self._made = self._made, []
+        if self._encoded:
+            made, self._encoded = self._encoded, []
             for notice in made:
-                self._watchers.hand_out(notice)
+                self._subscribers.deliver(notice)

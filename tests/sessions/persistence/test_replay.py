@@ -60,17 +60,20 @@ async def test_only_what_the_log_still_holds_is_put_into_words(monkeypatch: pyte
         await do(session, {"do": "set_count", "kind": "pothole", "count": number % 7})
     await service.manager.close()
     other = Service(service.store, log_events=10)
-    words = other.manager._around.words
-    told, done = [], type(words).done
+    words = other.manager._services.narrator
+    told, done = [], type(words).reply
 
     def counted(self: Any, facts: Any) -> str:
         told.append(facts)
         return done(self, facts)
 
-    monkeypatch.setattr(type(words), "done", counted)
+    monkeypatch.setattr(type(words), "reply", counted)
     again = await other.manager.get(session.id)
     assert len(told) == 10
-    assert (again.log.first_kept, again.log.last) == (session.log.first_kept, session.log.last)
+    assert (again.log.first_number, again.log.last_number) == (
+        session.log.first_number,
+        session.log.last_number,
+    )
     assert again.log.latest(10) == session.log.latest(10)
 
 
@@ -79,11 +82,11 @@ async def test_redo_and_undo_in_one_breath_is_no_step_of_its_own() -> None:
     await do(session, ADD)
     await do(session, UNDO)
     await do(session, REDO, UNDO)
-    assert (potholes(session), session.history.steps, len(session.history.undone)) == (4, 0, 1)
+    assert (potholes(session), session.undo_stack.steps, len(session.undo_stack.undone)) == (4, 0, 1)
     await do(session, REDO)
     assert potholes(session) == 5
     await do(session, UNDO, REDO)
-    assert (session.history.steps, len(session.history.undone)) == (1, 0)
+    assert (session.undo_stack.steps, len(session.undo_stack.undone)) == (1, 0)
     await do(session, UNDO)
     with pytest.raises(NothingToUndo):
         await do(session, UNDO)
@@ -141,5 +144,5 @@ async def test_a_pause_that_nobody_said_is_no_part_of_a_step_afterwards_either()
     await service.manager.close()
     third = await Service(store).manager.get(first.id)
     assert whole(third) == whole(second)
-    assert third.history.done[0].paused_before is True
+    assert third.undo_stack.done[0].paused_before is True
     assert [each.paused for each in await store.entries(first.id)] == [True, None, None]

@@ -27,9 +27,9 @@ async def test_others_are_served_while_one_comes_back(monkeypatch: pytest.Monkey
     def held(*given: Any) -> Any:
         begun.set()
         assert served.wait(PATIENCE_S), "the others were not served"
-        return waking.woken(*given)
+        return waking.restore(*given)
 
-    monkeypatch.setattr("service.sessions.manager.woken", held)
+    monkeypatch.setattr("service.sessions.manager.restore", held)
     coming = asyncio.ensure_future(service.manager.get(session.id))
     assert await asyncio.to_thread(begun.wait, PATIENCE_S)
     await do(other, ADD)
@@ -47,7 +47,7 @@ async def test_a_long_way_back_is_told(short: bool, monkeypatch: pytest.MonkeyPa
     session = await service.session(paused=True)
     for _ in range(3):
         await do(session, ADD)
-    await service.manager.keeper.settled()
+    await service.manager.snapshots.flush()
     with structlog.testing.capture_logs() as told:
         await Service(service.store).manager.get(session.id)
     long = [line for line in told if line["event"].startswith("a session is done again from all of its log")]

@@ -24,10 +24,10 @@ class Refusing(MemoryStore):
 
     refuses = True
 
-    async def keep_snapshot(self, record: SnapshotRecord) -> None:
+    async def save_snapshot(self, record: SnapshotRecord) -> None:
         if self.refuses:
             raise StoreError("database or disk is full")
-        await super().keep_snapshot(record)
+        await super().save_snapshot(record)
 
     async def snapshot(self, session_id: str) -> SnapshotRecord | None:
         if self.refuses:
@@ -37,7 +37,7 @@ class Refusing(MemoryStore):
 
 async def kept(service: Service, session: Session | str) -> int | None:
     """The change that the session's snapshot is of."""
-    await service.manager.keeper.settled()
+    await service.manager.snapshots.flush()
     found = await service.store.snapshot(session if isinstance(session, str) else session.id)
     return None if found is None else found.sequence
 
@@ -50,7 +50,7 @@ async def test_one_is_kept_after_so_much_work_and_then_another() -> None:
         await do(session, STEP)
         found.append(await kept(service, session))
     assert found == [None, None, 3, 3, 3, 6, 6, 6]
-    assert service.manager.keeper.fates == {"kept": 2}
+    assert service.manager.snapshots.counts == {"kept": 2}
     await compared(service.store, session.id)
 
 
@@ -63,10 +63,10 @@ async def test_a_change_does_not_wait_for_it(monkeypatch: pytest.MonkeyPatch) ->
     service = Service(snapshot_work=1)
     session = await service.session(paused=True)
     with monkeypatch.context() as patch:
-        patch.setattr(keeping, "sealed", never)
+        patch.setattr(keeping, "pack", never)
         for _ in range(5):
             await do(session, ADD)
-    assert len(service.manager.keeper._due) == 1, "the latest alone is to be written"
+    assert len(service.manager.snapshots._due) == 1, "the latest alone is to be written"
     assert await kept(service, session) == 5
 
 
@@ -87,7 +87,7 @@ async def test_one_is_kept_when_it_goes_to_sleep_where_its_clock_stands() -> Non
     service.clock.tick(150)
     identity = session.id
     session.set_paused(True)
-    let_go = await service.manager._let_go([session], lambda _: True)
+    let_go = await service.manager.evict([session], lambda _: True)
     del session
     gc.collect()
     assert (let_go, held()) == (1, None)
@@ -104,7 +104,7 @@ async def test_at_a_stop_those_that_owe_most_are_kept(monkeypatch: pytest.Monkey
         session.set_paused(True)
         for _ in range(ticks):
             session.timeline.advance()
-    monkeypatch.setattr("service.sessions.manager.SNAPSHOTS_S", 5.0)
+    monkeypatch.setattr("service.sessions.manager.SNAPSHOT_TIMEOUT_S", 5.0)
     await service.manager.close()
     assert list(service.store._snapshots) == [sessions[1].id, sessions[0].id]
     for session in sessions[:2]:
@@ -115,7 +115,7 @@ async def test_a_stop_does_not_wait_for_what_there_is_no_time_for(monkeypatch: p
     service = Service(snapshot_work=10)
     session = await service.session()
     service.clock.tick(100)
-    monkeypatch.setattr("service.sessions.manager.SNAPSHOTS_S", 0.0)
+    monkeypatch.setattr("service.sessions.manager.SNAPSHOT_TIMEOUT_S", 0.0)
     await service.manager.close()
     assert service.store._snapshots == {}
     assert (await Service(service.store).manager.get(session.id)).run == session.run
@@ -130,8 +130,8 @@ async def test_who_came_back_the_long_way_comes_back_the_short_way_next() -> Non
     for fates in ({"kept": 1}, {"used": 1}):
         service = Service(service.store, snapshot_work=30)
         again = await service.manager.get(session.id)
-        await service.manager.keeper.settled()
-        assert service.manager.keeper.fates == fates
+        await service.manager.snapshots.flush()
+        assert service.manager.snapshots.counts == fates
         assert again.run == session.run
 
 
@@ -156,14 +156,14 @@ async def test_a_fork_has_one_of_its_own_and_needs_no_parent() -> None:
 
 
 async def test_no_more_wait_to_be_written_than_memory_is_meant_for(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("service.sessions.persistence.snapshot_scheduler.MOST_DUE", 2)
+    monkeypatch.setattr("service.sessions.persistence.snapshot_scheduler.MAX_DUE", 2)
     service = Service(snapshot_work=1)
     sessions = [await service.session(paused=True) for _ in range(3)]
     for session in (*sessions, *sessions):
         await do(session, ADD)
-    keeper = service.manager.keeper
+    keeper = service.manager.snapshots
     assert list(keeper._due) == [each.id for each in sessions[:2]]
-    await keeper.settled()
+    await keeper.flush()
     await do(sessions[2], ADD)
     assert await kept(service, sessions[2]) == 3
 
@@ -173,8 +173,8 @@ async def test_deleted_while_it_was_being_written() -> None:
     session = await service.session(paused=True)
     await do(session, ADD)
     await service.manager.delete(session.id)
-    await service.manager.keeper.settled()
-    assert (service.store._snapshots, service.manager.keeper.fates) == ({}, {})
+    await service.manager.snapshots.flush()
+    assert (service.store._snapshots, service.manager.snapshots.counts) == ({}, {})
 
 
 async def test_where_there_is_no_room_for_it_nobody_is_told_and_the_log_once() -> None:
@@ -184,8 +184,8 @@ async def test_where_there_is_no_room_for_it_nobody_is_told_and_the_log_once() -
     with capture_logs() as logs:
         for _ in range(4):
             await do(session, ADD)
-            await service.manager.keeper.settled()
-        assert service.manager.keeper.fates == {"failed": 4}
+            await service.manager.snapshots.flush()
+        assert service.manager.snapshots.counts == {"failed": 4}
         again = await Service(deepcopy(store), snapshot_work=10**6).manager.get(session.id)
     assert all_of(again) == all_of(session) | {"paused": all_of(again)["paused"]}
     assert [line["event"] for line in logs if line["log_level"] == "warning"] == [
@@ -197,16 +197,16 @@ async def test_where_there_is_no_room_for_it_nobody_is_told_and_the_log_once() -
 
 
 async def test_it_is_kept_in_its_own_time_without_being_asked(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("service.sessions.persistence.snapshot_scheduler.CALM_S", 0)
+    monkeypatch.setattr("service.sessions.persistence.snapshot_scheduler.DELAY_S", 0)
     service = Service(snapshot_work=1)
     session = await service.session(paused=True)
     await do(session, ADD)
-    worker = service.manager.keeper._worker
+    worker = service.manager.snapshots._worker
     assert worker is not None
     await asyncio.wait([worker], timeout=60)
-    assert service.manager.keeper.fates == {"kept": 1}
+    assert service.manager.snapshots.counts == {"kept": 1}
     await do(session, ADD)
-    assert service.manager.keeper._worker is not None
+    assert service.manager.snapshots._worker is not None
     assert await kept(service, session) == 2
 
 
@@ -226,6 +226,6 @@ async def test_in_a_file_too_with_talk_of_many_kinds(tmp_path: object) -> None:
     await store.open()
     service = Service(store)  # type: ignore[arg-type]
     again = await service.manager.get(session.id)
-    assert service.manager.keeper.fates == {"used": 1}
+    assert service.manager.snapshots.counts == {"used": 1}
     assert all_of(again) == all_of(session)
     await store.close()

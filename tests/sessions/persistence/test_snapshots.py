@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from service.problems import NotRestorable
 from service.sessions.persistence import snapshots as module
-from service.sessions.persistence.snapshots import UnfitError, opened
+from service.sessions.persistence.snapshots import UnfitError, unpack
 from service.sessions.session import Session
 from service.store import MemoryStore, SnapshotRecord
 from sim.config import Config
@@ -58,18 +58,18 @@ def test_by_a_snapshot_it_is_what_it_is_by_its_log(
             await said(session, actions)
             if number in asked:
                 await said(session, [ASK])
-                session.tell("taught", None, "Something was taught.")
+                session.announce("taught", None, "Something was taught.")
             if number == fork_at:
                 session = await service.manager.fork(session, session.timeline.tick * 2 // 3, paused=True)
             if number == snapshot_at:
-                service.manager.keeper._take(session)
-                await service.manager.keeper.settled()
+                service.manager.snapshots._take(session)
+                await service.manager.snapshots.flush()
             if number in ends:
                 service = Service(service.store, **given)  # as after a kill
                 session = await service.manager.get(session.id)
         if await service.store.snapshot(session.id) is None:
-            service.manager.keeper._take(session)
-            await service.manager.keeper.settled()
+            service.manager.snapshots._take(session)
+            await service.manager.snapshots.flush()
             # It is taken where the clock stands; a service that ends stores that.
             await service.store.save_ticks({session.id: session.timeline.tick})
         record = await service.store.snapshot(session.id)
@@ -82,7 +82,7 @@ def test_by_a_snapshot_it_is_what_it_is_by_its_log(
         else:  # the clock had run on, and was killed
             service = Service(service.store, **given)
             await service.manager.get(session.id)
-            assert service.manager.keeper.fates == {"unfit": 1}
+            assert service.manager.snapshots.counts == {"unfit": 1}
 
     asyncio.run(one())
 
@@ -92,8 +92,8 @@ async def talked(**given: int) -> tuple[Service, Session]:
     session = await service.session(paused=True)
     for actions in ([ADD], [{"do": "step", "ticks": 9}, ADD_CARS], [save("a")], [rewind(4)], [ADD], [UNDO]):
         await do(session, *actions)
-    service.manager.keeper._take(session)
-    await service.manager.keeper.settled()
+    service.manager.snapshots._take(session)
+    await service.manager.snapshots.flush()
     await do(session, {"do": "step", "ticks": 5}, ADD)
     await do(session, load("a"))
     return service, session
@@ -110,7 +110,7 @@ async def test_what_follows_a_snapshot_is_done_again() -> None:
 async def used_or_not(store: MemoryStore, session: str) -> tuple[bool, Session]:
     service = Service(deepcopy(store), snapshot_work=10**6)
     found = await service.manager.get(session)
-    return service.manager.keeper.fates["used"] == 1, found
+    return service.manager.snapshots.counts["used"] == 1, found
 
 
 async def test_a_bit_that_is_another_makes_it_none() -> None:
@@ -122,12 +122,12 @@ async def test_a_bit_that_is_another_makes_it_none() -> None:
     for place in range(0, len(good.body), max(1, len(good.body) // 60)):
         body = bytearray(good.body)
         body[place] ^= 1 << place % 8
-        await service.store.keep_snapshot(replace(good, body=bytes(body)))
+        await service.store.save_snapshot(replace(good, body=bytes(body)))
         used, found = await used_or_not(service.store, session.id)
         assert not used
         assert all_of(found) == other
     for body in (b"", good.body[:-1], good.body + b"\0", zlib.compress(b"{}"), zlib.compress(b"[[[")):
-        await service.store.keep_snapshot(replace(good, body=body))
+        await service.store.save_snapshot(replace(good, body=body))
         assert not (await used_or_not(service.store, session.id))[0]
 
 
@@ -150,7 +150,7 @@ async def test_a_field_that_is_another_makes_it_none(change: dict[str, Any]) -> 
     other = all_of(await back(service.store, session.id, short=False))
     bad = replace(good, **change)
     for record in (bad, bad if "checksum" in change else sealed_again(bad)):
-        await service.store.keep_snapshot(record)
+        await service.store.save_snapshot(record)
         used, found = await used_or_not(service.store, session.id)
         assert not used
         assert all_of(found) == other
@@ -209,7 +209,7 @@ async def test_a_value_that_cannot_be_makes_it_none_though_its_checksum_is_right
     good = await service.store.snapshot(session.id)
     assert good is not None
     other = all_of(await back(service.store, session.id, short=False))
-    await service.store.keep_snapshot(changed(good, path, value))
+    await service.store.save_snapshot(changed(good, path, value))
     used, found = await used_or_not(service.store, session.id)
     assert not used
     assert all_of(found) == other
@@ -229,10 +229,10 @@ async def test_another_world_than_the_log_names_makes_it_none() -> None:
     wrong = sealed_again(changed(ends, ["tick"], 9))
     entries = list(await service.store.entries(session.id))
     with pytest.raises(UnfitError, match=r"another world|beyond"):
-        opened(wrong, record, entries, 400)
+        unpack(wrong, record, entries, 400)
     entries[5] = replace(entries[5], digest="0" * 32)
     with pytest.raises(UnfitError, match="another log"):
-        opened(good, record, entries, 400)
+        unpack(good, record, entries, 400)
 
 
 async def test_the_row_of_another_session_is_none_of_its_own() -> None:
@@ -274,8 +274,8 @@ async def test_another_program_makes_its_own(monkeypatch: pytest.MonkeyPatch) ->
     monkeypatch.setattr(module, "version", lambda: "1.another")
     again = Service(service.store, snapshot_work=1)
     await again.manager.get(session.id)
-    await again.manager.keeper.settled()
-    assert again.manager.keeper.fates == {"unfit": 1, "kept": 1}
+    await again.manager.snapshots.flush()
+    assert again.manager.snapshots.counts == {"unfit": 1, "kept": 1}
     assert (await used_or_not(service.store, session.id))[0]
 
 
@@ -283,7 +283,7 @@ async def test_a_log_of_another_length_is_written_anew() -> None:
     service, session = await talked()
     again = Service(deepcopy(service.store), log_events=20)
     await again.manager.get(session.id)
-    assert again.manager.keeper.fates["unfit"] == 1
+    assert again.manager.snapshots.counts["unfit"] == 1
 
 
 async def test_the_sources_of_the_rules_make_the_version() -> None:
@@ -302,22 +302,22 @@ async def test_states_on_the_way_are_fewer_where_there_would_be_too_many(
     for number in range(12):
         await do(session, {"do": "step", "ticks": 200}, ADD_CARS, save(f"moment {number % 3}"))
         await do(session, rewind(60))
-    keeper = service.manager.keeper
+    keeper = service.manager.snapshots
     keeper._take(session)
-    await keeper.settled()
+    await keeper.flush()
     large = await service.store.snapshot(session.id)
     assert large is not None
-    monkeypatch.setattr("service.sessions.persistence.snapshot_codec.MOST_STATES", 8)
-    monkeypatch.setattr(module, "MOST_BYTES", len(large.body) * 2 // 3)
+    monkeypatch.setattr("service.sessions.persistence.snapshot_codec.MAX_STATES", 8)
+    monkeypatch.setattr(module, "MAX_BYTES", len(large.body) * 2 // 3)
     keeper._take(session)
-    await keeper.settled()
+    await keeper.flush()
     small = await service.store.snapshot(session.id)
     assert small is not None
-    assert len(small.body) <= module.MOST_BYTES
+    assert len(small.body) <= module.MAX_BYTES
     assert len(values_of(small)["snapshots"]) < len(values_of(large)["snapshots"]) / 2
     await compared(service.store, session.id)
-    monkeypatch.setattr(module, "MOST_BYTES", 100)
+    monkeypatch.setattr(module, "MAX_BYTES", 100)
     keeper._take(session)
-    await keeper.settled()
-    assert keeper.fates["failed"] == 1
+    await keeper.flush()
+    assert keeper.counts["failed"] == 1
     assert await service.store.snapshot(session.id) == small

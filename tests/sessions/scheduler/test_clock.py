@@ -9,7 +9,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from service.sessions.scheduler.clock import BEHIND_S, FULL, HURRY_S, SLOT_S, Lateness, WheelClock
+from service.sessions.scheduler.clock import (
+    POSTPONE_MARGIN_S,
+    SLOT_CAPACITY,
+    SLOT_S,
+    UNTHROTTLED_TURN_S,
+    Lateness,
+    WheelClock,
+)
 from tests.support.clock_time import Counter, Time
 
 
@@ -29,14 +36,14 @@ def test_each_ticks_at_its_own_pace(periods_s: list[float]) -> None:
     run(clock, time, 4.0)
     for counter in counters:
         assert (
-            (4.0 - (4 + len(periods_s) // FULL) * SLOT_S) / counter.period_s - 1
+            (4.0 - (4 + len(periods_s) // SLOT_CAPACITY) * SLOT_S) / counter.period_s - 1
             < len(counter.ticks)
             <= 4.0 / counter.period_s + 1e-6
         )
         late_s = [at - (100.0 + counter.period_s * (n + 1)) for n, at in enumerate(counter.ticks)]
         # Up to a slot for the deadline, one for when it is looked at; where many begin at once, some begin at
         # the next slot, or one later still for as many as fill it.
-        begin_s = (1 + len(periods_s) // FULL) * SLOT_S if len(periods_s) > FULL else 0.0
+        begin_s = (1 + len(periods_s) // SLOT_CAPACITY) * SLOT_S if len(periods_s) > SLOT_CAPACITY else 0.0
         assert all(-1e-9 <= each <= begin_s + 2 * SLOT_S + 1e-9 for each in late_s), "neither early nor late"
         spread_s = max(late_s, default=0.0) - min(late_s, default=0.0)
         assert spread_s <= 2 * SLOT_S + 1e-9, "and always as much"
@@ -126,8 +133,8 @@ async def test_the_real_loop_drives_it() -> None:
 
 
 def test_lateness_of_known_samples() -> None:
-    assert Lateness.of([]) == Lateness(0, 0.0, 0.0, 0.0)
-    assert Lateness.of([n / 1000 for n in range(101)]) == Lateness(101, 50.0, 99.0, 100.0)
+    assert Lateness.from_samples([]) == Lateness(0, 0.0, 0.0, 0.0)
+    assert Lateness.from_samples([n / 1000 for n in range(101)]) == Lateness(101, 50.0, 99.0, 100.0)
 
 
 def test_many_that_begin_at_once_are_spread_over_their_period() -> None:
@@ -138,7 +145,7 @@ def test_many_that_begin_at_once_are_spread_over_their_period() -> None:
         clock.add(counter)
     run(clock, time, 3.0)
     at_once = Counter_(round(counter.ticks[-1], 6) for counter in counters)
-    assert max(at_once.values()) <= 2_000 / (0.5 / SLOT_S) + FULL
+    assert max(at_once.values()) <= 2_000 / (0.5 / SLOT_S) + SLOT_CAPACITY
     assert all(5 <= len(counter.ticks) <= 6 for counter in counters), (
         "a first tick waits a period more at most"
     )
@@ -161,7 +168,7 @@ def test_after_lost_time_those_that_were_spread_stay_spread() -> None:
     assert early.ticks[1] - early.ticks[0] >= 0.24, "none follows on the heels of a late one"
 
 
-EVERYWHERE = FULL * 250
+EVERYWHERE = SLOT_CAPACITY * 250
 """So many that tick every half a second are in all its slots alike."""
 
 
@@ -192,7 +199,7 @@ def stalled(load: float) -> tuple[list[float], int]:
         time.now_s += SLOT_S / 4
         clock.serve()
     after_s = late_s[before:]
-    return after_s, sum(each > BEHIND_S for each in after_s)
+    return after_s, sum(each > POSTPONE_MARGIN_S for each in after_s)
 
 
 def test_what_is_caught_up_with_soon_is_no_lost_time() -> None:
@@ -205,7 +212,7 @@ def test_near_its_limit_a_service_is_late_once_for_each_and_not_for_long() -> No
     late_s, too_late = stalled(0.8)
     assert EVERYWHERE < too_late <= 2 * EVERYWHERE, "all of them, and those until it was given up"
     assert max(late_s) == pytest.approx(0.3, abs=0.01), "counted from when it was first due"
-    assert max(late_s[2 * EVERYWHERE :]) <= BEHIND_S
+    assert max(late_s[2 * EVERYWHERE :]) <= POSTPONE_MARGIN_S
     assert len(late_s) == pytest.approx(2 * EVERYWHERE * 7.75, abs=EVERYWHERE / 5), "what was given up"
 
 
@@ -239,7 +246,7 @@ def test_those_in_a_hurry_share_half_the_time_at_most_and_hold_up_nobody(hurried
     assert 350 <= sum(done) <= 550, "of a thousand that there would be time for"
     assert max(done) - min(done) <= 1, "each in its turn"
     assert len(steady.ticks) in (19, 20)
-    assert clock.lateness().max_ms <= 1e3 * (HURRY_S + 0.001 + 2 * SLOT_S)
+    assert clock.lateness().max_ms <= 1e3 * (UNTHROTTLED_TURN_S + 0.001 + 2 * SLOT_S)
     assert clock.lateness().ticks == len(steady.ticks), "as often as can be has no deadline"
 
 
@@ -316,7 +323,7 @@ def test_stalls_in_a_row_are_not_counted_twice() -> None:
     clock.serve()
     clock.serve()
     assert (len(first.ticks), len(second.ticks), len(other.ticks)) == (1, 1, 0)
-    assert clock._put_off_s == 0.0
+    assert clock._postponed_s == 0.0
     clock.serve()
     assert other.ticks[0] - 101.46 < 0.05
 

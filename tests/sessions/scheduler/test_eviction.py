@@ -12,7 +12,7 @@ import pytest
 
 from service.app import create_app
 from service.sessions.manager import SessionManager
-from service.sessions.scheduler.eviction import LOOKS, Sleeper
+from service.sessions.scheduler.eviction import CHECKS_PER_TIMEOUT, Evictor
 from service.settings import Settings
 from service.store import MemoryStore, StoreError
 from tests.support.fakes import FewSentences, HandClock
@@ -25,12 +25,12 @@ class Time:
     def __init__(self, service: Service) -> None:
         self.now_s = 100.0
         self.manager: SessionManager = service.app.state.context.manager
-        self.manager.idleness.now = lambda: self.now_s
-        self.sleeper: Sleeper = self.manager.sleeper()
+        self.manager.idle_times.now = lambda: self.now_s
+        self.sleeper: Evictor = self.manager.evictor()
 
     async def look(self, later_s: float = 0.0) -> int:
         self.now_s += later_s
-        return await self.sleeper.look()
+        return await self.sleeper.evict_idle()
 
 
 @pytest.fixture
@@ -54,11 +54,11 @@ async def test_it_sleeps_and_wakes_as_it_was(service: Service, time: Time) -> No
     assert await time.look(1) == 1
     gc.collect()
     assert held() is None, "its memory is free"
-    assert time.manager.live == 0
+    assert time.manager.live_count == 0
     (listed,) = (await service.client.get("/api/v1/sessions")).json()["items"]
     assert (listed["live"], listed["tick"]) == (False, 30)
     assert await service.state(path) == before
-    assert time.manager.live == 1
+    assert time.manager.live_count == 1
     await service.act(path, {"do": "undo"})
     assert (await service.state(path))["sequence"] == 4
 
@@ -75,9 +75,9 @@ async def test_whoever_asks_keeps_it_awake(service: Service, time: Time) -> None
 async def test_whoever_watches_keeps_it_awake(service: Service, time: Time) -> None:
     path = await service.session(paused=True)
     session = await time.manager.get(path.rsplit("/", 1)[1])
-    watcher = session.watchers.join()
+    subscriber = session.subscribers.subscribe()
     assert await time.look(10 * AFTER_S) == 0
-    session.watchers.leave(watcher)
+    session.subscribers.unsubscribe(subscriber)
     assert await time.look(AFTER_S - 1) == 0, "from when the last one left"
     assert await time.look(1) == 1
 
@@ -147,7 +147,7 @@ async def test_who_comes_while_it_is_put_to_sleep_keeps_it() -> None:
     assert answer.status_code == 200
     store.go.set()
     assert await looking == 0
-    assert time.manager.live == 1
+    assert time.manager.live_count == 1
     clock.tick()
     assert (await service.state(path))["tick"] == 1, "and it goes on"
     await service.client.aclose()
@@ -161,7 +161,7 @@ async def test_a_store_that_fails_lets_nothing_go() -> None:
     await time.look()
     with pytest.raises(StoreError):
         await time.look(AFTER_S)
-    assert (time.manager.live, len(clock.tickers)) == (1, 1)
+    assert (time.manager.live_count, len(clock.tickers)) == (1, 1)
     await service.client.aclose()
 
 
@@ -170,7 +170,7 @@ async def test_a_deleted_one_is_forgotten(service: Service, time: Time) -> None:
     await service.client.get(path)
     await service.client.delete(path)
     assert await time.look(AFTER_S) == 0
-    assert time.manager.idleness._used_s == {}
+    assert time.manager.idle_times._used_s == {}
 
 
 async def test_it_looks_by_itself(service: Service, time: Time, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -181,10 +181,10 @@ async def test_it_looks_by_itself(service: Service, time: Time, monkeypatch: pyt
     async def sleep(seconds: float) -> None:
         slept.append(seconds)
         time.now_s += seconds
-        if not time.manager.live:
+        if not time.manager.live_count:
             raise asyncio.CancelledError
 
     monkeypatch.setattr("service.sessions.scheduler.eviction.asyncio.sleep", sleep)
     with pytest.raises(asyncio.CancelledError):
         await time.sleeper.run()
-    assert slept == [AFTER_S / LOOKS] * (LOOKS + 1)
+    assert slept == [AFTER_S / CHECKS_PER_TIMEOUT] * (CHECKS_PER_TIMEOUT + 1)

@@ -21,12 +21,12 @@ from service.sessions.scheduler.playback_speed import (
     MAX_TURN_S,
     MAX_TURN_TICKS,
     SLOWEST,
-    Pace,
-    PaceError,
-    hurried,
-    pace_after,
+    PlaybackSpeed,
+    PlaybackSpeedError,
+    change_playback_speed,
+    is_accelerated,
     period_s,
-    turn,
+    ticks_of_turn,
 )
 from service.settings import Settings
 from service.store import MemoryStore
@@ -37,9 +37,9 @@ SET = {"do": "set", "parameter": "playback_speed"}
 ADJUST = {"do": "adjust", "parameter": "playback_speed"}
 
 
-def after(pace: Pace, **action: object) -> Pace:
+def after(pace: PlaybackSpeed, **action: object) -> PlaybackSpeed:
     (loaded,) = load([{**(SET if "value" in action else ADJUST), **action}])
-    return pace_after(pace, loaded)  # type: ignore[arg-type]
+    return change_playback_speed(pace, loaded)  # type: ignore[arg-type]
 
 
 @pytest.fixture
@@ -71,7 +71,7 @@ async def talking(settings: Settings) -> AsyncIterator[Service]:
         (MAX, {"factor": 0.5}, 32.0),
     ],
 )
-def test_what_a_change_comes_to(before: Pace, action: dict[str, Any], then: Pace) -> None:
+def test_what_a_change_comes_to(before: PlaybackSpeed, action: dict[str, Any], then: PlaybackSpeed) -> None:
     assert after(before, **action) == then
 
 
@@ -89,15 +89,15 @@ def test_what_a_change_comes_to(before: Pace, action: dict[str, Any], then: Pace
         (MAX, {"factor": 2}, "as fast as possible already"),
     ],
 )
-def test_what_cannot_be(before: Pace, action: dict[str, Any], told: str) -> None:
-    with pytest.raises(PaceError) as refused:
+def test_what_cannot_be(before: PlaybackSpeed, action: dict[str, Any], told: str) -> None:
+    with pytest.raises(PlaybackSpeedError) as refused:
         after(before, **action)
-    assert told in refusals().pace(refused.value.code, refused.value.facts)
+    assert told in refusals().playback_speed(refused.value.code, refused.value.facts)
 
 
 @given(pace=st.floats(SLOWEST, FASTEST), step_seconds=st.floats(0.05, 5.0))
 def test_a_turn_takes_as_many_ticks_as_its_time_is_long(pace: float, step_seconds: float) -> None:
-    ticks, period = len(list(turn(pace, step_seconds))), period_s(pace, step_seconds)
+    ticks, period = len(list(ticks_of_turn(pace, step_seconds))), period_s(pace, step_seconds)
     assert ticks / period == pytest.approx(pace / step_seconds), "the speed is kept"
     assert period > 1.5 * SLOT_S, "turns fall into different slots of the clock"
     assert ticks == 1 or period <= 2 * 0.004, "no more at once than need be"
@@ -106,9 +106,9 @@ def test_a_turn_takes_as_many_ticks_as_its_time_is_long(pace: float, step_second
 def test_as_fast_as_possible_ends_its_turn(monkeypatch: pytest.MonkeyPatch) -> None:
     now = [0.0]
     monkeypatch.setattr("service.sessions.scheduler.playback_speed.time.monotonic", lambda: now[0])
-    assert len(list(turn(MAX, 0.5))) == MAX_TURN_TICKS
+    assert len(list(ticks_of_turn(MAX, 0.5))) == MAX_TURN_TICKS
     slow = 0
-    for _ in turn(MAX, 0.5):
+    for _ in ticks_of_turn(MAX, 0.5):
         slow += 1
         now[0] += MAX_TURN_S * 0.6
     assert slow == 2
@@ -147,7 +147,7 @@ def test_who_plays_as_fast_as_possible_leaves_time_to_the_others() -> None:
 
 
 def test_only_more_than_real_time_is_a_hurry() -> None:
-    assert [hurried(pace) for pace in (0.25, 1.0, 1.5, MAX)] == [False, False, True, True]
+    assert [is_accelerated(pace) for pace in (0.25, 1.0, 1.5, MAX)] == [False, False, True, True]
 
 
 async def test_it_is_told_changed_and_no_step(service: Service) -> None:

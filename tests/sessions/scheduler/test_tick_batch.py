@@ -7,10 +7,10 @@ from datetime import UTC, datetime
 import pytest
 
 from service.narration import Narrator
-from service.sessions.scheduler.clock import TOGETHER, WheelClock
-from service.sessions.scheduler.tick_batch import Stages
-from service.sessions.session import Session, Surroundings
-from service.sessions.subscribers import Notice, Watchers
+from service.sessions.scheduler.clock import BATCH_SIZE, WheelClock
+from service.sessions.scheduler.tick_batch import TickBatch
+from service.sessions.session import Session, SessionServices
+from service.sessions.subscribers import StreamMessage, Subscribers
 from service.settings import Settings
 from service.store import MemoryStore, SessionRecord
 from sim.config import Config
@@ -28,7 +28,7 @@ class Hearing:
     def __init__(self, name: str, diary: list[tuple[str, bytes]]) -> None:
         self.name, self.diary = name, diary
 
-    def put(self, notice: Notice) -> None:
+    def put(self, notice: StreamMessage) -> None:
         self.diary.append((self.name, notice.data))
 
     def end(self) -> None:
@@ -45,10 +45,10 @@ def sessions(
         name = f"s{seed}"
         record = SessionRecord(id=name, name=None, created_at=BEGAN, config={})
         timeline = Timeline(Config(seed=seed, rows=10))
-        session = Session(record, timeline, Surroundings(MemoryStore(), clock, WORDS, Settings()))
-        session.watchers._token = "t"
-        session.watchers.join()
-        session.watchers._watchers = {Hearing(name, diary)}  # type: ignore[arg-type]
+        session = Session(record, timeline, SessionServices(MemoryStore(), clock, WORDS, Settings()))
+        session.subscribers._token = "t"
+        session.subscribers.subscribe()
+        session.subscribers._subscribers = {Hearing(name, diary)}  # type: ignore[arg-type]
         session.set_paused(False)
         made.append(session)
     return made
@@ -63,7 +63,7 @@ def served(clock: WheelClock, time: Time, seconds: float) -> None:
 async def test_stage_by_stage_the_same_is_told() -> None:
     time, staged, plain = Time(), list[tuple[str, bytes]](), list[tuple[str, bytes]]()
     wheel, hand = WheelClock(time), HandClock()
-    count = TOGETHER + 8
+    count = BATCH_SIZE + 8
     sessions(wheel, count, staged)
     time.now_s += 0.5 - 0.01
     sessions(hand, count, plain)
@@ -79,11 +79,11 @@ async def test_stage_by_stage_the_same_is_told() -> None:
 async def test_something_else_is_told_after_the_ticks_before_it() -> None:
     diary: list[tuple[str, bytes]] = []
     (session,) = sessions(HandClock(), 1, diary)
-    session.stages.hold()
+    session.tick_batch.hold()
     session.tick()
     session.tick()
     assert diary == []
-    session.tell("note", None, "Well.")
+    session.announce("note", None, "Well.")
     assert [data[: 8 + 10] for _, data in diary] == [b'{"type":"tick","ti'] * 2 + [b'{"type":"changed",']
     session.tick()
     assert len(diary) == 4, "nothing is held any more"
@@ -100,7 +100,8 @@ async def test_a_message_that_cannot_be_made_pauses_its_own_session_only() -> No
         def decision(self, *_: object) -> str:
             raise RuntimeError("no words")
 
-    made[1].words = Wordless(WORDS._sayings)
+    services = made[1]._services
+    made[1]._services = replace(services, narrator=Wordless(WORDS._sayings))
     served(clock, time, 1.2)
     assert [session.paused for session in made] == [False, True, False]
     assert [session.timeline.tick for session in made] == [2, 1, 2]
@@ -109,18 +110,18 @@ async def test_a_message_that_cannot_be_made_pauses_its_own_session_only() -> No
 
 
 def test_messages_before_one_that_cannot_be_made_are_told() -> None:
-    watchers, diary = Watchers(), list[tuple[str, bytes]]()
-    watchers.join()
-    watchers._watchers = {Hearing("s", diary)}  # type: ignore[arg-type]
-    stages = Stages(watchers)
+    subscribers, diary = Subscribers(), list[tuple[str, bytes]]()
+    subscribers.subscribe()
+    subscribers._subscribers = {Hearing("s", diary)}  # type: ignore[arg-type]
+    stages = TickBatch(subscribers)
 
     def broken() -> bytes:
         raise RuntimeError("no words")
 
     stages.hold()
-    stages.tick(1, lambda: b"one")
-    stages.tick(2, broken)
+    stages.publish_tick(1, lambda: b"one")
+    stages.publish_tick(2, broken)
     with pytest.raises(RuntimeError):
-        stages.make()
-    stages.now(2, lambda: b"failed")
+        stages.encode()
+    stages.publish_now(2, lambda: b"failed")
     assert [data for _, data in diary] == [b"one", b"failed"]

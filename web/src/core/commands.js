@@ -4,6 +4,8 @@
  * it (`Panel.acts`); all of them together are `page.acts()`.
  */
 
+import { t } from "./texts.js";
+
 /** @import { Page } from "../main.js" */
 /** @import { Action } from "./protocol.js" */
 /** @import { State } from "./state.js" */
@@ -35,13 +37,14 @@ export function perform(act, page) {
   doing.run?.(page);
 }
 
+/** @type {Action} */
 const STEP = { do: "step", ticks: 1 };
 
 /** @type {Act[]} */
 export const ACTS = [
   {
     name: "back",
-    group: "Clock",
+    group: t("groups.clock"),
     button: true,
     repeats: true,
     key: "ArrowLeft",
@@ -49,53 +52,53 @@ export const ACTS = [
     now: ({ world, past }) =>
       world && (past ?? { world }).world.tick > 0
         ? {
-            label: "Back",
+            label: t("clock.back"),
             icon: "back",
             turns: past || world.paused ? [] : [[{ do: "pause" }]],
-            run: (page) => void page.looking?.step(-1),
+            run: (page) => void page.looking.step(-1),
           }
         : null,
   },
   {
     name: "clock",
-    group: "Clock",
+    group: t("groups.clock"),
     button: true,
     key: " ",
-    keyName: "Space",
+    keyName: t("clock.space"),
     now: ({ past, world }) => {
-      if (past) return { label: "Play", icon: "play", run: (page) => page.looking?.toggle() };
+      if (past) return { label: t("clock.play"), icon: "play", run: (page) => page.looking.toggle() };
       return world?.paused
-        ? { label: "Resume", icon: "play", turns: [[{ do: "resume" }]] }
-        : { label: "Pause", icon: "pause", turns: [[{ do: "pause" }]] };
+        ? { label: t("clock.resume"), icon: "play", turns: [[{ do: "resume" }]] }
+        : { label: t("clock.pause"), icon: "pause", turns: [[{ do: "pause" }]] };
     },
   },
   {
     name: "step",
-    group: "Clock",
+    group: t("groups.clock"),
     button: true,
     repeats: true,
     key: "ArrowRight",
     keyName: "→",
     now({ past, world }) {
-      if (past) return { label: "Step", icon: "step", run: (page) => void page.looking?.step(1) };
+      if (past) return { label: t("clock.step"), icon: "step", run: (page) => void page.looking.step(1) };
       // Two messages: a step that comes alone is streamed tick by tick, with its decision.
-      return { label: "Step", icon: "step", turns: world?.paused === false ? [[{ do: "pause" }], [STEP]] : [[STEP]] };
+      return { label: t("clock.step"), icon: "step", turns: world?.paused === false ? [[{ do: "pause" }], [STEP]] : [[STEP]] };
     },
   },
   {
     name: "undo",
-    group: "Change",
+    group: t("groups.change"),
     button: true,
     key: "u",
     keyName: "U",
-    now: () => ({ label: "Undo", icon: "undo", turns: [[{ do: "undo" }]] }),
+    now: () => ({ label: t("clock.undo"), icon: "undo", turns: [[{ do: "undo" }]] }),
   },
   {
     name: "reset",
-    group: "Change",
+    group: t("groups.change"),
     button: true,
     key: "r",
     keyName: "R",
-    now: () => ({ label: "Reset", icon: "reset", turns: [[{ do: "reset" }]] }),
+    now: () => ({ label: t("clock.reset"), icon: "reset", turns: [[{ do: "reset" }]] }),
   },
 ];

@@ -1,11 +1,16 @@
 // @ts-check
-/** Asking the service over HTTP: the answer, or an `Error` whose message a person can read. */
+/**
+ * The one way to ask the service over HTTP: the answer, or an error whose message a person can read. Questions carry the
+ * page's language, so that what is told comes back in it.
+ */
+
+import { LANGUAGE, t } from "./texts.js";
 
 /** @import { Problem } from "./protocol.js" */
 
 /** What the service refused, with its whole problem document where it sent one. */
 export class Refused extends Error {
-  /** @param {string} message @param {number} status @param {Problem | null} problem */
+  /** @param {string} message @param {number} status  0: it was not reached @param {Problem | null} problem */
   constructor(message, status, problem) {
     super(message);
     this.status = status;
@@ -25,44 +30,45 @@ export class Refused extends Error {
  * Ask, and have the response when it is a good one.
  * @param {string} path
  * @param {Asking} [asking]
- * @returns {Promise<Response>}
+ * @returns {Promise<Response>} throws `Refused`
  */
 export async function ask(path, { method = "GET", body, signal, http = fetch } = {}) {
+  /** @type {Record<string, string>} */
+  const headers = { "accept-language": LANGUAGE };
+  if (body !== undefined) headers["content-type"] = "application/json";
   let response;
   try {
-    response = await http(path, {
-      method,
-      signal,
-      ...(body === undefined ? {} : { headers: { "content-type": "application/json" }, body: JSON.stringify(body) }),
-    });
+    response = await http(path, { method, signal, headers, body: body === undefined ? undefined : JSON.stringify(body) });
   } catch (error) {
     if (signal?.aborted) throw error;
-    throw new Refused("The service cannot be reached.", 0, null);
+    throw new Refused(t("page.unreachable"), 0, null);
   }
   if (response.ok) return response;
   /** @type {Problem | null} */
   const problem = await response.json().catch(() => null);
-  throw new Refused(sentence(problem) ?? `The service answered ${response.status}.`, response.status, problem);
+  throw new Refused(problemText(problem) ?? t("page.answered", { status: response.status }), response.status, problem);
 }
 
 /**
  * Ask for JSON.
  * @param {string} path
  * @param {Asking} [asking]
- * @returns {Promise<any>}
+ * @returns {Promise<any>} throws `Refused`
  */
 export async function askJson(path, asking) {
   return (await ask(path, asking)).json();
 }
 
 /** @param {Problem | null} problem */
-function sentence(problem) {
+function problemText(problem) {
   if (!problem?.detail) return null;
   const first = problem.errors?.find(({ message }) => !problem.detail.includes(message));
   return first ? `${problem.detail} ${first.field}: ${first.message}.` : problem.detail;
 }
 
 /** What went wrong, in words. @param {unknown} error */
-export function words(error) {
+export function errorText(error) {
   return error instanceof Error ? error.message : String(error);
 }
+
+export { errorText as words };

@@ -1,7 +1,8 @@
 // @ts-check
 /** Parts of the page that are fetched when they are first wanted, so that the page itself stays light. */
 
-import { words } from "./http.js";
+import { errorText } from "./http.js";
+import { t } from "./texts.js";
 
 /** @import { Page } from "../main.js" */
 
@@ -18,7 +19,7 @@ export function onDemand(page, make) {
     part ??= make();
     part.then(use, (error) => {
       part = null;
-      page.tell({ text: `This part of the page could not be fetched. ${words(error)}`, tone: "bad" });
+      page.tell({ text: t("page.part_not_fetched", { reason: errorText(error) }), tone: "bad" });
     });
   };
 }
@@ -36,7 +37,7 @@ export function styled(name) {
     link.onload = () => resolve();
     link.onerror = () => {
       link.remove();
-      reject(new Error("Its style is missing."));
+      reject(new Error(t("page.style_missing")));
     };
     document.head.append(link);
   });

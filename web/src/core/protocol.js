@@ -7,71 +7,27 @@
  * and unknown message types are handed on as `unknown`, so that an older page survives a newer service.
  */
 
+/** @import * as wire from "./wire.js" */
+
 /** @typedef {[number, number]} Cell  column and row, counted from 0; row 0 is the destination */
-/** @typedef {"running" | "success" | "crash" | "stuck"} Status */
-/** @typedef {"forward" | "left" | "right" | "forward_left" | "forward_right" | "stay"} Move */
-/** @typedef {"left" | "right"} Heading */
-/** @typedef {{do: string, [key: string]: unknown}} Action  one action of the language contract */
+/** @typedef {wire.Outcome} Status */
+/** @typedef {wire.Move} Move */
+/** @typedef {wire.Mover["heading"]} Heading */
+/** @typedef {wire.Action} Action  one action of the language contract */
+/** @typedef {wire.Metrics} Metrics */
+/** @typedef {wire.State} WireState  the whole world at one tick */
+/** @typedef {wire.Option} Option */
+/** @typedef {wire.LogEvent} LogEvent */
+/** @typedef {wire.Change} Change */
+/** @typedef {wire.ChoiceModel} Choice */
+/** @typedef {wire.ProblemDocument} Problem */
+/** @typedef {Pick<wire.Session, "id" | "name" | "paused"> & Partial<wire.Session>} Session */
 
 /**
- * @typedef {object} Metrics
- * @property {number} episodes
- * @property {number} successes
- * @property {number} crashes
- * @property {number} stuck
- * @property {number | null} success_rate  a fraction, null until an episode has ended
- * @property {number} steps
- * @property {Record<string, number>} moves
- * @property {number} distance_m
- * @property {number | null} last_episode_ticks
+ * A decision, taken in the world of `tick`; it leads to the world of `tick + 1`. The stream tells it in few words,
+ * `hello` and the service's answers with all that was considered.
+ * @typedef {Pick<wire.Decision, "tick" | "move"> & Partial<wire.Decision> & Partial<wire.BriefDecision>} Decision
  */
-
-/**
- * @typedef {object} WireState  the whole world at one tick
- * @property {string} session
- * @property {number} tick
- * @property {number} time_s
- * @property {number} episode
- * @property {number} episode_tick
- * @property {Status} status
- * @property {{kind: string, ids: string[], cell: Cell} | null} cause
- * @property {number} columns
- * @property {number} rows
- * @property {number} visible_rows
- * @property {number} step_seconds
- * @property {boolean} paused
- * @property {number | "max"} [playback_speed]
- * @property {string} mode
- * @property {string} planner
- * @property {{id: string, kind: string, cell: Cell}[]} vehicles  autonomous ones
- * @property {{id: string, kind: string, cell: Cell, heading: Heading, disabled: boolean}[]} movers
- * @property {{id: string, kind: string, cell: Cell}[]} hazards
- * @property {Metrics} metrics
- * @property {string} digest
- * @property {number} sequence
- * @property {number} undo  how many changes can be taken back
- * @property {number} redo
- */
-
-/** @typedef {{move: Move, cell?: Cell | null, verdict: string, cost: number | null, reason: string, causes?: string[]}} Option */
-
-/**
- * @typedef {object} Decision  taken in the world of `tick`; it leads to the world of `tick + 1`
- * @property {number} tick
- * @property {Move} move
- * @property {string} [planner]  "manual" when a person chose
- * @property {number} [weight]  how much there is to tell, from 0 to 2
- * @property {string} [reason]  only in tick messages
- * @property {string[]} [causes]  only in tick messages
- * @property {Option[]} [options]  only in `hello`
- * @property {{move: Move, reason: string, causes: string[]}[]} [blocked]  only in tick messages: what was not free
- * @property {string | null} [narration]
- */
-
-/** @typedef {{number: number, tick: number, type: string, text: string, ids: string[], cell: Cell | null}} LogEvent */
-/** @typedef {{id: string, name: string | null, paused: boolean, config?: Record<string, unknown>, rules_note?: string | null}} Session */
-/** @typedef {{path: string, before: unknown, after: unknown}} Change */
-/** @typedef {{text: string, actions: Action[]}} Choice */
 
 /**
  * @typedef {object} Answer
@@ -87,29 +43,7 @@
  * @property {{at_tick: number, actions: Action[], change?: undefined}} [play]  what to do to a fork to see a what-if
  */
 
-/**
- * @typedef {object} CommandResult
- * @property {string | null} text
- * @property {Action[]} actions
- * @property {Change[]} changes
- * @property {string} reply
- * @property {Answer | null} answer
- * @property {number} sequence
- * @property {{from: string, to: string}[]} [corrections]
- */
-
-/**
- * @typedef {object} Problem  RFC 9457, with what the language adds
- * @property {string} type
- * @property {string} title
- * @property {number} status
- * @property {string} detail
- * @property {{field: string, message: string}[]} [errors]
- * @property {string[]} [unparsed]
- * @property {string[]} [understood]
- * @property {string[]} [suggestions]
- * @property {Choice[]} [choices]
- */
+/** @typedef {Omit<wire.CommandResult, "answer"> & {answer: Answer | null}} CommandResult */
 
 /** @typedef {{type: "hello", protocol: number, session: Session, state: WireState, log: LogEvent[], decision: Decision | null, sequence: number}} HelloMessage */
 /**
@@ -167,16 +101,16 @@ export function decode(text) {
   try {
     message = JSON.parse(text);
   } catch {
-    throw new ProtocolError("the service sent something that is not JSON");
+    throw new ProtocolError("not JSON");
   }
   if (typeof message !== "object" || message === null || typeof message.type !== "string") {
-    throw new ProtocolError("the service sent a message without a type");
+    throw new ProtocolError("no type");
   }
   const needed = Object.hasOwn(NEEDED, message.type) ? NEEDED[message.type] : null;
   if (needed === null) return { type: "unknown" };
   const lacking = needed.filter((key) => !(key in message));
   if (lacking.length > 0) {
-    throw new ProtocolError(`the service sent "${message.type}" without ${lacking.join(", ")}`);
+    throw new ProtocolError(`${message.type}: no ${lacking.join(", ")}`);
   }
   return message;
 }

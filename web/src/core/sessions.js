@@ -1,33 +1,23 @@
 // @ts-check
 /** Opening and finding sessions over HTTP. Everything after that goes over the stream (`socket.js`). */
 
+import { ask, askJson, Refused } from "./http.js";
 import { SESSIONS_PATH, sessionPath } from "./protocol.js";
 
 /** @import { Session } from "./protocol.js" */
 
+/** Answers by which the service says that there is no such session. */
+const MISSING = new Set([404, 410, 422]);
+
 /** @typedef {"here" | "missing" | "unreachable"} Presence */
 
 /**
- * A new session with everything at its default. Throws an `Error` whose message a person can read.
+ * A new session with everything at its default.
  * @param {typeof fetch} [http]
- * @returns {Promise<Session>}
+ * @returns {Promise<Session>} throws `Refused`
  */
-export async function createSession(http = fetch) {
-  let response;
-  try {
-    response = await http(SESSIONS_PATH, {
-      method: "POST",
-      headers: { "content-type": "application/json" },
-      body: "{}",
-    });
-  } catch {
-    throw new Error("The service cannot be reached.");
-  }
-  if (!response.ok) {
-    const problem = await response.json().catch(() => null);
-    throw new Error(problem?.detail ?? `The service answered ${response.status}.`);
-  }
-  return response.json();
+export function createSession(http) {
+  return askJson(SESSIONS_PATH, { method: "POST", body: {}, http });
 }
 
 /**
@@ -36,34 +26,21 @@ export async function createSession(http = fetch) {
  * @param {typeof fetch} [http]
  * @returns {Promise<Presence>}
  */
-export async function findSession(id, http = fetch) {
+export async function findSession(id, http) {
   try {
-    const response = await http(sessionPath(id));
-    if (response.ok) return "here";
-    return response.status === 404 || response.status === 410 || response.status === 422
-      ? "missing"
-      : "unreachable";
-  } catch {
-    return "unreachable";
+    await ask(sessionPath(id), { http });
+    return "here";
+  } catch (error) {
+    return error instanceof Refused && MISSING.has(error.status) ? "missing" : "unreachable";
   }
 }
 
 /**
- * The session a page's address names: `#/s/<id>`, perhaps with a tick.
- * @param {string} hash
- * @returns {string | null}
+ * A session out of a link that carries it. Throws `Refused`.
+ * @param {string} carried
+ * @param {typeof fetch} [http]
+ * @returns {Promise<Session>}
  */
-export function sessionInHash(hash) {
-  const match = /^#\/s\/([^/?#]+)(?:\/\d{1,15})?$/.exec(hash);
-  if (match === null) return null;
-  try {
-    return decodeURIComponent(match[1]);
-  } catch {
-    return null;
-  }
-}
-
-/** @param {string} id @returns {string} */
-export function hashOfSession(id) {
-  return `#/s/${encodeURIComponent(id)}`;
+export function openLink(carried, http) {
+  return askJson(SESSIONS_PATH, { method: "POST", body: { link: carried }, http });
 }

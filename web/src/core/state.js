@@ -8,9 +8,10 @@
  */
 
 import { logChange, logEvents, logTick } from "../talk/journal.js";
+import { t } from "./texts.js";
 import { NO_STEPS, stepsAfter } from "./undoStack.js";
 import { answerExchange, beginExchange, endUnanswered, refuseExchange } from "../talk/exchanges.js";
-import { courseAfter, NO_COURSE } from "../timeline/runChart.js";
+import { NO_TIMELINE, timelineAfter } from "../timeline/timelineState.js";
 import { AT_FIRST, viewsAfter } from "../ui/views.js";
 import { worldAfter, worldOf } from "../road/world.js";
 
@@ -20,7 +21,8 @@ import { worldAfter, worldOf } from "../road/world.js";
 /** @import { Phase } from "./socket.js" */
 /** @import { Steps } from "./undoStack.js" */
 /** @import { Exchange } from "../talk/exchanges.js" */
-/** @import { Course } from "../timeline/runChart.js" */
+/** @import { LoaderEvent, Timeline } from "../timeline/timelineState.js" */
+/** @import { Otherwise } from "../why/alternatives.js" */
 /** @import { Views } from "../ui/views.js" */
 /** @import { World } from "../road/world.js" */
 
@@ -37,17 +39,26 @@ import { worldAfter, worldOf } from "../road/world.js";
  * @property {Highlight | null} highlight  what the reader points at
  * @property {string | null} announcement  the latest sentence worth reading aloud
  * @property {string | null} fault  what the service last said against a message that was neither said nor done
- * @property {Course} course  the run as the stream has told it
+ * @property {Timeline} timeline  the whole run, as far as it is known
  * @property {Notice | null} notice  the latest thing worth a passing line over the page
  * @property {World | null} prior  the road at the tick before, as long as nothing but that tick has changed it
  * @property {Foresight | null} foresight  what was last told to be about to happen
  * @property {Views} views  what is shown
  * @property {string | null} large  the part of the page that is enlarged
  * @property {Steps} steps  which changes can be taken back
- * @property {Past | null} past  an earlier tick that is looked at instead of the present
+ * @property {Look} look  which tick is looked at
+ * @property {Past | null} past  that tick, as soon as it has come; null: the present is looked at
+ * @property {Draft | null} draft  the latest sentence that was offered to stand in the box
+ * @property {Comparison | null} comparison  the latest wish to see what would have been
  */
 
 /** @typedef {{world: World, decision: Decision | null, narration: string | null}} Past */
+
+/** @typedef {{tick: number | null, playing: boolean}} Look  null: the present; playing: it goes on by itself */
+
+/** @typedef {{text: string}} Draft  another object each time, though the text be the same */
+
+/** @typedef {{other: Otherwise}} Comparison  another object each time */
 
 /** @typedef {{ids: string[], cells: Cell[]}} Highlight */
 
@@ -69,7 +80,11 @@ import { worldAfter, worldOf } from "../road/world.js";
  *   | {type: "notice", notice: Notice | null}
  *   | {type: "foresight", foresight: Foresight}
  *   | {type: "views", views?: Views, large?: string | null}
- *   | {type: "past", past: Past | null}} PageEvent  what happened on this side of the wire
+ *   | {type: "look", tick: number | null, playing: boolean}
+ *   | {type: "past", past: Past}
+ *   | {type: "draft", text: string}
+ *   | {type: "comparison", other: Otherwise}
+ *   | LoaderEvent} PageEvent  what happened on this side of the wire
  */
 
 /** @typedef {ServerMessage | PageEvent} Event */
@@ -87,14 +102,17 @@ export const INITIAL = {
   highlight: null,
   announcement: null,
   fault: null,
-  course: NO_COURSE,
+  timeline: NO_TIMELINE,
   notice: null,
   prior: null,
   foresight: null,
   views: AT_FIRST,
   large: null,
   steps: NO_STEPS,
+  look: { tick: null, playing: false },
   past: null,
+  draft: null,
+  comparison: null,
 };
 
 /** Event types that are worth saying aloud, not only writing down. */
@@ -103,8 +121,9 @@ const SPOKEN = new Set(["crashed", "arrived", "stuck", "no_way"]);
 /** @param {State} state @param {Event} event @returns {State} */
 export function reduce(state, event) {
   const next = after(state, event);
-  const course = courseAfter(state.course, /** @type {ServerMessage} */ (event), state.world);
-  return course === state.course || event.type === "session" ? next : { ...next, course };
+  if (event.type === "session") return next;
+  const timeline = timelineAfter(state.timeline, /** @type {ServerMessage | LoaderEvent} */ (event), state.world);
+  return timeline === state.timeline ? next : { ...next, timeline };
 }
 
 /** @param {State} state @param {Event} event @returns {State} */
@@ -128,8 +147,14 @@ function after(state, event) {
       return { ...state, foresight: event.foresight };
     case "views":
       return arranged(state, event.views, event.large);
+    case "look":
+      return afterLook(state, event);
     case "past":
       return { ...state, past: event.past, highlight: null };
+    case "draft":
+      return { ...state, draft: { text: event.text } };
+    case "comparison":
+      return { ...state, comparison: { other: event.other } };
     case "hello":
       return afterHello(state, event);
     case "tick":
@@ -166,12 +191,19 @@ function after(state, event) {
   }
 }
 
+/** @param {State} state @param {Look} look @returns {State} */
+function afterLook(state, { tick, playing }) {
+  const look = { tick, playing };
+  return tick === null && state.past !== null ? { ...state, look, past: null, highlight: null } : { ...state, look };
+}
+
 /** @type {Problem} */
 const NOT_CONNECTED = {
   type: "about:blank",
-  title: "Not connected",
+  title: t("page.not_connected"),
   status: 0,
-  detail: "There is no connection to the service just now, so this was not sent. Press ↑ to have it back.",
+  errors: [],
+  detail: t("page.not_sent"),
 };
 
 /** @param {State} state @param {Phase} phase @returns {State} */

@@ -1,40 +1,38 @@
 // @ts-check
-/** Small words of the page's own: moves, reasons, figures, and marking words inside a sentence. */
+/** Names and figures in words: moves, reasons, planners, changes; and marking words inside a sentence. */
+
+import { decimalText, nameText, t } from "./texts.js";
 
 /** @import { Change, Move } from "./protocol.js" */
 
-/** Each move's arrow and name. */
-export const MOVES = /** @type {Record<Move, {arrow: string, name: string}>} */ ({
-  forward: { arrow: "↑", name: "forward" },
-  left: { arrow: "←", name: "left" },
-  right: { arrow: "→", name: "right" },
-  forward_left: { arrow: "↖", name: "forward left" },
-  forward_right: { arrow: "↗", name: "forward right" },
-  stay: { arrow: "·", name: "stay" },
+const ARROWS = /** @type {Record<Move, string>} */ ({
+  forward: "↑",
+  left: "←",
+  right: "→",
+  forward_left: "↖",
+  forward_right: "↗",
+  stay: "·",
 });
 
-const REASONS = /** @type {Record<string, string>} */ ({
-  free: "free",
-  off_road: "off the road",
-  pothole: "a pothole",
-  barrier: "a barrier",
-  mover_enters: "something moves in",
-  mover_stays: "something stands there",
-  mover_swaps: "something comes the other way",
-  mover_crosses: "something cuts across the way there",
-  ego_enters: "another of our vehicles moves in",
-  ego_stays: "another of our vehicles stands there",
-  ego_swaps: "another of our vehicles comes the other way",
-  ego_crosses: "another of our vehicles cuts across the way there",
-  disabled_mover: "a disabled vehicle",
-});
+/** Each move's arrow and name. */
+export const MOVES = /** @type {Record<Move, {arrow: string, name: string}>} */ (
+  Object.fromEntries(Object.entries(ARROWS).map(([move, arrow]) => [move, { arrow, name: t(`moves.${move}`) }]))
+);
 
 /**
- * A planner's reason in words; one the page does not know is shown as it is spelt.
+ * The name of a move; one the page does not know is shown as it is spelt.
+ * @param {string} move
+ */
+export function moveName(move) {
+  return nameText("moves", move);
+}
+
+/**
+ * A planner's reason in a word or two.
  * @param {string} reason
  */
 export function reasonWords(reason) {
-  return REASONS[reason] ?? plain(reason);
+  return nameText("reasons", reason);
 }
 
 /**
@@ -45,44 +43,41 @@ export function plain(name) {
   return name.replaceAll("_", " ").replaceAll(".", " ");
 }
 
-/** Planners by the names people know them by; others go by the name they were registered under. */
-export const PLANNERS = /** @type {Record<string, string>} */ ({
-  rules: "Rules",
-  priority: "Priority rules of the source",
-  astar: "A*",
-  dijkstra: "Dijkstra",
-  bfs: "Quickest",
-});
+/** Planners in the order of the choice; others go by the name they were registered under. */
+export const PLANNERS = ["rules", "priority", "astar", "dijkstra", "bfs"];
 
-/** Families of roads as they are asked for, in the order in which they are offered. @type {Record<string, string>} */
-export const LAYOUTS = {
-  walls: "walls with gaps",
-  narrows: "narrow streets",
-  dead_ends: "dead ends",
-  crossing: "crossing traffic",
-  maze: "a maze",
-};
+/** Families of roads, in the order in which they are offered. */
+export const LAYOUTS = ["walls", "narrows", "dead_ends", "crossing", "maze"];
 
 /** @param {string} name */
 export function plannerName(name) {
-  return PLANNERS[name] ?? plain(name);
+  return nameText("planners", name);
+}
+
+/** @param {string} name */
+export function layoutName(name) {
+  return nameText("layouts", name);
 }
 
 /**
- * What is called otherwise than it is spelt on the wire: a figure's name, and how its values are said.
- * @type {Record<string, {name?: string, value?: (value: any) => string}>}
+ * How the values of some figures are said.
+ * @type {Record<string, ((value: any) => string) | undefined>}
  */
-const FIGURES = {
-  mode: { name: "driver", value: (mode) => (mode === "manual" ? "you" : "itself") },
-  queue: { name: "next moves", value: (moves) => listed(moves, (/** @type {Move} */ move) => MOVES[move]?.name ?? plain(move)) },
-  playback_speed: { value: (pace) => (pace === "max" ? "max" : `${pace}×`) },
-  planner: { value: plannerName },
-  layout: { value: (layout) => LAYOUTS[layout] ?? plain(layout) },
-  preferences: { value: (wishes) => listed(wishes, plain) },
-  columns: { name: "lanes" },
-  rows: { name: "length", value: (rows) => `${rows} rows` },
-  step_seconds: { name: "time of a tick", value: (seconds) => `${seconds} s` },
+const VALUES = {
+  mode: (mode) => nameText("values", mode),
+  queue: (moves) => listed(moves, moveName),
+  playback_speed: paceText,
+  planner: plannerName,
+  layout: layoutName,
+  preferences: (wishes) => listed(wishes, plain),
+  rows: (count) => t("units.rows", { count }),
+  step_seconds: (value) => t("units.seconds", { value }),
 };
+
+/** How fast the clock plays. @param {number | "max"} pace */
+export function paceText(pace) {
+  return pace === "max" ? t("units.pace_max") : t("units.pace", { value: pace });
+}
 
 /**
  * A change in words: `config.preferences` from `[]` to `["smooth_ride"]` is "preferences", "none" and "smooth ride".
@@ -91,9 +86,9 @@ const FIGURES = {
  */
 export function changeWords({ path, before, after }) {
   const key = path.replace("config.", "");
-  const figure = FIGURES[key] ?? {};
-  const said = (/** @type {unknown} */ value) => (figure.value && value !== null && value !== undefined ? figure.value(value) : valueWords(value));
-  return { name: figure.name ?? plain(key), before: said(before), after: said(after) };
+  const value = VALUES[key];
+  const said = (/** @type {unknown} */ of) => (value && of !== null && of !== undefined ? value(of) : valueWords(of));
+  return { name: nameText("figures", key), before: said(before), after: said(after) };
 }
 
 /**
@@ -102,9 +97,8 @@ export function changeWords({ path, before, after }) {
  * @returns {string}
  */
 export function valueWords(value) {
-  if (value === null || value === undefined) return "not set";
-  if (value === true) return "on";
-  if (value === false) return "off";
+  if (value === null || value === undefined) return t("values.unset");
+  if (typeof value === "boolean") return t(value ? "values.yes" : "values.no");
   if (Array.isArray(value)) return listed(value, valueWords);
   if (typeof value === "object") return JSON.stringify(value);
   return String(value).replaceAll("_", " "); // a point belongs to its number
@@ -112,7 +106,7 @@ export function valueWords(value) {
 
 /** @param {any[]} values @param {(value: any) => string} words */
 function listed(values, words) {
-  return values.map(words).join(", ") || "none";
+  return values.map(words).join(", ") || t("values.none");
 }
 
 /**
@@ -126,7 +120,7 @@ export function counted(number, noun) {
 
 /** @param {number | null} fraction */
 export function percent(fraction) {
-  return fraction === null ? "–" : `${Math.round(fraction * 100)} %`;
+  return fraction === null ? t("units.none") : t("units.percent", { value: Math.round(fraction * 100) });
 }
 
 /**
@@ -136,7 +130,7 @@ export function percent(fraction) {
 export function clock(seconds) {
   const tenths = Math.round(seconds * 10);
   const minutes = Math.floor(tenths / 600);
-  const rest = ((tenths % 600) / 10).toFixed(1).padStart(4, "0");
+  const rest = decimalText((tenths % 600) / 10, 1).padStart(4, "0");
   return `${minutes}:${rest}`;
 }
 

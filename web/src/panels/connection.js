@@ -1,35 +1,33 @@
 // @ts-check
 /** How the connection stands: live, or since when what is seen is stale. */
 
-import { make, setText } from "../ui/dom.js";
+import { html, render } from "../../vendor/lit-html.js";
+import { t } from "../core/texts.js";
 
 /** @import { Page } from "../main.js" */
+/** @import { State } from "../core/state.js" */
 /** @import { Panel } from "./index.js" */
 
 /** @param {HTMLElement} host @param {Page} page @returns {Panel} */
 export function createConnectionBadge(host, page) {
-  const lamp = make("span", { class: "lamp", "aria-hidden": "true" });
-  const text = make("span", { class: "connection-text" });
-  const retry = make(
-    "button",
-    { class: "button quiet small", type: "button", hidden: true, onclick: () => page.reconnect() },
-    "Try now",
-  );
-  host.append(lamp, text, retry);
-
   return {
-    update({ connection, world, session }) {
-      const { phase } = connection;
+    update(state) {
+      const { phase } = state.connection;
       host.dataset.phase = phase;
-      host.dataset.session = session ?? "";
-      retry.hidden = phase !== "lost";
-      document.body.classList.toggle("stale", phase === "lost" && world !== null);
-      if (phase === "lost") {
-        const again = `trying again in ${Math.max(1, Math.round(connection.retryMs / 1000))} s`;
-        setText(text, world === null ? `No connection · ${again}` : `Stale since tick ${world.tick} · ${again}`);
-      } else {
-        setText(text, { opening: "Connecting", live: "Live", missing: "No session", gone: "Ended" }[phase]);
-      }
+      host.dataset.session = state.session ?? "";
+      document.body.classList.toggle("stale", phase === "lost" && state.world !== null);
+      render(
+        html`<span class="lamp" aria-hidden="true"></span><span class="connection-text">${textOf(state)}</span>
+          <button class="button quiet small" type="button" ?hidden=${phase !== "lost"} @click=${page.reconnect}>${t("connection.retry")}</button>`,
+        host,
+      );
     },
   };
+}
+
+/** @param {State} state */
+function textOf({ connection, world }) {
+  if (connection.phase !== "lost") return t(`connection.${connection.phase}`);
+  const seconds = Math.max(1, Math.round(connection.retryMs / 1000));
+  return world === null ? t("connection.lost", { seconds }) : t("connection.stale", { tick: world.tick, seconds });
 }

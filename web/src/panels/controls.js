@@ -1,12 +1,15 @@
 // @ts-check
-/** The clock's buttons and its speed; the same acts as the keys (`acts.js`). */
+/** The clock's buttons and its speed; the same as the keys do (`core/commands.js`). */
 
+import { html, live, nothing, render } from "../../vendor/lit-html.js";
 import { ACTS, perform } from "../core/commands.js";
-import { icon } from "../ui/icons.js";
-import { make, setText } from "../ui/dom.js";
+import { t } from "../core/texts.js";
+import { paceText } from "../core/words.js";
+import { iconOf } from "../ui/icons.js";
 
 /** @import { Act } from "../core/commands.js" */
 /** @import { Page } from "../main.js" */
+/** @import { State } from "../core/state.js" */
 /** @import { Panel } from "./index.js" */
 
 /** What the service plays, from slowest to as fast as it can. @type {(number | "max")[]} */
@@ -20,80 +23,58 @@ const AFTER = "step";
  * @returns {Panel}
  */
 export function createControls(host, page) {
-  const speed = make("select", {
-    class: "speed",
-    "aria-label": "Playback speed",
-    "aria-keyshortcuts": "- +",
-    title: "Playback speed  − +",
-    onchange: () => setSpeed(speed.value === "max" ? "max" : Number(speed.value), page),
-  });
-  speed.append(...SPEEDS.map(optionOf));
-  const buttons = ACTS.filter((act) => act.button).map((act) => {
-    const label = make("span", { class: "control-label" });
-    const picture = make("span", { class: "control-icon" });
-    const button = make(
-      "button",
-      {
-        class: act.name === "clock" ? "button strong" : "button",
-        type: "button",
-        "data-act": act.name,
-        "aria-keyshortcuts": act.key === " " ? "Space" : act.key,
-        onclick: () => perform(act, page),
-      },
-      picture,
-      label,
-    );
-    host.append(button);
-    if (act.name === AFTER) host.append(speed);
-    return { act, button, label, picture, shown: "" };
-  });
-
+  const acts = ACTS.filter((act) => act.button);
   return {
     acts: [faster(1, "+"), faster(-1, "−")],
 
     update(state) {
       const off = state.connection.phase !== "live";
-      for (const entry of buttons) {
-        const doing = entry.act.now(state);
-        entry.button.disabled = off || doing === null;
-        if (doing === null && entry.shown) continue;
-        const { label, icon: name = "" } = doing ?? { label: "Back", icon: "back" };
-        if (entry.shown === `${name} ${label}`) continue;
-        entry.shown = `${name} ${label}`;
-        setText(entry.label, label);
-        entry.button.title = [label, entry.act.keyName].filter(Boolean).join("  ");
-        entry.button.setAttribute("aria-label", label);
-        entry.picture.replaceChildren(icon(name));
-      }
-      const pace = String(page.state().world?.pace ?? 1);
-      speed.disabled = off;
-      if (speed.value === pace) return;
-      if (![...speed.options].some(({ value }) => value === pace)) speed.append(optionOf(Number(pace)));
-      speed.value = pace;
+      const pace = page.state().world?.pace ?? 1;
+      render(
+        acts.map((act) => html`${button(act, state, off, page)}${act.name === AFTER ? speed(pace, off, page) : nothing}`),
+        host,
+      );
     },
   };
 }
 
-/** @param {number | "max"} pace */
-function optionOf(pace) {
-  return make("option", { value: String(pace) }, wordsOf(pace));
+/** @param {Act} act @param {State} state @param {boolean} off @param {Page} page */
+function button(act, state, off, page) {
+  const doing = act.now(state);
+  const { label, icon = act.name } = doing ?? { label: t(`clock.${act.name}`) };
+  const title = [label, act.keyName].filter(Boolean).join("  ");
+  return html`<button
+    class=${act.name === "clock" ? "button strong" : "button"}
+    type="button"
+    title=${title}
+    aria-label=${label}
+    aria-keyshortcuts=${act.key === " " ? "Space" : (act.key ?? nothing)}
+    data-act=${act.name}
+    ?disabled=${off || doing === null}
+    @click=${() => perform(act, page)}
+  ><span class="control-icon">${iconOf(icon)}</span><span class="control-label">${label}</span></button>`;
 }
 
-/** @param {number | "max"} pace */
-function wordsOf(pace) {
-  return pace === "max" ? "max" : `${pace}×`;
+/** @param {number | "max"} pace @param {boolean} off @param {Page} page */
+function speed(pace, off, page) {
+  const choices = SPEEDS.includes(pace) ? SPEEDS : [...SPEEDS, pace];
+  const choose = (/** @type {{target: HTMLSelectElement}} */ { target: { value } }) => setSpeed(value === "max" ? "max" : Number(value), page);
+  return html`<select class="speed" aria-label=${t("clock.speed")} aria-keyshortcuts="- +" title="${t("clock.speed")}  − +" ?disabled=${off} @change=${choose}>
+    ${choices.map((each) => html`<option value=${each} .selected=${live(each === pace)}>${paceText(each)}</option>`)}
+  </select>`;
 }
 
 /** @param {number | "max"} value @param {Page} page */
 function setSpeed(value, page) {
-  page.act([{ do: "set", parameter: "playback_speed", value }], `Playback speed ${wordsOf(value)}`, true);
+  page.act([{ do: "set", parameter: "playback_speed", value }], t("clock.speed_set", { pace: paceText(value) }), true);
 }
 
 /** @param {1 | -1} direction @param {string} keyName @returns {Act} */
 function faster(direction, keyName) {
+  const name = direction > 0 ? "faster" : "slower";
   return {
-    name: direction > 0 ? "faster" : "slower",
-    group: "Clock",
+    name,
+    group: t("groups.clock"),
     key: keyName === "+" ? "+" : "-",
     keyName,
     repeats: true,
@@ -101,8 +82,7 @@ function faster(direction, keyName) {
       const pace = world?.pace ?? 1;
       const at = SPEEDS.findIndex((speed) => speed === "max" || (pace !== "max" && speed >= pace));
       const next = SPEEDS[pace === "max" ? SPEEDS.length - 1 + direction : at + direction];
-      const label = direction > 0 ? "Faster" : "Slower";
-      return next === undefined ? null : { label: `${label}: ${wordsOf(next)}`, run: (page) => setSpeed(next, page) };
+      return next === undefined ? null : { label: t(`clock.${name}`, { pace: paceText(next) }), run: (page) => setSpeed(next, page) };
     },
   };
 }

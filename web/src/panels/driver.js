@@ -1,54 +1,46 @@
 // @ts-check
 /** Who drives: the planner, chosen from all there are, or the person at the page. */
 
-import { make } from "../ui/dom.js";
+import { html, live } from "../../vendor/lit-html.js";
+import { t } from "../core/texts.js";
 import { PLANNERS, plannerName } from "../core/words.js";
 
 /** @import { Act } from "../core/commands.js" */
 /** @import { Page } from "../main.js" */
 /** @import { Action } from "../core/protocol.js" */
+/** @import { State } from "../core/state.js" */
 /** @import { World } from "../road/world.js" */
-/** @import { Panel } from "./index.js" */
 
 /** A person, as planners are named on the wire. */
 const PERSON = "manual";
+const DRIVERS = [...PLANNERS, PERSON];
 
 /** @param {World} world */
 const driverOf = (world) => (world.mode === PERSON ? PERSON : world.planner);
 
 /** @param {string} name */
-const nameOf = (name) => (name === PERSON ? "You" : plannerName(name));
+const nameOf = (name) => (name === PERSON ? t("driver.person") : plannerName(name));
 
-/**
- * @param {HTMLElement} host  a definition list
- * @param {Page} page
- * @returns {Panel}
- */
-export function createDriver(host, page) {
-  const choice = make("select", { class: "figure-value driver", "aria-label": "Driver", title: "Who drives", onchange: () => choose(choice.value, page) });
-  choice.append(...[...Object.keys(PLANNERS), PERSON].map(optionOf));
-  const row = make("div", { class: "figure", "data-figure": "driver" });
-  row.append(make("dt", {}, "Driver"), make("dd", {}, choice));
-  host.append(row);
-
-  return {
-    acts: [...Object.keys(PLANNERS), PERSON].map(actOf),
-
-    update({ connection, past, world }) {
-      choice.disabled = connection.phase !== "live" || past !== null || world === null;
-      if (world === null) return;
-      const driver = driverOf(world);
-      if (choice.value === driver) return;
-      // A planner of another package is in no table.
-      if (![...choice.options].some(({ value }) => value === driver)) choice.append(optionOf(driver));
-      choice.value = driver;
-    },
-  };
+/** The choice of the driver. @param {State} state @param {Page} page */
+export function driverChoice({ connection, past, world }, page) {
+  const driver = world && driverOf(world);
+  // A planner of another package is in no table.
+  const all = driver === null || DRIVERS.includes(driver) ? DRIVERS : [...DRIVERS, driver];
+  const off = connection.phase !== "live" || past !== null || world === null;
+  const choose = (/** @type {{target: HTMLSelectElement}} */ { target }) => chooseDriver(target.value, page);
+  return html`<select class="figure-value driver" aria-label=${t("driver.label")} title=${t("driver.title")} ?disabled=${off} @change=${choose}>
+    ${all.map((name) => html`<option value=${name} .selected=${live(name === driver)}>${nameOf(name)}</option>`)}
+  </select>`;
 }
 
-/** @param {string} name */
-function optionOf(name) {
-  return make("option", { value: name }, nameOf(name));
+/** The same from the palette. @returns {Act[]} */
+export function driverActs() {
+  return DRIVERS.map((name) => ({
+    name: `driver-${name}`,
+    group: t("groups.driver"),
+    now: ({ past, world }) =>
+      world === null || past || driverOf(world) === name ? null : { label: t("driver.chosen", { name: nameOf(name) }), turns: [handOver(name, world)] },
+  }));
 }
 
 /**
@@ -65,16 +57,7 @@ export function handOver(name, world) {
 }
 
 /** @param {string} name @param {Page} page */
-function choose(name, page) {
+function chooseDriver(name, page) {
   const { world } = page.state();
-  if (world) page.act(handOver(name, world), `Driver: ${nameOf(name)}`, true);
-}
-
-/** @param {string} name @returns {Act} */
-function actOf(name) {
-  return {
-    name: `driver-${name}`,
-    group: "Driver",
-    now: ({ past, world }) => (world === null || past || driverOf(world) === name ? null : { label: `Driver: ${nameOf(name)}`, turns: [handOver(name, world)] }),
-  };
+  if (world) page.act(handOver(name, world), t("driver.chosen", { name: nameOf(name) }), true);
 }

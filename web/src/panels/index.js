@@ -6,22 +6,21 @@ import { createAnnouncer } from "../talk/announcer.js";
 import { createCaption } from "../road/caption.js";
 import { createCard } from "../why/bubbleLoader.js";
 import { createCommand } from "../talk/commandBox.js";
-import { createComparison } from "../why/counterfactualLoader.js";
+import { createCounterfactual } from "../why/counterfactualLoader.js";
 import { createConnectionBadge } from "./connection.js";
 import { createControls } from "./controls.js";
-import { createDriver } from "./driver.js";
 import { createExport } from "../timeline/export.js";
 import { createForesight } from "../why/forecastPoller.js";
 import { createHelp } from "../talk/help.js";
-import { createHands } from "../road/roadInput.js";
+import { createRoadInput } from "../road/roadInput.js";
 import { createLanes } from "../road/laneList.js";
 import { createLog } from "./log.js";
 import { createMetrics } from "./metrics.js";
 import { createNotice } from "../ui/notice.js";
 import { createOccupancy } from "./occupancy.js";
 import { createPalette } from "../talk/palette.js";
-import { createLooking, createPast } from "../timeline/pastBar.js";
-import { createPixels } from "../road/serverVideo.js";
+import { createPast } from "../timeline/pastBar.js";
+import { createServerVideo } from "../road/serverVideo.js";
 import { createPlan } from "./plan.js";
 import { createRoad } from "../road/road.js";
 import { createRoads } from "../talk/roadFamilies.js";
@@ -49,20 +48,18 @@ import { createViews } from "./views.js";
 /** @param {Page} page @returns {Panel[]} */
 export function createPanels(page) {
   byId("new-session").addEventListener("click", () => page.startSession());
-  const looking = createLooking(page);
   const road = createRoad(byId("road"));
   const card = createCard(byId("bubble"), page);
   return [
     road,
     createVerdict(byId("road"), page),
-    createTimeline(byId("timeline"), page, looking),
-    createPast(byId("road"), page, looking),
-    createShare(byId("session-menu"), page, looking),
-    createExport(byId("road"), page, looking),
+    createTimeline(byId("timeline"), page),
+    createPast(byId("past"), page),
+    createShare(byId("session-menu"), page),
+    createExport(byId("files"), page),
     createNotice(byId("notice"), page),
     createSchematic(byId("schematic"), road.places),
-    createStatus(byId("status")),
-    createDriver(byId("status"), page),
+    createStatus(byId("status"), page),
     createCaption(byId("caption")),
     createControls(byId("controls"), page),
     createLog(byId("log")),
@@ -70,19 +67,19 @@ export function createPanels(page) {
     createCommand(byId("command"), page),
     createConnectionBadge(byId("connection"), page),
     createAnnouncer(byId("announcer")),
-    createComparison(byId("beside"), page),
+    createCounterfactual(byId("beside"), page),
     card,
-    ...createHands(byId("road"), road.places, byId("log"), page, card),
+    ...createRoadInput(byId("road"), road.places, byId("log"), page, card),
     createViews(byId("views-menu"), page),
-    createPixels(byId("road"), page),
+    createServerVideo(byId("road"), page),
     createLanes(byId("road")),
     createForesight(page),
-    createPlan(byId("plan"), page),
+    createPlan(byId("plan"), byId("plan-when"), page),
     createOccupancy(byId("occupancy")),
     createMetrics(byId("metrics"), page),
     createReader(),
     createRoads(),
     createPalette(/** @type {HTMLDialogElement} */ (byId("palette")), page),
-    createHelp(byId("help"), page),
+    createHelp(byId("help"), /** @type {HTMLDialogElement} */ (byId("help-dialog")), page),
   ];
 }

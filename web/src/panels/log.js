@@ -1,7 +1,9 @@
 // @ts-check
 /** The driving log: newest last, following the newest unless the reader has scrolled up. */
 
-import { make, setText } from "../ui/dom.js";
+import { html, nothing, render, repeat } from "../../vendor/lit-html.js";
+import { t } from "../core/texts.js";
+import { find } from "../ui/slot.js";
 
 /** @import { Line } from "../talk/journal.js" */
 /** @import { Panel } from "./index.js" */
@@ -10,69 +12,63 @@ const NEAR_END_PX = 24;
 
 /** @param {HTMLElement} host @returns {Panel} */
 export function createLog(host) {
-  const list = make("ol", { class: "log-lines", tabIndex: 0, "aria-label": "Driving log, newest last" });
-  const newest = make(
-    "button",
-    { class: "button small newest", type: "button", hidden: true, onclick: () => follow(true) },
-    "Newest ↓",
-  );
-  host.append(list, newest);
-  /** @type {Map<string, {line: Line, row: HTMLElement}>} */
-  const rows = new Map();
+  /** @type {Line[]} */ let lines = [];
+  /** The line of the decision that led to what is looked at. @type {Line | null} */
+  let looked = null;
   let following = true;
 
-  list.addEventListener("scroll", () => {
-    following = list.scrollHeight - list.scrollTop - list.clientHeight < NEAR_END_PX;
-    newest.hidden = following;
-  });
-
-  /** @param {boolean} on */
-  function follow(on) {
-    following = on;
-    newest.hidden = on;
-    if (on) list.scrollTop = list.scrollHeight;
+  function show() {
+    render(
+      html`<ol class="log-lines" tabindex="0" aria-label=${t("log.label")} @scroll=${scrolled}>
+          ${repeat(lines, ({ key }) => key, (line) => row(line, line === looked))}
+        </ol>
+        <button class="button small newest" type="button" ?hidden=${following} @click=${() => follow(true)}>${t("log.newest")}</button>`,
+      host,
+    );
   }
 
-  /** The line of the decision that led to what is looked at. @param {number | null} tick */
-  function lookedAt(tick) {
-    list.querySelector("[data-looked]")?.removeAttribute("data-looked");
+  function scrolled() {
+    const list = find(host, ".log-lines");
+    follow(list.scrollHeight - list.scrollTop - list.clientHeight < NEAR_END_PX, false);
+  }
+
+  /** @param {boolean} on @param {boolean} [scroll] */
+  function follow(on, scroll = on) {
+    if (on !== following) {
+      following = on;
+      show();
+    }
+    const list = find(host, ".log-lines");
+    if (scroll) list.scrollTop = list.scrollHeight;
+  }
+
+  /** @param {number | null} tick */
+  function lookAt(tick) {
+    looked = tick === null ? null : (lines.findLast(({ from, to }) => from <= tick && tick <= to) ?? looked);
+    show();
     if (tick === null) return follow(true);
-    const found = [...rows.values()].findLast(({ line }) => line.from <= tick && tick <= line.to);
-    if (!found) return;
-    found.row.setAttribute("data-looked", "");
-    list.scrollTop = found.row.offsetTop - list.offsetTop - list.clientHeight / 2;
+    const [list, line] = [find(host, ".log-lines"), host.querySelector("[data-looked]")];
+    if (line instanceof HTMLElement) list.scrollTop = line.offsetTop - list.offsetTop - list.clientHeight / 2;
   }
 
+  show();
   return {
     update({ log, past }, before) {
-      if (past !== before.past) lookedAt(past && past.world.tick - 1);
+      lines = log;
+      if (past !== before.past) return lookAt(past && past.world.tick - 1);
       if (log === before.log) return;
-      const kept = new Set(log.map(({ key }) => key));
-      for (const [key, { row }] of rows) {
-        if (kept.has(key)) continue;
-        row.remove();
-        rows.delete(key);
-      }
-      for (const line of log) {
-        const known = rows.get(line.key);
-        if (known?.line === line) continue;
-        if (known) setText(/** @type {Element} */ (known.row.firstElementChild), ticks(line));
-        const row = known?.row ?? list.appendChild(rowOf(line));
-        rows.set(line.key, { line, row });
-      }
+      show();
       if (following) follow(true);
     },
   };
 }
 
-/** @param {Line} line */
-function rowOf(line) {
-  return make(
-    "li",
-    { class: "log-line", "data-tone": line.tone, "data-type": line.type },
-    make("span", { class: "log-tick" }, ticks(line)),
-    make("span", { class: "log-text" }, line.said && make("span", { class: "log-said" }, `“${line.said}” `), line.text),
-  );
+/** @param {Line} line @param {boolean} looked */
+function row(line, looked) {
+  return html`<li class="log-line" data-tone=${line.tone} data-type=${line.type} data-tick=${line.from} ?data-looked=${looked}>
+    <span class="log-tick">${ticks(line)}</span>
+    <span class="log-text">${line.said ? html`<span class="log-said">${t("log.said", { text: line.said })} </span>` : nothing}${line.text}</span>
+  </li>`;
 }
 
 /** @param {Line} line */

@@ -1,12 +1,14 @@
 // @ts-check
 /** How well it drives: results of the episodes, and along the run how tight it was and what was lost. */
 
-import { make, setText } from "../ui/dom.js";
+import { html, render } from "../../vendor/lit-html.js";
 import { words } from "../core/http.js";
-import { Book, WINDOW } from "../why/regret.js";
-import { drawChart } from "../timeline/paint/chart.js";
+import { decimalText, t } from "../core/texts.js";
 import { readPalette } from "../core/theme.js";
-import { counted, percent } from "../core/words.js";
+import { percent } from "../core/words.js";
+import { drawChart } from "../timeline/paint/chart.js";
+import { find, fitCanvas } from "../ui/slot.js";
+import { Book, WINDOW } from "../why/regret.js";
 
 /** @import { Page } from "../main.js" */
 /** @import { Metrics } from "../core/protocol.js" */
@@ -14,82 +16,64 @@ import { counted, percent } from "../core/words.js";
 /** @import { Figure } from "../timeline/paint/chart.js" */
 /** @import { Panel } from "./index.js" */
 
-/** @type {{name: string, label: string, value: (metrics: Metrics) => string}[]} */
+/** @type {{name: string, value: (metrics: Metrics) => string}[]} */
 const FIGURES = [
-  { name: "rate", label: "Success", value: ({ success_rate, episodes, successes }) => (episodes ? `${percent(success_rate)} · ${successes} of ${episodes}` : "no end yet") },
-  { name: "distance", label: "Driven", value: ({ distance_m }) => (distance_m < 1000 ? `${Math.round(distance_m)} m` : `${(distance_m / 1000).toFixed(2)} km`) },
-  { name: "moves", label: "Ahead · aside · wait", value: ({ moves }) => `${moves.forward} · ${moves.lateral + moves.diagonal} · ${moves.stay}` },
+  { name: "rate", value: rateText },
+  { name: "distance", value: ({ distance_m }) => distanceText(distance_m) },
+  { name: "moves", value: ({ moves }) => `${moves.forward} · ${moves.lateral + moves.diagonal} · ${moves.stay}` },
 ];
-
 const ENDS = /** @type {const} */ (["successes", "crashes", "stuck"]);
+const CHARTS = /** @type {Figure[]} */ (["blocked", "ticks"]);
 
 /** @param {HTMLElement} host @param {Page} page @returns {Panel} */
 export function createMetrics(host, page) {
-  const bar = make("div", { class: "ends", role: "img" }, ...ENDS.map((end) => make("span", { class: "end", "data-end": end })));
-  const values = FIGURES.map(({ name, label }) => {
-    const value = make("dd", { "data-metric": name }, "–");
-    return { value, row: make("div", { class: "metric" }, make("dt", {}, label), value) };
-  });
-  const charts = /** @type {[Figure, string][]} */ ([["blocked", "Risk"], ["ticks", "Regret"]]).map(([figure, title]) => chart(figure, title));
-  host.append(bar, make("dl", { class: "metric-rows" }, ...values.map(({ row }) => row)), ...charts.map(({ element }) => element));
-
   const book = new Book();
   let palette = readPalette(document.documentElement);
-  let tick = 0;
   let stale = true;
   let failed = "";
+  let pointed = -1;
   /** @type {State | null} */ let newest = null;
 
-  /** @param {Figure} figure @param {string} title */
-  function chart(figure, title) {
-    const told = make("span", { class: "chart-told" });
-    const canvas = make("canvas", { class: "chart-canvas", role: "img", "data-chart": figure });
-    const pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
-    /** @param {MouseEvent} event */
-    const at = (event) => tick - WINDOW + Math.floor(((event.clientX - canvas.getBoundingClientRect().left) / canvas.clientWidth) * WINDOW);
-    canvas.addEventListener("pointermove", (event) => (canvas.title = titleOf(at(event))));
-    canvas.addEventListener("click", (event) => {
-      if (book.items.get(at(event))) void page.looking?.at(at(event));
-    });
-    return { figure, canvas, pen, told, element: make("figure", { class: "chart" }, make("figcaption", {}, make("span", { class: "chart-title" }, title), told), canvas) };
+  function show() {
+    if (newest) render(template({ state: newest, book, failed, pointed, point, look }), host);
+    stale = true;
   }
 
-  /** @param {number} at */
-  function titleOf(at) {
-    const item = book.items.get(at);
-    if (!item) return "";
-    const lost = item.ticks === undefined ? "" : item.lost ? ", the road was lost" : `, ${counted(item.ticks ?? 0, "tick")} lost`;
-    return `Tick ${at}: ${item.blocked} of 6 moves blocked${lost}`;
+  /** The tick under the pointer. @param {MouseEvent} event */
+  function tickAt({ clientX, currentTarget }) {
+    const { left, width } = /** @type {HTMLElement} */ (currentTarget).getBoundingClientRect();
+    return (newest?.world?.tick ?? 0) - WINDOW + Math.floor(((clientX - left) / width) * WINDOW);
+  }
+
+  /** @param {MouseEvent} event */
+  function point(event) {
+    const next = tickAt(event);
+    if (next === pointed) return;
+    pointed = next;
+    show();
+  }
+
+  /** @param {MouseEvent} event */
+  function look(event) {
+    const tick = tickAt(event);
+    if (book.items.get(tick)) void page.looking?.at(tick);
   }
 
   /** Ask for what is missing, as long as the panel is seen. @param {State} state */
   async function fill(state) {
-    if (!state.views.metrics || state.connection.phase !== "live" || document.hidden) return;
-    const [asked, age] = [tick, book.age];
+    if (!state.world || !state.views.metrics || state.connection.phase !== "live" || document.hidden) return;
+    const { world, past } = state;
+    const age = book.age;
     try {
-      const running = state.past === null && state.world?.paused === false && state.world.status === "running";
-      if (!(await book.fill(tick, running))) return;
+      if (!(await book.fill(world.tick, past === null && !world.paused && world.status === "running"))) return;
       failed = "";
     } catch (error) {
       failed = words(error);
     }
-    tell();
-    stale = true;
+    show();
     page.wake();
     // What came meanwhile was not asked for, and what was told of a run that is no more is not kept.
-    if ((tick !== asked || book.age !== age) && newest) void fill(newest);
-  }
-
-  function tell() {
-    const { ticks, known, lost } = book.sum(tick);
-    const latest = book.items.get(tick - 1);
-    const [risk, regret] = charts;
-    setText(risk.told, latest ? `${latest.blocked} of 6 blocked` : "–");
-    // A lost connection is told once, at the top of the page; what was known stays.
-    const trouble = newest?.connection.phase === "live" ? failed : "";
-    setText(regret.told, trouble || (known === 0 ? "–" : lost ? "the road was lost" : `${counted(ticks, "tick")} lost in ${known}`));
-    risk.canvas.setAttribute("aria-label", `Moves blocked, of six, at each of the last ${WINDOW} ticks; at the latest ${risk.told.textContent}`);
-    regret.canvas.setAttribute("aria-label", `Ticks lost against the best possible drive; ${regret.told.textContent}`);
+    if (newest && (newest.world?.tick !== world.tick || book.age !== age)) void fill(newest);
   }
 
   return {
@@ -101,16 +85,8 @@ export function createMetrics(host, page) {
         book.forget();
       } else if (state.past === null && before.past === null && before.world && rewritten(state, before)) book.forget();
       if (state.past === null && decision?.tick === world.tick - 1) book.note(decision.tick, decision.blocked?.length ?? null);
-      tick = world.tick;
       newest = state;
-      stale = true;
-      const { metrics } = world;
-      FIGURES.forEach(({ value }, at) => setText(values[at].value, value(metrics)));
-      ENDS.forEach((end, at) => (/** @type {HTMLElement} */ (bar.children[at]).style.flexGrow = String(metrics[end])));
-      bar.hidden = metrics.episodes === 0;
-      bar.setAttribute("aria-label", `${metrics.successes} arrived, ${metrics.crashes} crashed, ${metrics.stuck} stuck`);
-      bar.title = bar.getAttribute("aria-label") ?? "";
-      tell();
+      show();
       void fill(state);
     },
 
@@ -120,21 +96,82 @@ export function createMetrics(host, page) {
     },
 
     draw() {
-      if (!stale || host.clientWidth === 0) return false;
+      if (!stale || !newest?.world || host.clientWidth === 0) return false;
       stale = false;
-      const ratio = Math.min(2, devicePixelRatio || 1);
-      for (const { figure, canvas, pen } of charts) {
-        const [width, height] = [canvas.clientWidth, canvas.clientHeight];
-        if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
-          canvas.width = Math.round(width * ratio);
-          canvas.height = Math.round(height * ratio);
-        }
-        pen.setTransform(ratio, 0, 0, ratio, 0, 0);
-        drawChart(pen, { width, height }, figure, tick, (each) => book.items.get(each), palette);
+      for (const figure of CHARTS) {
+        const canvas = /** @type {HTMLCanvasElement} */ (find(host, `[data-chart=${figure}]`));
+        const { clientWidth: width, clientHeight: height } = canvas;
+        drawChart(fitCanvas(canvas, width, height), { width, height }, figure, newest.world.tick, (each) => book.items.get(each), palette);
       }
       return false;
     },
   };
+}
+
+/**
+ * @param {object} shown
+ * @param {State} shown.state
+ * @param {Book} shown.book
+ * @param {string} shown.failed  why nothing was answered, in words
+ * @param {number} shown.pointed  the tick under the pointer
+ * @param {(event: MouseEvent) => void} shown.point
+ * @param {(event: MouseEvent) => void} shown.look
+ */
+function template({ state, book, failed, pointed, point, look }) {
+  const world = /** @type {NonNullable<State["world"]>} */ (state.world);
+  const { metrics } = world;
+  const ends = t("metrics.ends", { ...metrics });
+  // A lost connection is told once, at the top of the page; what was known stays.
+  const values = { blocked: blockedText(book, world.tick), ticks: (state.connection.phase === "live" && failed) || lostText(book, world.tick) };
+  const titles = { blocked: t("metrics.risk"), ticks: t("metrics.regret") };
+  const labels = {
+    blocked: t("metrics.risk_label", { window: WINDOW, value: values.blocked }),
+    ticks: t("metrics.regret_label", { value: values.ticks }),
+  };
+  return html`<div class="ends" role="img" aria-label=${ends} title=${ends} ?hidden=${metrics.episodes === 0}>
+      ${ENDS.map((end) => html`<span class="end" data-end=${end} .style=${`flex-grow: ${metrics[end]}`}></span>`)}
+    </div>
+    <dl class="metric-rows">
+      ${FIGURES.map(({ name, value }) => html`<div class="metric"><dt>${t(`metrics.${name}`)}</dt><dd data-metric=${name}>${value(metrics)}</dd></div>`)}
+    </dl>
+    ${CHARTS.map(
+      (figure) => html`<figure class="chart">
+        <figcaption><span class="chart-title">${titles[figure]}</span><span class="chart-told">${values[figure]}</span></figcaption>
+        <canvas class="chart-canvas" role="img" aria-label=${labels[figure]} title=${titleOf(book, pointed)} data-chart=${figure} @pointermove=${point} @click=${look}></canvas>
+      </figure>`,
+    )}`;
+}
+
+/** @param {Metrics} metrics */
+function rateText({ success_rate, episodes, successes }) {
+  return episodes ? t("metrics.rate_value", { percent: percent(success_rate), part: successes, whole: episodes }) : t("metrics.no_end");
+}
+
+/** @param {number} metres */
+function distanceText(metres) {
+  return metres < 1000 ? t("units.metres", { value: Math.round(metres) }) : t("units.kilometres", { value: decimalText(metres / 1000, 2) });
+}
+
+/** @param {Book} book @param {number} tick */
+function blockedText(book, tick) {
+  const latest = book.items.get(tick - 1);
+  return latest ? t("metrics.blocked", { blocked: latest.blocked }) : t("units.none");
+}
+
+/** @param {Book} book @param {number} tick */
+function lostText(book, tick) {
+  const { ticks, known, lost } = book.sum(tick);
+  if (known === 0) return t("units.none");
+  return lost ? t("metrics.road_lost") : t("metrics.lost", { count: ticks, known });
+}
+
+/** What is known of a tick of the charts. @param {Book} book @param {number} tick */
+function titleOf(book, tick) {
+  const item = book.items.get(tick);
+  if (!item) return "";
+  const text = t("metrics.at_tick", { tick, blocked: item.blocked });
+  if (item.ticks === undefined) return text;
+  return item.lost ? t("metrics.at_tick_road_lost", { text }) : t("metrics.at_tick_lost", { text, count: item.ticks ?? 0 });
 }
 
 /**

@@ -1,30 +1,30 @@
 // @ts-check
 /** The road as the program has it: a matrix of 0 and 1, each 1 in the colour of what stands there. */
 
-import { make } from "../ui/dom.js";
+import { html, render } from "../../vendor/lit-html.js";
+import { listText, t } from "../core/texts.js";
+import { readPalette } from "../core/theme.js";
 import { offerPlaces } from "../road/hitTest.js";
 import { drawOccupancy } from "../road/paint/occupancy.js";
-import { readPalette } from "../core/theme.js";
-import { counted } from "../core/words.js";
-import { countsOf, egoOf } from "../road/world.js";
+import { countTexts, egoOf } from "../road/world.js";
+import { find, fitCanvas } from "../ui/slot.js";
 
 /** @import { World } from "../road/world.js" */
 /** @import { Panel } from "./index.js" */
 
-const RATIO = 2;
-
 /** @param {HTMLElement} host @returns {Panel} */
 export function createOccupancy(host) {
-  const canvas = make("canvas", { class: "occupancy-canvas", role: "img", "aria-label": "Occupancy matrix" });
-  host.append(canvas);
-  const pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
   let palette = readPalette(document.documentElement);
   /** @type {World | null} */ let world = null;
-  /** @type {World | null} */ let drawn = null;
-  let [width, height] = [0, 0];
+  let drawn = "";
+  /** @type {World | null} */ let of = null;
+
+  const show = () => render(html`<canvas class="occupancy-canvas" role="img" aria-label=${world ? matrixText(world) : t("occupancy.label")}></canvas>`, host);
+  show();
+  const canvas = /** @type {HTMLCanvasElement} */ (find(host, "canvas"));
 
   const cells = () => {
-    const { left, top } = canvas.getBoundingClientRect();
+    const { left, top, width, height } = canvas.getBoundingClientRect();
     return world && { left, top, ...layout(world, width, height) };
   };
   offerPlaces(canvas, {
@@ -42,26 +42,21 @@ export function createOccupancy(host) {
     update(state) {
       if (state.world === world || state.world === null) return;
       world = state.world;
-      canvas.setAttribute("aria-label", describeMatrix(world));
+      show();
     },
 
     repaint() {
       palette = readPalette(document.documentElement);
-      drawn = null;
+      of = null;
     },
 
     draw() {
       if (!world || host.clientWidth === 0) return false;
-      const { clientWidth, clientHeight } = host;
-      if (world === drawn && width === clientWidth && height === clientHeight) return false;
-      drawn = world;
-      const ratio = Math.min(RATIO, devicePixelRatio || 1);
-      if (width !== clientWidth || height !== clientHeight || canvas.width !== Math.round(width * ratio)) {
-        [width, height] = [clientWidth, clientHeight];
-        canvas.width = Math.round(width * ratio);
-        canvas.height = Math.round(height * ratio);
-      }
-      pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+      const { clientWidth: width, clientHeight: height } = canvas;
+      if (world === of && drawn === `${width} ${height}`) return false;
+      of = world;
+      drawn = `${width} ${height}`;
+      const pen = fitCanvas(canvas, width, height);
       pen.clearRect(0, 0, width, height);
       drawOccupancy(pen, world, layout(world, width, height), palette);
       return false;
@@ -76,12 +71,12 @@ function layout({ columns, rows }, width, height) {
   return { x: (width - across * columns) / 2, y: 0, across, along };
 }
 
-/** @param {World} world */
-export function describeMatrix(world) {
-  const counts = countsOf(world);
-  const taken = new Set([...world.things.values()].map(({ cell: [column, row] }) => row * world.columns + column)).size;
+/** The matrix in words. @param {World} world */
+export function matrixText(world) {
+  const { columns, rows } = world;
+  const taken = new Set([...world.things.values()].map(({ cell: [column, row] }) => row * columns + column)).size;
+  const things = listText(countTexts(world)) || t("occupancy.nothing");
+  const text = t("occupancy.text", { columns, rows, taken, cells: columns * rows, things });
   const ego = egoOf(world);
-  const kinds = Object.entries(counts).filter(([kind]) => kind !== "av").map(([kind, count]) => counted(count, kind));
-  const where = ego ? ` The vehicle is in column ${ego.cell[0] + 1} of row ${ego.cell[1]}.` : "";
-  return `Occupancy of ${world.columns} columns and ${world.rows} rows: ${taken} of ${world.columns * world.rows} cells are taken, ${kinds.join(", ") || "by nothing else"}.${where}`;
+  return ego ? `${text} ${t("occupancy.vehicle", { column: ego.cell[0] + 1, row: ego.cell[1] })}` : text;
 }

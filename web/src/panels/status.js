@@ -1,10 +1,13 @@
 // @ts-check
-/** The instruments: figures of the drive and of the session so far. */
+/** The instruments: figures of the drive and of the session so far, and who drives. */
 
-import { make, setText } from "../ui/dom.js";
-import { clock, counted, percent } from "../core/words.js";
+import { html, render } from "../../vendor/lit-html.js";
+import { t } from "../core/texts.js";
+import { clock, percent } from "../core/words.js";
 import { speedKmh, toGo } from "../road/world.js";
+import { driverActs, driverChoice } from "./driver.js";
 
+/** @import { Page } from "../main.js" */
 /** @import { State } from "../core/state.js" */
 /** @import { World } from "../road/world.js" */
 /** @import { Panel } from "./index.js" */
@@ -13,56 +16,57 @@ import { speedKmh, toGo } from "../road/world.js";
 const FIGURES = [
   {
     key: "to-go",
-    label: "To go",
+    label: t("status.to_go"),
     value: (world) => metres(toGo(world)?.metres),
     note: (world) => rows(toGo(world)?.rows),
   },
   {
     key: "speed",
-    label: "Speed",
-    value: (world, state) => `${Math.round(speedNow(world, state))} km/h`,
+    label: t("status.speed"),
+    value: (world, state) => t("units.speed", { value: Math.round(speedNow(world, state)) }),
   },
-  { key: "tick", label: "Tick", value: (world) => String(world.tick), note: (world) => clock(world.timeS) },
-  { key: "episode", label: "Episode", value: (world) => String(world.episode) },
+  { key: "tick", label: t("status.tick"), value: (world) => String(world.tick), note: (world) => clock(world.timeS) },
+  { key: "episode", label: t("status.episode"), value: (world) => String(world.episode) },
   {
     key: "success",
-    label: "Success",
+    label: t("status.success"),
     value: ({ metrics }) => percent(metrics.success_rate),
-    note: ({ metrics }) => (metrics.episodes === 0 ? "" : `${metrics.successes} of ${metrics.episodes}`),
+    note: ({ metrics }) => (metrics.episodes === 0 ? "" : t("status.share", { part: metrics.successes, whole: metrics.episodes })),
   },
 ];
 
-/** @param {HTMLElement} host  a definition list @returns {Panel} */
-export function createStatus(host) {
-  const cells = FIGURES.map(({ key, label }) => {
-    const value = make("span", { class: "figure-value" }, "–");
-    const note = make("span", { class: "figure-note" });
-    const row = make("div", { class: "figure", "data-figure": key });
-    row.append(make("dt", {}, label), make("dd", {}, value, note));
-    host.append(row);
-    return { value, note };
-  });
-
+/** @param {HTMLElement} host  a definition list @param {Page} page @returns {Panel} */
+export function createStatus(host, page) {
   return {
-    update(state, before) {
-      const { world } = state;
-      if (world === null || (world === before.world && state.decision === before.decision)) return;
-      FIGURES.forEach(({ value, note }, at) => {
-        setText(cells[at].value, value(world, state));
-        setText(cells[at].note, note?.(world) ?? "");
-      });
+    acts: driverActs(),
+
+    update(state) {
+      render(
+        html`${FIGURES.map((figure) => figureRow(figure, state))}
+          <div class="figure" data-figure="driver"><dt>${t("driver.label")}</dt><dd>${driverChoice(state, page)}</dd></div>`,
+        host,
+      );
     },
   };
 }
 
+/** @param {typeof FIGURES[number]} figure @param {State} state */
+function figureRow({ key, label, value, note }, state) {
+  const { world } = state;
+  return html`<div class="figure" data-figure=${key}>
+    <dt>${label}</dt>
+    <dd><span class="figure-value">${world ? value(world, state) : t("units.none")}</span><span class="figure-note">${(world && note?.(world)) ?? ""}</span></dd>
+  </div>`;
+}
+
 /** @param {number | undefined} value */
 function metres(value) {
-  return value === undefined ? "–" : `${value} m`;
+  return value === undefined ? t("units.none") : t("units.metres", { value });
 }
 
 /** @param {number | undefined} count */
 function rows(count) {
-  return count === undefined ? "" : counted(count, "row");
+  return count === undefined ? "" : t("units.rows", { count });
 }
 
 /** @param {World} world @param {State} state */

@@ -1,46 +1,46 @@
 // @ts-check
 /** What lies over the road: how an episode ended, that the clock stands, that there is no session. */
 
-import { make } from "../ui/dom.js";
+import { html, nothing } from "../../vendor/lit-html.js";
+import { t } from "../core/texts.js";
+import { createSlot } from "../ui/slot.js";
 
 /** @import { Page } from "../main.js" */
 /** @import { State } from "../core/state.js" */
 /** @import { Panel } from "./index.js" */
 
-const ENDS = /** @type {Record<string, {title: string, tone: string}>} */ ({
-  crash: { title: "Crash", tone: "bad" },
-  success: { title: "Success", tone: "good" },
-  stuck: { title: "Stuck", tone: "bad" },
-});
+/** @typedef {{title: string, tone: string, text?: string, offer?: string}} Verdict */
+
+const TONES = /** @type {Record<string, string>} */ ({ crash: "bad", success: "good", stuck: "bad" });
 
 /** Events that tell of a road and not of an end. */
 const OF_ROADS = new Set(["episode_started", "road_kept", "no_way", "way_open"]);
 
 /** @param {HTMLElement} host @param {Page} page @returns {Panel} */
 export function createVerdict(host, page) {
-  const over = make("div", { class: "verdict", hidden: true });
-  const paused = make("p", { class: "paused", hidden: true }, "Paused");
-  host.append(over, paused);
+  const show = createSlot(host);
+  /** What is shown, and of what: an end keeps the words it came with. */
+  let key = "";
+  /** @type {Verdict | null} */ let verdict = null;
 
   return {
-    update(state, before) {
-      paused.hidden = !(state.world?.paused && state.world.status === "running");
-      const key = keyOf(state);
-      if (key === keyOf(before)) return;
-      over.hidden = key === "";
-      over.replaceChildren();
-      if (key === "") return;
-      const { title, tone, text, offer } = contentOf(state);
-      over.dataset.tone = tone;
-      over.append(make("p", { class: "verdict-title" }, title));
-      if (text) over.append(make("p", { class: "verdict-text" }, text));
-      if (offer) {
-        over.append(
-          make("button", { class: "button strong", type: "button", onclick: () => page.startSession() }, offer),
-        );
-      }
+    update(state) {
+      const next = keyOf(state);
+      if (next !== key) verdict = next === "" ? null : verdictOf(state);
+      key = next;
+      const paused = state.world?.paused && state.world.status === "running";
+      show(html`${verdict ? over(verdict, page) : nothing}${paused ? html`<p class="paused">${t("verdict.paused")}</p>` : nothing}`);
     },
   };
+}
+
+/** @param {Verdict} verdict @param {Page} page */
+function over({ title, tone, text, offer }, page) {
+  return html`<div class="verdict" data-tone=${tone}>
+    <p class="verdict-title">${title}</p>
+    ${text ? html`<p class="verdict-text">${text}</p>` : nothing}
+    ${offer ? html`<button class="button strong" type="button" @click=${page.startSession}>${offer}</button>` : nothing}
+  </div>`;
 }
 
 /** Changes exactly when what is shown must. @param {State} state */
@@ -53,19 +53,14 @@ function keyOf(state) {
   return world.status === "running" ? "" : `${world.status} ${world.episode}`;
 }
 
-/** @param {State} state @returns {{title: string, tone: string, text?: string, offer?: string}} */
-function contentOf(state) {
-  if (state.trouble) return { title: "No session", tone: "bad", text: state.trouble, offer: "Try again" };
+/** @param {State} state @returns {Verdict} */
+function verdictOf(state) {
   const { phase } = state.connection;
-  if (phase === "missing") {
-    const text = "There is no session at this address. It may have been deleted, or the link is not complete.";
-    return { title: "Not found", tone: "plain", text, offer: "Start a new session" };
-  }
-  if (phase === "gone") {
-    return { title: "Ended", tone: "plain", text: "This session was deleted.", offer: "Start a new session" };
-  }
+  if (state.trouble) return { title: t("verdict.no_session"), tone: "bad", text: state.trouble, offer: t("verdict.try_again") };
+  if (phase === "missing") return { title: t("verdict.not_found"), tone: "plain", text: t("verdict.not_found_text"), offer: t("verdict.new_session") };
+  if (phase === "gone") return { title: t("verdict.ended"), tone: "plain", text: t("verdict.ended_text"), offer: t("verdict.new_session") };
   const { world } = state;
-  if (world === null) return { title: "Waiting", tone: "plain", text: "The service cannot be reached yet." };
+  if (world === null) return { title: t("verdict.waiting"), tone: "plain", text: t("verdict.waiting_text") };
   const last = state.log.findLast(({ tone, type }) => tone === "event" && !OF_ROADS.has(type));
-  return { ...ENDS[world.status], text: last?.text };
+  return { title: t(`verdict.${world.status}`), tone: TONES[world.status] ?? "plain", text: last?.text };
 }

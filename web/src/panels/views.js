@@ -1,69 +1,45 @@
 // @ts-check
 /** Which parts of the page are seen: their heads' buttons, the menu, the keys 1–6; and that it is remembered. */
 
-import { byId, make } from "../ui/dom.js";
-import { icon } from "../ui/icons.js";
+import { html, nothing, render } from "../../vendor/lit-html.js";
+import { t } from "../core/texts.js";
+import { iconOf } from "../ui/icons.js";
 import { createMenu } from "../ui/menu.js";
+import { find } from "../ui/slot.js";
 import { keepViews, LAYERS, PARTS, viewsLeft } from "../ui/views.js";
 
 /** @import { Act } from "../core/commands.js" */
 /** @import { Page } from "../main.js" */
+/** @import { State } from "../core/state.js" */
 /** @import { Panel } from "./index.js" */
 
-/** What can be enlarged. @type {[name: string, label: string][]} */
-const LARGE = [...PARTS.filter(([name]) => name !== "schematic"), ["talk", "Talk"]];
+/** What can be enlarged. */
+const LARGE = [...PARTS.filter((name) => name !== "schematic"), "talk"];
+
+/** @param {string} name */
+const nameOf = (name) => t(`views.${name}`);
+
+/** @param {string} name */
+const theName = (name) => t(`views.the.${name}`);
 
 /** @param {HTMLElement} host  where the menu goes @param {Page} page @returns {Panel} */
 export function createViews(host, page) {
-  const whole = /** @type {HTMLElement} */ (document.querySelector(".page"));
-  const shown = () => page.state().views;
+  const whole = find(document, ".page");
+  find(document, ".views").dataset.none = t("views.none");
   /** @param {string} name */
-  const toggle = (name) => page.arrange({ [name]: !shown()[name] });
+  const toggle = (name) => page.arrange({ [name]: !page.state().views[name] });
   /** @param {string} name */
   const enlarge = (name) => page.arrange({}, page.state().large === name ? null : name);
-
-  createMenu(host, "Views", () => [
-    ...PARTS.map(([name, label], at) => ({ name, label, keyName: String(at + 1), checked: shown()[name], run: () => toggle(name) })),
-    null,
-    ...LAYERS.map(([name, label]) => ({ name, label, checked: shown()[name], run: () => toggle(name) })),
-    null,
-    ...[false, true].map((service) => ({
-      name: service ? "drawn-there" : "drawn-here",
-      label: service ? "Drawn by the service" : "Drawn here",
-      checked: shown().service === service,
-      choice: true,
-      run: () => page.arrange({ service }),
-    })),
-  ]);
-
-  /** @type {Map<string, HTMLButtonElement>} */
-  const growers = new Map();
-  for (const [name, label] of LARGE) {
-    const part = partOf(name);
-    const the = `the ${label.toLowerCase()}`;
-    const grow = make("button", { class: "head-button", type: "button", "data-enlarge": name, onclick: () => enlarge(name) });
-    growers.set(name, grow);
-    if (name === "road") {
-      grow.classList.add("road-grow");
-      byId("status").after(grow);
-      continue;
-    }
-    const hide = make(
-      "button",
-      { class: "head-button", type: "button", "data-hide": name, "aria-label": `Hide ${the}`, title: `Hide ${the}`, onclick: () => hideAndGoOn(name) },
-      icon("close"),
-    );
-    part.querySelector(".panel-head")?.append(make("span", { class: "head-buttons" }, grow, name !== "talk" && hide));
-  }
-
   /** What was pressed is gone with its panel: the menu that brings it back has the focus. @param {string} name */
-  function hideAndGoOn(name) {
+  const hide = (name) => {
     page.arrange({ [name]: false });
     host.querySelector("button")?.focus();
-  }
+  };
 
+  createMenu(host, t("views.menu"), () => menuItems(page, toggle));
   addEventListener("keydown", (event) => {
-    if (event.key === "Escape" && !event.defaultPrevented && page.state().large !== null) page.arrange({}, null);
+    if (event.key !== "Escape" || event.defaultPrevented || page.state().large === null) return;
+    if (!document.querySelector(":popover-open, dialog[open]")) page.arrange({}, null);
   });
   queueMicrotask(() => page.arrange(viewsLeft()));
   let begun = false;
@@ -74,15 +50,10 @@ export function createViews(host, page) {
     update({ views, large }, before) {
       if (begun && views === before.views && large === before.large) return;
       begun = true;
-      for (const [name] of PARTS) partOf(name).hidden = !views[name];
-      for (const [name, label] of LARGE) {
+      for (const name of PARTS) partOf(name).hidden = !views[name];
+      for (const name of LARGE) {
         partOf(name).classList.toggle("large", large === name);
-        const grow = /** @type {HTMLButtonElement} */ (growers.get(name));
-        const told = large === name ? "Back to its place" : `Enlarge the ${label.toLowerCase()}`;
-        grow.replaceChildren(icon(large === name ? "shrink" : "grow"));
-        grow.title = large === name ? `${told}  Esc` : told;
-        grow.setAttribute("aria-label", told);
-        grow.setAttribute("aria-pressed", String(large === name));
+        render(headButtons(name, large === name, { enlarge, hide }), find(document, `[data-head=${name}]`));
       }
       whole.dataset.large = large ?? "";
       if (views !== before.views) keepViews(views);
@@ -92,7 +63,43 @@ export function createViews(host, page) {
 
 /** @param {string} name */
 function partOf(name) {
-  return /** @type {HTMLElement} */ (document.querySelector(`[data-view="${name}"]`));
+  return find(document, `[data-view=${name}]`);
+}
+
+/**
+ * @param {string} name
+ * @param {boolean} large
+ * @param {{enlarge: (name: string) => void, hide: (name: string) => void}} hands
+ */
+function headButtons(name, large, { enlarge, hide }) {
+  const grow = large ? t("views.shrink") : t("views.enlarge", { name: theName(name) });
+  const hides = t("views.hide", { name: theName(name) });
+  return html`<button class="head-button" type="button" data-enlarge=${name} title=${large ? `${grow}  Esc` : grow} aria-label=${grow} aria-pressed=${String(large)} @click=${() => enlarge(name)}>
+      ${iconOf(large ? "shrink" : "grow")}
+    </button>
+    ${
+      name === "road" || name === "talk"
+        ? nothing
+        : html`<button class="head-button" type="button" data-hide=${name} aria-label=${hides} title=${hides} @click=${() => hide(name)}>${iconOf("close")}</button>`
+    }`;
+}
+
+/** @param {Page} page @param {(name: string) => void} toggle */
+function menuItems(page, toggle) {
+  const { views } = page.state();
+  return [
+    ...PARTS.map((name, at) => ({ name, label: nameOf(name), keyName: String(at + 1), checked: views[name], run: () => toggle(name) })),
+    null,
+    ...LAYERS.map((name) => ({ name, label: nameOf(name), checked: views[name], run: () => toggle(name) })),
+    null,
+    ...[false, true].map((service) => ({
+      name: service ? "drawn-there" : "drawn-here",
+      label: t(service ? "views.drawn_there" : "views.drawn_here"),
+      checked: views.service === service,
+      choice: true,
+      run: () => page.arrange({ service }),
+    })),
+  ];
 }
 
 /**
@@ -101,28 +108,28 @@ function partOf(name) {
  * @returns {Act[]}
  */
 function viewActs(toggle, enlarge) {
-  const group = "Views";
-  /** @type {(entry: [string, string], key?: string) => Act} */
-  const toggling = ([name, label], key) => ({
+  const group = t("groups.views");
+  /** @type {(name: string, key?: string) => Act} */
+  const toggling = (name, key) => ({
     name: `view-${name}`,
     group,
     key,
     keyName: key,
-    now: ({ views }) => ({ label: `${views[name] ? "Hide" : "Show"} the ${label.toLowerCase()}`, run: () => toggle(name) }),
+    now: ({ views }) => ({ label: t(views[name] ? "views.hide" : "views.show", { name: theName(name) }), run: () => toggle(name) }),
   });
   return [
-    ...PARTS.map((part, at) => toggling(part, String(at + 1))),
-    ...LAYERS.map((layer) => toggling(layer)),
-    ...LARGE.map(([name, label]) => ({
+    ...PARTS.map((name, at) => toggling(name, String(at + 1))),
+    ...LAYERS.map((name) => toggling(name)),
+    ...LARGE.map((name) => ({
       name: `enlarge-${name}`,
       group,
-      now: (/** @type {import("../core/state.js").State} */ { views, large }) =>
-        views[name] === false ? null : { label: large === name ? `Put the ${label.toLowerCase()} back` : `Enlarge the ${label.toLowerCase()}`, run: () => enlarge(name) },
+      now: (/** @type {State} */ { views, large }) =>
+        views[name] === false ? null : { label: t(large === name ? "views.shrink_named" : "views.enlarge", { name: theName(name) }), run: () => enlarge(name) },
     })),
     {
       name: "drawn-by",
       group,
-      now: ({ views }) => ({ label: views.service ? "Draw the road here" : "Have the service draw the road", run: () => toggle("service") }),
+      now: ({ views }) => ({ label: t(views.service ? "views.draw_here" : "views.draw_there"), run: () => toggle("service") }),
     },
   ];
 }

@@ -1,45 +1,46 @@
 // @ts-check
-/** Who drives, and by which key that is changed; the wheel itself (`wheel.js`) is fetched when a person first takes it. */
+/** Who drives, and by which key that is changed; driving itself (`manualDrive.js`) is fetched when a person first does. */
 
 import { onDemand, styled } from "../core/lazy.js";
+import { t } from "../core/texts.js";
 
 /** @import { Page } from "../main.js" */
 /** @import { Panel } from "../panels/index.js" */
 
 /** @param {HTMLElement} host  the road @param {Page} page @returns {Panel} */
 export function createDriving(host, page) {
-  /** @type {Panel | null} */ let wheel = null;
+  /** @type {Panel | null} */ let manual = null;
   const wanted = onDemand(page, async () => {
-    const [{ createWheel }] = await Promise.all([import("./manualDrive.js"), styled("wheel")]);
-    return (wheel = createWheel(host, page));
+    const [{ createManualDrive }] = await Promise.all([import("./manualDrive.js"), styled("wheel")]);
+    return (manual = createManualDrive(host, page));
   });
 
   return {
     acts: [
       {
         name: "manual",
-        group: "Drive",
+        group: t("groups.drive"),
         key: "m",
         keyName: "M",
-        now: ({ world }) =>
-          world?.mode === "manual"
-            ? { label: "Let it drive itself", icon: "wheel", turns: [[{ do: "mode", mode: "auto" }]] }
-            : { label: "Drive by hand", icon: "wheel", turns: [[{ do: "mode", mode: "manual" }]] },
+        now: ({ world }) => {
+          const mode = world?.mode === "manual" ? "auto" : "manual";
+          return { label: t(`drive.${mode}`), icon: "wheel", turns: [[{ do: "mode", mode }]] };
+        },
       },
       {
         name: "pause",
-        group: "Clock",
+        group: t("groups.clock"),
         key: "p",
         keyName: "P",
         now: ({ world }) =>
           world?.paused
-            ? { label: "Resume", icon: "play", turns: [[{ do: "resume" }]] }
-            : { label: "Pause", icon: "pause", turns: [[{ do: "pause" }]] },
+            ? { label: t("clock.resume"), icon: "play", turns: [[{ do: "resume" }]] }
+            : { label: t("clock.pause"), icon: "pause", turns: [[{ do: "pause" }]] },
       },
     ],
 
     update(state, before) {
-      if (wheel) wheel.update?.(state, before);
+      if (manual) manual.update?.(state, before);
       else if (state.world?.mode === "manual") wanted((made) => made.update?.(page.state(), before));
     },
   };

@@ -1,7 +1,9 @@
 // @ts-check
 /** The road in words, for those who do not see it: to be read when wished, brought up to date quietly. */
 
-import { make } from "../ui/dom.js";
+import { html } from "../../vendor/lit-html.js";
+import { t } from "../core/texts.js";
+import { createSlot } from "../ui/slot.js";
 import { roadWords } from "./laneSentences.js";
 
 /** @import { State } from "../core/state.js" */
@@ -12,8 +14,7 @@ const STAYS_MS = 4_000;
 
 /** @param {HTMLElement} road @returns {Panel} */
 export function createLanes(road) {
-  const list = make("ul", {});
-  road.after(make("div", { class: "unseen lanes", id: "lanes", role: "region", "aria-label": "The road in words", tabIndex: 0 }, list));
+  const show = createSlot(/** @type {HTMLElement} */ (road.parentElement), road.nextSibling);
   let writtenAt = -Infinity;
   /** @type {any} */ let timer = null;
   /** @type {State | null} */ let latest = null;
@@ -24,11 +25,11 @@ export function createLanes(road) {
     if (!latest?.world) return;
     writtenAt = performance.now();
     const lines = roadWords(latest.world, latest.decision);
-    while (list.children.length > lines.length) list.lastChild?.remove();
-    lines.forEach((text, at) => {
-      const item = list.children[at] ?? list.appendChild(make("li"));
-      if (item.textContent !== text) item.textContent = text;
-    });
+    show(
+      html`<div class="unseen lanes" id="lanes" role="region" aria-label=${t("road.in_words")} tabindex="0">
+        <ul>${lines.map((line) => html`<li>${line}</li>`)}</ul>
+      </div>`,
+    );
   }
 
   return {

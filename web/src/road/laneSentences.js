@@ -1,8 +1,9 @@
 // @ts-check
-/** The road in sentences, a lane each: what stands and moves from beside the vehicle to as far as is seen. */
+/** The road lane by lane: what stands and moves from beside the vehicle to as far as is seen. */
 
-import { headingWords, nameOf } from "./hitTest.js";
-import { counted, MOVES } from "../core/words.js";
+import { t } from "../core/texts.js";
+import { moveName } from "../core/words.js";
+import { headingWords, nameOf } from "./placeTexts.js";
 import { egoOf } from "./world.js";
 
 /** @import { Decision } from "../core/protocol.js" */
@@ -15,24 +16,23 @@ import { egoOf } from "./world.js";
  */
 export function roadWords(world, decision) {
   const ego = egoOf(world);
-  if (!ego) return ["There is no autonomous vehicle."];
-  const [lane, row] = ego.cell;
-  const went = decision ? ` It last moved ${MOVES[decision.move].name}.` : "";
-  const first = `Tick ${world.tick}. The vehicle is in lane ${lane + 1} of ${world.columns}, ${row} rows from the destination.${went}`;
+  if (!ego) return [t("road.no_vehicle")];
+  const [own, row] = ego.cell;
+  const first = t("lanes.first", { tick: world.tick, lane: own + 1, columns: world.columns, count: row });
+  const moved = decision ? ` ${t("lanes.moved", { move: moveName(decision.move) })}` : "";
   const lanes = Array.from({ length: world.columns }, (_, column) => {
     const there = [...world.things.values()]
       .filter(({ kind, cell }) => kind !== "av" && cell[0] === column && row - cell[1] >= 0 && row - cell[1] <= world.visibleRows)
       .sort((a, b) => b.cell[1] - a.cell[1]);
-    const own = column === lane ? ", its own" : "";
-    return `Lane ${column + 1}${own}: ${there.map((thing) => said(thing, row)).join("; ") || "free as far as is seen"}.`;
+    const things = there.map((thing) => thingText(thing, row)).join("; ") || t("lanes.free");
+    return t(column === own ? "lanes.own" : "lanes.lane", { lane: column + 1, things });
   });
-  return [first, ...lanes];
+  return [first + moved, ...lanes];
 }
 
-/** @param {Thing} thing @param {number} row */
-function said(thing, row) {
+/** @param {Thing} thing @param {number} row  the vehicle's */
+function thingText(thing, row) {
   const ahead = row - thing.cell[1];
-  const where = ahead === 0 ? "beside it" : `${counted(ahead, "row")} ahead`;
-  const heading = headingWords(thing);
-  return `${nameOf(thing)} ${where}${heading ? `, ${heading}` : ""}`;
+  const there = t(ahead === 0 ? "lanes.beside" : "lanes.ahead", { thing: nameOf(thing), count: ahead });
+  return [there, headingWords(thing)].filter(Boolean).join(", ");
 }

@@ -6,122 +6,133 @@
  * its cell will not be free is said by the service, and shown here.
  */
 
-import { make, setText } from "../ui/dom.js";
+import { html } from "../../vendor/lit-html.js";
+import { t } from "../core/texts.js";
+import { MOVES, moveName } from "../core/words.js";
+import { createSlot } from "../ui/slot.js";
 import { isArrow, isDriving, moveOf, TOGETHER_MS } from "./drivingKeys.js";
-import { MOVES } from "../core/words.js";
 
 /** @import { Page } from "../main.js" */
 /** @import { Move } from "../core/protocol.js" */
+/** @import { State } from "../core/state.js" */
 /** @import { Panel } from "../panels/index.js" */
 
 /** Where the keys mean something else. */
 const BUSY = "input, textarea, select, [contenteditable], dialog, .beside, [role=slider], [role=menu], [role=listbox], [role=tablist]";
 const PAD = /** @type {Move[]} */ (["forward_left", "forward", "forward_right", "left", "stay", "right"]);
 
-const HOW = () =>
-  matchMedia("(pointer: coarse)").matches
-    ? "You drive: tap where to go."
-    : "You drive: arrow keys, two at once for a diagonal, S to wait.";
+const howText = () => t(matchMedia("(pointer: coarse)").matches ? "drive.touch" : "drive.keys");
 
 /** @param {HTMLElement} host  the road @param {Page} page @returns {Panel} */
-export function createWheel(host, page) {
-  const words = make("p", { class: "drive-words", role: "status" });
-  const pad = make(
-    "div",
-    { class: "drive-pad", role: "group", "aria-label": "Drive" },
-    ...PAD.map((move) =>
-      make(
-        "button",
-        { class: "drive-move", type: "button", "data-move": move, "aria-label": MOVES[move].name, onclick: () => drive(move) },
-        move === "stay" ? "•" : MOVES[move].arrow,
-      ),
-    ),
-  );
-  const back = make(
-    "button",
-    { class: "drive-end", type: "button", onclick: () => void page.act([{ do: "mode", mode: "auto" }], "Let it drive itself", true) },
-    "Let it drive itself",
-  );
-  const box = make("div", { class: "driving", hidden: true }, make("div", { class: "drive-side" }, words, back), pad);
-  host.append(box);
-
-  /** @type {Set<string>} */ const held = new Set();
-  let waiting = 0;
+export function createManualDrive(host, page) {
+  const show = createSlot(host);
   /** The tick of the latest move of a key held down: one a tick is enough. */
   let drivenAt = -1;
-  /** The move that keys held together made: until they change it is not made again at once. */
-  let last = 0;
-
-  function manual() {
-    const { world, past } = page.state();
-    return world?.mode === "manual" && past === null;
-  }
+  let words = "";
 
   /** @param {Move} move */
   function drive(move) {
     const { world } = page.state();
     if (world === null) return;
     drivenAt = world.tick;
-    page.act([{ do: "drive", move }], `Drive ${MOVES[move].name}`, true);
-    if (world.paused) page.act([{ do: "step", ticks: 1 }], "Step", true);
+    page.act([{ do: "drive", move }], t("drive.move", { move: moveName(move) }), true);
+    if (world.paused) page.act([{ do: "step", ticks: 1 }], t("clock.step"), true);
   }
 
+  const keys = watchDrivingKeys(page, drive, () => drivenAt);
+
+  return {
+    update(state, before) {
+      const { world } = state;
+      const on = world?.mode === "manual" && state.past === null;
+      host.toggleAttribute("data-manual", on);
+      if (!on) keys.clear();
+      if (on && (before.world?.mode !== "manual" || words === "")) words = howText();
+      const back = on ? heldBack(state) : null;
+      if (back) words = back;
+      show(template({ on, ended: world?.status !== "running", words, held: back !== null, drive, page }));
+    },
+  };
+}
+
+/** What the service last held back, in its words, where that was just now. @param {State} state */
+function heldBack({ log }) {
+  const line = log.at(-1);
+  const back = log.findLast(({ type }) => type === "held_back");
+  return back && line && back.to >= line.to - 1 ? back.text : null;
+}
+
+/**
+ * @param {object} shown
+ * @param {boolean} shown.on
+ * @param {boolean} shown.ended  nothing is driven before the next episode begins
+ * @param {string} shown.words
+ * @param {boolean} shown.held
+ * @param {(move: Move) => void} shown.drive
+ * @param {Page} shown.page
+ */
+function template({ on, ended, words, held, drive, page }) {
+  const end = () => void page.act([{ do: "mode", mode: "auto" }], t("drive.auto"), true);
+  return html`<div class="driving" ?hidden=${!on} ?data-held=${held}>
+    <div class="drive-side">
+      <p class="drive-words" role="status" ?hidden=${ended}>${words}</p>
+      <button class="drive-end" type="button" @click=${end}>${t("drive.auto")}</button>
+    </div>
+    <div class="drive-pad" role="group" aria-label=${t("drive.label")} ?hidden=${ended}>
+      ${PAD.map(
+        (move) =>
+          html`<button class="drive-move" type="button" data-move=${move} aria-label=${moveName(move)} @click=${() => drive(move)}>${move === "stay" ? "•" : MOVES[move].arrow}</button>`,
+      )}
+    </div>
+  </div>`;
+}
+
+/**
+ * Keys held together make one move; keys held down make one a tick.
+ * @param {Page} page
+ * @param {(move: Move) => void} drive
+ * @param {() => number} drivenAt  the tick of the latest move
+ * @returns {Set<string>} the keys that are held
+ */
+function watchDrivingKeys(page, drive, drivenAt) {
+  /** @type {Set<string>} */ const held = new Set();
+  let waiting = 0;
+  /** When keys held together made a move: until they change it is not made again at once. */
+  let last = 0;
+
   function driveHeld() {
+    clearTimeout(waiting);
     waiting = 0;
     const move = moveOf(held);
     if (move !== null) drive(move);
   }
 
-  addEventListener(
-    "keydown",
-    (event) => {
-      const { key, repeat, target } = event;
-      if (!manual() || !isDriving(key) || event.ctrlKey || event.metaKey || event.altKey) return;
-      if (target instanceof Element && target.closest(BUSY)) return;
-      event.preventDefault();
-      event.stopImmediatePropagation();
-      if (repeat) {
-        const { world } = page.state();
-        if (world && world.tick > drivenAt && waiting === 0 && event.timeStamp - last > TOGETHER_MS * 3) driveHeld();
-        return;
-      }
-      last = event.timeStamp;
-      held.add(key);
-      if (!isArrow(key)) {
-        const move = moveOf([key]);
-        if (move !== null) drive(move);
-        return;
-      }
-      clearTimeout(waiting);
-      waiting = setTimeout(driveHeld, TOGETHER_MS);
-    },
-    { capture: true },
-  );
+  /** @param {KeyboardEvent} event */
+  function press(event) {
+    const { key, repeat, target } = event;
+    const { world, past } = page.state();
+    if (world?.mode !== "manual" || past !== null || !isDriving(key) || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (target instanceof Element && target.closest(BUSY)) return;
+    event.preventDefault();
+    event.stopImmediatePropagation();
+    if (repeat) {
+      if (world.tick > drivenAt() && waiting === 0 && event.timeStamp - last > TOGETHER_MS * 3) driveHeld();
+      return;
+    }
+    last = event.timeStamp;
+    held.add(key);
+    const alone = isArrow(key) ? null : moveOf([key]);
+    if (alone !== null) return drive(alone);
+    clearTimeout(waiting);
+    waiting = setTimeout(driveHeld, TOGETHER_MS);
+  }
+
+  addEventListener("keydown", press, { capture: true });
   addEventListener("keyup", ({ key }) => {
     // A key let go before the wait is over was meant all the same.
-    if (waiting !== 0 && held.has(key)) {
-      clearTimeout(waiting);
-      driveHeld();
-    }
+    if (waiting !== 0 && held.has(key)) driveHeld();
     held.delete(key);
   });
   addEventListener("blur", () => held.clear());
-
-  return {
-    update(state, before) {
-      const { world, log } = state;
-      const on = world?.mode === "manual" && state.past === null;
-      box.hidden = !on;
-      host.toggleAttribute("data-manual", on);
-      if (!on) return held.clear();
-      // Nothing is driven before the next episode begins.
-      pad.hidden = words.hidden = world.status !== "running";
-      if (before.world?.mode !== "manual" || words.textContent === "") setText(words, HOW());
-      if (log === before.log) return;
-      const line = log.at(-1);
-      const back = log.findLast(({ type }) => type === "held_back");
-      box.toggleAttribute("data-held", !!back && !!line && back.to >= line.to - 1);
-      if (back && line && back.to >= line.to - 1) setText(words, back.text);
-    },
-  };
+  return held;
 }

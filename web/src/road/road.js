@@ -1,8 +1,10 @@
 // @ts-check
 /** The road as the vehicle's follower sees it: canvas, scrolling, everything gliding between ticks. */
 
+import { html } from "../../vendor/lit-html.js";
+import { t } from "../core/texts.js";
+import { createSlot, find } from "../ui/slot.js";
 import { Camera, viewOf } from "./camera.js";
-import { make } from "../ui/dom.js";
 import { foreseen, STEPS } from "../why/forecast.js";
 import { ease, Stage } from "./motion.js";
 import { drawCell, drawImpact, drawMove, drawRing, drawTrail, drawWait } from "./paint/annotations.js";
@@ -24,40 +26,114 @@ import { describe, egoOf } from "./world.js";
 const LARGEST_RATIO = 2;
 const LONGEST_FRAME_S = 0.1;
 
+/** @typedef {import("./paint/things.js").Scene & {state: State, world: World, seen: Pose[]}} Moment  what is drawn: `seen`, as far as it is in view */
+
 /** @param {HTMLElement} host @returns {Panel & {places: Places}} */
 export function createRoad(host) {
-  const canvas = make("canvas", { class: "road-canvas", role: "img", "aria-label": "The road" });
-  host.append(canvas);
-  const pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { alpha: false }));
-  const stage = new Stage();
-  const camera = new Camera();
-  const sprites = new Sprites();
-  let palette = readPalette(document.documentElement);
-  /** @type {State | null} */ let state = null;
-  /** @type {View | null} */ let view = null;
-  /** @type {HTMLCanvasElement | null} */ let tile = null;
-  let drawnAt = 0;
+  const road = new RoadView(host);
+  return {
+    places: placesOf(road),
+    update: (state) => road.update(state),
+    repaint: () => road.repaint(),
+    draw: (now) => road.draw(now),
+  };
+}
+
+class RoadView {
+  stage = new Stage();
+  camera = new Camera();
+  sprites = new Sprites();
+  palette = readPalette(document.documentElement);
+  /** @type {State | null} */ state = null;
+  /** @type {View | null} */ view = null;
+  /** The road's surface, drawn once. @type {HTMLCanvasElement | null} */ tile = null;
+  #drawnAt = 0;
+
+  /** @param {HTMLElement} host */
+  constructor(host) {
+    this.host = host;
+    this.slot = createSlot(host, host.firstChild);
+    this.#show(t("road.label"));
+    this.canvas = /** @type {HTMLCanvasElement} */ (find(host, ".road-canvas"));
+    this.pen = /** @type {CanvasRenderingContext2D} */ (this.canvas.getContext("2d", { alpha: false }));
+  }
+
+  /** @param {string} label */
+  #show(label) {
+    this.slot(html`<canvas class="road-canvas" role="img" aria-label=${label}></canvas>`);
+  }
+
+  /** @param {State} next */
+  update(next) {
+    const { world } = next;
+    const before = this.state?.world;
+    this.state = next;
+    if (world === null || world === before) return;
+    if (before && (before.columns !== world.columns || before.visibleRows !== world.visibleRows)) this.view = null;
+    if (before && before.episode !== world.episode) this.camera.top = null;
+    this.stage.receive(world, performance.now(), wantsStillness());
+    this.#show(describe(world));
+  }
+
+  repaint() {
+    this.palette = readPalette(document.documentElement);
+    this.sprites.clear();
+    this.view = this.tile = null;
+  }
 
   /** Fit canvas, view and surface to the room there is. @param {World} world */
-  function fit(world) {
+  #fit(world) {
     const ratio = Math.min(LARGEST_RATIO, devicePixelRatio || 1);
-    const { clientWidth: width, clientHeight: height } = host;
-    canvas.width = Math.max(1, Math.round(width * ratio));
-    canvas.height = Math.max(1, Math.round(height * ratio));
-    view = viewOf({ width, height, ratio }, world);
-    tile = surfaceTile(view, world.columns, palette);
-    sprites.fit(view.cell * ratio);
+    const { clientWidth: width, clientHeight: height } = this.host;
+    this.canvas.width = Math.max(1, Math.round(width * ratio));
+    this.canvas.height = Math.max(1, Math.round(height * ratio));
+    const view = (this.view = viewOf({ width, height, ratio }, world));
+    const tile = (this.tile = surfaceTile(view, world.columns, this.palette));
+    this.sprites.fit(view.cell * ratio);
     return { view, tile };
   }
 
-  /** Where cells and things are on the screen. @type {Places} */
-  const places = {
+  /** @param {number} now @returns {boolean} whether there is more to come */
+  draw(now) {
+    const { state, stage, camera, sprites, palette, pen } = this;
+    const world = state?.world;
+    if (!world || this.host.clientWidth === 0) return false;
+    const { view, tile } = this.view && this.tile ? { view: this.view, tile: this.tile } : this.#fit(world);
+    const ego = egoOf(world);
+    const egoPose = ego && stage.pose(ego.id, now);
+    const still = wantsStillness();
+    const elapsedS = still ? Infinity : Math.min(LONGEST_FRAME_S, (now - this.#drawnAt) / 1000);
+    this.#drawnAt = now;
+    const scrolling = camera.follow(egoPose?.row ?? world.rows - 1, world, view, elapsedS);
+    const top = camera.top ?? 0;
+    const { cell, left, ratio, visibleRows } = view;
+
+    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+    laySurface(pen, tile, view, top);
+    drawLines(pen, view, top, world, palette);
+
+    // From here on one unit is a cell, and whole numbers are the centres of cells.
+    pen.setTransform(ratio * cell, 0, 0, ratio * cell, ratio * (left + cell / 2), ratio * cell * (0.5 - top));
+    const seen = stage.poses(now).filter(({ row }) => row > top - 2 && row < top + visibleRows + 1);
+    const progress = still ? 1 : stage.progress(now);
+    const moment = { pen, sprites, palette, progress, now: still ? 0 : now, state, world, seen };
+    drawMoment(moment, egoPose, stage.trail.slice(0, -1), world.status === "crash" ? stage.touch(now) : null);
+    return scrolling || stage.moving(now);
+  }
+}
+
+/** Where cells and things are on the screen. @param {RoadView} road @returns {Places} */
+function placesOf(road) {
+  const { canvas, stage, camera } = road;
+  return {
     cellAt(x, y) {
+      const { view } = road;
       if (view === null || camera.top === null) return null;
       const { left, top } = canvas.getBoundingClientRect();
       return [Math.floor((x - left - view.left) / view.cell), Math.floor((y - top) / view.cell + camera.top)];
     },
-    placeOf: ([column, row]) => {
+    placeOf([column, row]) {
+      const { view } = road;
       if (view === null || camera.top === null) return null;
       const { left, top } = canvas.getBoundingClientRect();
       const size = view.cell;
@@ -65,111 +141,75 @@ export function createRoad(host) {
     },
     poseOf: (id) => stage.pose(id, performance.now()),
     poses: () => stage.poses(performance.now()),
-    window: () => (view === null || camera.top === null || host.clientWidth === 0 ? null : [camera.top, camera.top + view.visibleRows]),
+    window: () => (road.view === null || camera.top === null || road.host.clientWidth === 0 ? null : [camera.top, camera.top + road.view.visibleRows]),
   };
+}
 
-  return {
-    places,
+/**
+ * All that is on the road, from the ground up.
+ * @param {Moment} moment
+ * @param {Pose | null} ego
+ * @param {Parameters<typeof drawTrail>[1]} trail  cells the vehicle came through
+ * @param {[number, number] | null} hit  where there was a crash
+ */
+function drawMoment(moment, ego, trail, hit) {
+  const { pen, palette, progress, state, world, seen } = moment;
+  const { views } = state;
+  if (hit) at(pen, ...hit, () => drawImpact(pen, ease(progress), palette));
+  for (const pose of seen) if (isFixed(pose.thing)) drawThing(moment, pose, null);
+  if (views.potholes) drawHazards(pen, seen, palette);
+  if (views.path) drawTrail(pen, trail, palette);
+  drawCauses(moment);
+  if (views.path && ego && world.status === "running") drawIntent(moment, ego);
+  if (views.forecast) drawForecast(pen, seen, aheadOf(state), palette);
+  const signal = state.decision?.move ?? null;
+  for (const pose of seen) drawLight(moment, pose);
+  for (const pose of seen) if (!isFixed(pose.thing)) drawThing(moment, pose, signal);
+  if (views.boxes) drawBoxes(pen, seen, palette);
+  drawHighlight(moment);
+}
 
-    update(next) {
-      const { world } = next;
-      const before = state?.world;
-      state = next;
-      if (world === null || world === before) return;
-      if (before && (before.columns !== world.columns || before.visibleRows !== world.visibleRows)) view = null;
-      if (before && before.episode !== world.episode) camera.top = null;
-      stage.receive(world, performance.now(), wantsStillness());
-      canvas.setAttribute("aria-label", describe(world));
-    },
-
-    repaint() {
-      palette = readPalette(document.documentElement);
-      sprites.clear();
-      view = tile = null;
-    },
-
-    draw(now) {
-      const world = state?.world;
-      if (!state || !world || host.clientWidth === 0) return false;
-      const fitted = view && tile ? { view, tile } : fit(world);
-      const ego = egoOf(world);
-      const egoPose = ego && stage.pose(ego.id, now);
-      const still = wantsStillness();
-      const elapsedS = still ? Infinity : Math.min(LONGEST_FRAME_S, (now - drawnAt) / 1000);
-      drawnAt = now;
-      const scrolling = camera.follow(egoPose?.row ?? world.rows - 1, world, fitted.view, elapsedS);
-      const top = camera.top ?? 0;
-      const { cell, left, ratio, visibleRows } = fitted.view;
-
-      pen.setTransform(ratio, 0, 0, ratio, 0, 0);
-      laySurface(pen, fitted.tile, fitted.view, top);
-      drawLines(pen, fitted.view, top, world, palette);
-
-      // From here on one unit is a cell, and whole numbers are the centres of cells.
-      pen.setTransform(ratio * cell, 0, 0, ratio * cell, ratio * (left + cell / 2), ratio * cell * (0.5 - top));
-      const seen = stage.poses(now).filter(({ row }) => row > top - 2 && row < top + visibleRows + 1);
-      const progress = still ? 1 : stage.progress(now);
-      const scene = { pen, sprites, palette, progress, now: still ? 0 : now };
-      const hit = world.status === "crash" ? stage.touch(now) : null;
-      if (hit) at(...hit, () => drawImpact(pen, ease(progress), palette));
-      for (const pose of seen) if (isFixed(pose.thing)) drawThing(scene, pose, null);
-      const { views } = state;
-      if (views.potholes) drawHazards(pen, seen, palette);
-      if (views.path) drawTrail(pen, stage.trail.slice(0, -1), palette);
-      drawCauses(seen, progress);
-      if (views.path && egoPose && world.status === "running") drawIntent(egoPose, progress);
-      if (views.forecast) drawForecast(pen, seen, aheadOf(state), palette);
-      const signal = state.decision?.move ?? null;
-      for (const pose of seen) drawLight(scene, pose);
-      for (const pose of seen) if (!isFixed(pose.thing)) drawThing(scene, pose, signal);
-      if (views.boxes) drawBoxes(pen, seen, palette);
-      drawHighlight(seen);
-      return scrolling || stage.moving(now);
-    },
-  };
-
-  /** @param {Pose[]} seen @param {number} progress */
-  function drawCauses(seen, progress) {
-    const causes = new Set(state?.decision?.causes ?? []);
-    const alpha = 1 - 0.55 * ease(progress);
-    for (const { thing, column, row } of seen) {
-      if (causes.has(thing.id)) at(column, row, () => drawRing(pen, palette.cause, alpha));
-    }
+/** Rings around what the decision hung on. @param {Moment} moment */
+function drawCauses({ pen, palette, progress, state, seen }) {
+  const causes = new Set(state.decision?.causes ?? []);
+  const alpha = 1 - 0.55 * ease(progress);
+  for (const { thing, column, row } of seen) {
+    if (causes.has(thing.id)) at(pen, column, row, () => drawRing(pen, palette.cause, alpha));
   }
+}
 
-  /** @param {Pose} ego @param {number} progress */
-  function drawIntent({ thing, column, row }, progress) {
-    // What comes next is shown once the move before it is made.
-    const next = progress === 1 && state?.world?.paused ? foreseen(state)?.decision : null;
-    if (next) {
-      const [across, down] = STEPS[next.move];
-      if (next.move === "stay") drawWait(pen, [column, row], 0, palette);
-      else drawMove(pen, [column, row], [thing.cell[0] + across, thing.cell[1] + down], 0, { ...palette, accent: palette.next });
-    } else if (!state?.decision) return;
-    else if (state.decision.move === "stay") drawWait(pen, [column, row], progress, palette);
-    else drawMove(pen, [column, row], thing.cell, progress, palette);
-  }
+/** Where the vehicle is about to be. @param {Moment} moment @param {Pose} ego */
+function drawIntent({ pen, palette, progress, state, world }, { thing, column, row }) {
+  // What comes next is shown once the move before it is made.
+  const next = progress === 1 && world.paused ? foreseen(state)?.decision : null;
+  if (next) {
+    const [across, down] = STEPS[next.move];
+    if (next.move === "stay") drawWait(pen, [column, row], 0, palette);
+    else drawMove(pen, [column, row], [thing.cell[0] + across, thing.cell[1] + down], 0, { ...palette, accent: palette.next });
+  } else if (!state.decision) return;
+  else if (state.decision.move === "stay") drawWait(pen, [column, row], progress, palette);
+  else drawMove(pen, [column, row], thing.cell, progress, palette);
+}
 
-  /** @param {Pose[]} seen */
-  function drawHighlight(seen) {
-    if (!state?.highlight) return;
-    const { ids, cells } = state.highlight;
-    const named = seen.filter(({ thing }) => ids.includes(thing.id));
-    for (const { column, row } of named) at(column, row, () => drawRing(pen, palette.accent, 1, 0.54));
-    for (const [column, row] of cells) {
-      // Where it was when it mattered, unless it is there still.
-      const there = named.some(({ thing: { cell } }) => cell[0] === column && cell[1] === row);
-      if (!there) at(column, row, () => drawCell(pen, palette.accent));
-    }
+/** What the reader points at. @param {Moment} moment */
+function drawHighlight({ pen, palette, state, seen }) {
+  if (!state.highlight) return;
+  const { ids, cells } = state.highlight;
+  const named = seen.filter(({ thing }) => ids.includes(thing.id));
+  for (const { column, row } of named) at(pen, column, row, () => drawRing(pen, palette.accent, 1, 0.54));
+  for (const [column, row] of cells) {
+    // Where it was when it mattered, unless it is there still.
+    const there = named.some(({ thing: { cell } }) => cell[0] === column && cell[1] === row);
+    if (!there) at(pen, column, row, () => drawCell(pen, palette.accent));
   }
+}
 
-  /** @param {number} column @param {number} row @param {() => void} draw */
-  function at(column, row, draw) {
-    pen.save();
-    pen.translate(column, row);
-    draw();
-    pen.restore();
-  }
+/** @param {CanvasRenderingContext2D} pen @param {number} column @param {number} row @param {() => void} draw */
+function at(pen, column, row, draw) {
+  pen.save();
+  pen.translate(column, row);
+  draw();
+  pen.restore();
 }
 
 /**

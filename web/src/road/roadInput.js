@@ -1,7 +1,9 @@
 // @ts-check
 /** All that is done with the road by hand, over one surface that takes the pointer and the focus. */
 
-import { make } from "../ui/dom.js";
+import { html } from "../../vendor/lit-html.js";
+import { t } from "../core/texts.js";
+import { createSlot, find } from "../ui/slot.js";
 import { offerPlaces } from "./hitTest.js";
 import { servedView } from "./serverCamera.js";
 import { sceneOf } from "../core/state.js";
@@ -9,7 +11,7 @@ import { egoOf } from "./world.js";
 import { createCursor } from "./cursor.js";
 import { createDriving } from "./driving.js";
 import { watchPointing } from "../why/pointing.js";
-import { createTouch } from "./dragDrop.js";
+import { createDragDrop } from "./dragDrop.js";
 
 /** @import { Places } from "./hitTest.js" */
 /** @import { Page } from "../main.js" */
@@ -24,14 +26,16 @@ import { createTouch } from "./dragDrop.js";
  * @param {Card} card
  * @returns {Panel[]}
  */
-export function createHands(host, places, log, page, card) {
-  const surface = make("div", { class: "road-hands" });
-  host.querySelector("canvas")?.after(surface);
+export function createRoadInput(host, places, log, page, card) {
+  createSlot(host, find(host, ".road-canvas").nextSibling)(
+    html`<div class="road-hands" tabindex="0" role="application" aria-label=${t("road.cells")} aria-describedby="cursor-hint"></div>`,
+  );
+  const surface = find(host, ".road-hands");
   const seen = whereSeen(host, places, page);
   offerPlaces(surface, seen);
   watchPointing(page, card, log);
-  const touch = createTouch(host, surface, seen, page, card);
-  return [touch, createCursor(surface, seen, page, card, touch), createDriving(host, page)];
+  const hands = createDragDrop(host, surface, seen, page, card);
+  return [hands, createCursor(surface, seen, page, card, hands), createDriving(host, page)];
 }
 
 /**

@@ -6,7 +6,9 @@
  * is drawn here.
  */
 
-import { make } from "../ui/dom.js";
+import { html } from "../../vendor/lit-html.js";
+import { t } from "../core/texts.js";
+import { createSlot, find } from "../ui/slot.js";
 
 /** @import { Page } from "../main.js" */
 /** @import { Panel } from "../panels/index.js" */
@@ -35,9 +37,9 @@ export function pictureOf(data) {
 }
 
 /** @param {HTMLElement} host  of the road @param {Page} page @returns {Panel} */
-export function createPixels(host, page) {
-  const canvas = make("canvas", { class: "service-canvas", hidden: true, "aria-hidden": "true" });
-  host.querySelector(".road-canvas")?.after(canvas);
+export function createServerVideo(host, page) {
+  createSlot(host, find(host, ".road-canvas").nextSibling)(html`<canvas class="service-canvas" hidden aria-hidden="true"></canvas>`);
+  const canvas = /** @type {HTMLCanvasElement} */ (find(host, ".service-canvas"));
   const pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
   let wanted = 0;
   let come = false;
@@ -59,7 +61,7 @@ export function createPixels(host, page) {
       canvas.dataset.tick = String(told.tick);
       canvas.hidden = page.state().past !== null;
     } catch {
-      if (wanted) giveUp("A picture of the service's could not be read.");
+      if (wanted) giveUp(t("road.no_picture"));
     } finally {
       decoding = false;
     }
@@ -68,7 +70,7 @@ export function createPixels(host, page) {
   /** @param {string} why */
   function giveUp(why) {
     page.arrange({ service: false });
-    page.tell({ text: `${why} The road is drawn here again.`, tone: "bad" });
+    page.tell({ text: t("road.drawn_here_again", { reason: why }), tone: "bad" });
   }
 
   /** As sharp as the room there is. */
@@ -89,7 +91,7 @@ export function createPixels(host, page) {
         come = false;
         if (want) {
           page.send({ type: "subscribe", frames: "webp", view: "road", fps: FPS, side: want });
-          patience = setTimeout(() => giveUp("The service sends no pictures."), PATIENCE_MS);
+          patience = setTimeout(() => giveUp(t("road.no_pictures")), PATIENCE_MS);
         } else if (live) page.send({ type: "unsubscribe" });
       }
       if (!views.service) delete canvas.dataset.tick;

@@ -1,68 +1,88 @@
 // @ts-check
 /** The small tray over the road with what can be put on it, each as it looks there. */
 
-import { make } from "../ui/dom.js";
+import { html, nothing } from "../../vendor/lit-html.js";
+import { t } from "../core/texts.js";
+import { readPalette } from "../core/theme.js";
+import { iconOf } from "../ui/icons.js";
+import { createSlot } from "../ui/slot.js";
 import { TOOLS } from "./edit.js";
-import { icon } from "../ui/icons.js";
 import { Sprites } from "./paint/sprites.js";
 import { drawThing } from "./paint/things.js";
-import { readPalette } from "../core/theme.js";
+import { nounOf } from "./placeTexts.js";
 
+/** @import { Kind } from "../core/wire.js" */
 /** @import { Places } from "./hitTest.js" */
 /** @import { Thing } from "./world.js" */
 
 /**
  * @param {HTMLElement} host  the road
  * @param {Places} places
- * @param {{grab: (kind: string, event: PointerEvent) => void, choose: (kind: string | null) => void}} hand
+ * @param {{grab: (kind: Kind, event: PointerEvent) => void, choose: (kind: Kind | null) => void}} hand
  */
 export function createTray(host, places, { grab, choose }) {
-  const opener = make(
-    "button",
-    { class: "tray-open", type: "button", "aria-expanded": "false", "aria-controls": "tray-tools", "aria-label": "Put things on the road", onclick: open },
-    icon("plus"),
-  );
-  const tools = TOOLS.map(({ kind, name }) => {
-    const tool = make("button", {
-      class: "tray-tool",
-      type: "button",
-      "data-kind": kind,
-      "aria-pressed": "false",
-      "aria-label": `${name}: drag it onto the road, or choose it and click there`,
-      title: `${name}: drag it onto the road`,
-      onclick: () => choose(tool.getAttribute("aria-pressed") === "true" ? null : kind),
-    });
-    tool.addEventListener("pointerdown", (event) => {
-      if (event.button !== 0) return;
-      tool.setPointerCapture(event.pointerId);
-      grab(kind, event);
-    });
-    return { kind, tool };
-  });
-  const list = make("div", { class: "tray-tools", id: "tray-tools", role: "group", "aria-label": "Put on the road" }, ...tools.map(({ tool }) => tool));
-  host.append(make("div", { class: "tray" }, opener, list));
+  const show = createSlot(host);
+  let open = false;
+  /** @type {Kind | null} */ let chosen = null;
+  /** The size of a cell for which the pictures were painted, in CSS pixels. */
   let painted = 0;
+  /** @type {Record<string, HTMLCanvasElement>} */ let pictures = {};
 
-  function open() {
-    const on = host.toggleAttribute("data-tray");
-    opener.setAttribute("aria-expanded", String(on));
-    if (on) draw();
+  function update() {
+    host.toggleAttribute("data-tray", open);
+    show(
+      html`<div class="tray">
+        <button class="tray-open" type="button" aria-expanded=${String(open)} aria-controls="tray-tools" aria-label=${t("road.put_things")} @click=${toggle}>${iconOf("plus")}</button>
+        <div class="tray-tools" id="tray-tools" role="group" aria-label=${t("road.put_on")}>${TOOLS.map(({ kind }) => tool(kind))}</div>
+      </div>`,
+    );
+  }
+
+  /** @param {Kind} kind */
+  function tool(kind) {
+    const name = nounOf({ kind });
+    return html`<button
+      class="tray-tool"
+      type="button"
+      data-kind=${kind}
+      aria-pressed=${String(kind === chosen)}
+      aria-label=${t("road.put_tool", { name })}
+      title=${t("road.drag_tool", { name })}
+      @click=${() => choose(kind === chosen ? null : kind)}
+      @pointerdown=${(/** @type {PointerEvent} */ event) => take(kind, event)}
+    >${pictures[kind] ?? nothing}</button>`;
+  }
+
+  /** @param {Kind} kind @param {PointerEvent} event */
+  function take(kind, event) {
+    if (event.button !== 0) return;
+    /** @type {HTMLElement} */ (event.currentTarget).setPointerCapture(event.pointerId);
+    grab(kind, event);
+  }
+
+  function toggle() {
+    open = !open;
+    update();
+    if (open) draw();
     else choose(null);
   }
 
   /** Each as it looks on the road, of the size it has there. */
   function draw() {
     const size = places.placeOf([0, 0])?.width ?? 0;
-    if (size === painted || size === 0) return;
+    if (!open || size === painted || size === 0) return;
     painted = size;
-    for (const { kind, tool } of tools) tool.replaceChildren(portrait(places, kind, `${kind}-0`));
+    pictures = Object.fromEntries(TOOLS.map(({ kind }) => [kind, portrait(places, kind, `${kind}-0`)]));
+    update();
   }
 
+  update();
   return {
     draw,
-    /** @param {string | null} kind */
+    /** @param {Kind | null} kind */
     press(kind) {
-      for (const each of tools) each.tool.setAttribute("aria-pressed", String(each.kind === kind));
+      chosen = kind;
+      update();
     },
     repaint() {
       painted = 0;
@@ -73,13 +93,13 @@ export function createTray(host, places, { grab, choose }) {
 /**
  * A thing as it looks on the road, of the size it has there.
  * @param {Places} places
- * @param {string} kind
+ * @param {Kind} kind
  * @param {string} id
  */
 export function portrait(places, kind, id) {
   const ratio = Math.min(2, devicePixelRatio || 1);
   const size = Math.round((places.placeOf([0, 0])?.width ?? 40) * ratio);
-  const canvas = make("canvas", { class: "portrait", width: size, height: size });
+  const canvas = Object.assign(document.createElement("canvas"), { className: "portrait", width: size, height: size });
   const pen = canvas.getContext("2d");
   if (pen === null) return canvas;
   const sprites = new Sprites();

@@ -1,14 +1,15 @@
 // @ts-check
 /** The road as the page knows it: one table of things by id, made from a full state and kept up by ticks. */
 
-import { counted } from "../core/words.js";
+import { hasText, listText, t } from "../core/texts.js";
 
+/** @import { Kind } from "../core/wire.js" */
 /** @import { WireState, TickMessage, Cell, Status, Metrics, Move } from "../core/protocol.js" */
 
 /**
  * @typedef {object} Thing
  * @property {string} id
- * @property {string} kind  "av", "vehicle", "pedestrian", "pothole" or "barrier"
+ * @property {Kind} kind  "av", "vehicle", "pedestrian", "pothole" or "barrier"
  * @property {Cell} cell
  * @property {"left" | "right" | null} heading  null for what does not move sideways
  * @property {boolean} disabled
@@ -105,15 +106,15 @@ export function egoOf(world) {
 }
 
 /**
- * How many things of each kind there are.
+ * How many things of each kind there are besides the vehicle, each as a text: "3 potholes".
  * @param {World} world
- * @returns {Record<string, number>}
+ * @returns {string[]}
  */
-export function countsOf(world) {
-  /** @type {Record<string, number>} */
-  const counts = {};
-  for (const { kind } of world.things.values()) counts[kind] = (counts[kind] ?? 0) + 1;
-  return counts;
+export function countTexts(world) {
+  /** @type {Map<string, number>} */
+  const counts = new Map();
+  for (const { kind } of world.things.values()) if (kind !== "av") counts.set(kind, (counts.get(kind) ?? 0) + 1);
+  return [...counts].map(([kind, count]) => (hasText(`counts.${kind}`) ? t(`counts.${kind}`, { count }) : `${count} ${kind}`));
 }
 
 /**
@@ -142,12 +143,7 @@ export function speedKmh(world, move) {
  */
 export function describe(world) {
   const ego = egoOf(world);
-  const counts = countsOf(world);
-  const named = Object.entries(counts)
-    .filter(([kind]) => kind !== "av")
-    .map(([kind, count]) => counted(count, kind));
-  const where = ego
-    ? `The vehicle is in lane ${ego.cell[0] + 1}, ${ego.cell[1]} rows from the destination.`
-    : "There is no autonomous vehicle.";
-  return `A road of ${world.columns} lanes and ${world.rows} rows with ${named.join(", ") || "nothing on it"}. ${where}`;
+  const things = listText(countTexts(world)) || t("road.nothing");
+  const where = ego ? t("road.vehicle", { lane: ego.cell[0] + 1, count: ego.cell[1] }) : t("road.no_vehicle");
+  return `${t("road.text", { columns: world.columns, rows: world.rows, things })} ${where}`;
 }

@@ -5,7 +5,7 @@
  * A sentence that comes too soon after another waits, and only the newest of those waiting is read.
  */
 
-import { setText } from "../ui/dom.js";
+import { render } from "../../vendor/lit-html.js";
 
 /** @import { Panel } from "../panels/index.js" */
 
@@ -21,7 +21,7 @@ export function createAnnouncer(host) {
       timer = 0;
       return;
     }
-    setText(host, waiting);
+    render(waiting, host);
     waiting = null;
     timer = setTimeout(speak, APART_MS);
   }

@@ -1,21 +1,20 @@
 // @ts-check
 /** The box to talk in: Enter sends, Tab completes, ↑ and ↓ bring back what was said, Escape clears. */
 
-import { make } from "../ui/dom.js";
-import { History } from "./history.js";
-import { icon } from "../ui/icons.js";
+import { html, live, nothing, render } from "../../vendor/lit-html.js";
 import { browserStorage } from "../core/storage.js";
+import { t } from "../core/texts.js";
+import { iconOf } from "../ui/icons.js";
+import { find } from "../ui/slot.js";
+import { History } from "./history.js";
 import { createMicrophone } from "./speech.js";
-import { createSuggest } from "./suggestions.js";
+import { Suggestions } from "./suggestions.js";
 
 /** @import { Page } from "../main.js" */
 /** @import { Panel } from "../panels/index.js" */
 
 /** Well beyond what the service takes, so that it is the one to say that a text is too long. */
 const LONGEST_TEXT = 2_000;
-const RESTING = matchMedia("(hover: none)").matches
-  ? "In plain words · ? tells what can be said"
-  : "Enter sends · ↑ brings back · Ctrl K for everything";
 
 /**
  * @param {HTMLElement} host  a form
@@ -24,62 +23,94 @@ const RESTING = matchMedia("(hover: none)").matches
  */
 export function createCommand(host, page) {
   const history = new History(browserStorage());
-  const words = make("input", {
-    id: "words",
-    class: "words",
-    type: "text",
-    placeholder: "Say it, or ask why",
-    autocomplete: "off",
-    autocapitalize: "off",
-    spellcheck: false,
-    enterKeyHint: "send",
-    maxLength: LONGEST_TEXT,
-    "aria-label": "Say what should happen, or ask why",
-    "aria-keyshortcuts": "/",
-  });
-  const hint = make("kbd", { class: "hint", "aria-hidden": "true" }, "/");
-  const send = make("button", { class: "button strong icon send", type: "submit", "aria-label": "Send" }, icon("send"));
-  const suggest = createSuggest(words, page, RESTING);
-  const microphone = createMicrophone(page.put);
-  host.append(suggest.list, make("div", { class: "words-box" }, words, hint), microphone ?? "", send, suggest.line);
+  const microphone = createMicrophone(page.put, show);
+  let text = "";
+  const suggestions = new Suggestions(page, { text: () => text, focused: () => document.activeElement === words, put, changed: show });
+
+  function show() {
+    render(template(text, suggestions, { input, key, blur: () => suggestions.close() }, microphone), host);
+  }
+  show();
+  const words = /** @type {HTMLInputElement} */ (find(host, "#words"));
+
+  /** Let a sentence stand in the box. @param {string} sentence */
+  function put(sentence) {
+    text = sentence;
+    show();
+    words.setSelectionRange(text.length, text.length);
+    host.querySelector('.suggestion[aria-selected="true"]')?.scrollIntoView({ block: "nearest" });
+  }
+
+  function input() {
+    text = words.value;
+    suggestions.typed();
+    show();
+  }
+
+  /** @param {KeyboardEvent} event */
+  function key(event) {
+    if (event.isComposing) return;
+    if (suggestions.key(event)) event.preventDefault();
+    else if (event.key === "ArrowUp") bring(history.back(text));
+    else if (event.key === "ArrowDown") bring(history.forth());
+    else if (event.key === "Escape") {
+      if (text === "") words.blur();
+      put("");
+    } else if (event.key !== "/" || text !== "") return;
+    // A slash in an empty box is the key that leads here, pressed once more.
+    event.preventDefault();
+  }
+
+  /** @param {string | null} sentence */
+  function bring(sentence) {
+    if (sentence === null) return;
+    suggestions.close();
+    put(sentence);
+  }
 
   host.addEventListener("submit", (event) => {
     event.preventDefault();
-    const text = words.value.trim();
-    if (text === "") return;
-    history.add(text);
-    words.value = "";
-    suggest.close();
-    page.say(text);
+    const said = text.trim();
+    if (said === "") return;
+    history.add(said);
+    suggestions.close();
+    put("");
+    page.say(said);
   });
 
-  words.addEventListener("keydown", (event) => {
-    if (event.isComposing) return;
-    if (suggest.key(event)) event.preventDefault();
-    else if (event.key === "ArrowUp") bring(history.back(words.value));
-    else if (event.key === "ArrowDown") bring(history.forth());
-    else if (event.key === "Escape") {
-      if (words.value === "") words.blur();
-      words.value = "";
-    } else if (event.key !== "/" || words.value !== "") return;
-    // A slash in an empty box is the key that leads here, pressed once more.
-    event.preventDefault();
+  // A sentence that is offered stands in the box at once: who pressed for it may go on typing.
+  page.subscribe(({ draft }, before) => {
+    if (draft === null || draft === before.draft) return;
+    words.focus();
+    suggestions.take(draft.text);
   });
-
-  /** @param {string | null} text */
-  function bring(text) {
-    if (text === null) return;
-    words.value = text;
-    words.setSelectionRange(text.length, text.length);
-    suggest.close();
-  }
 
   return {
     update({ talk }) {
-      host.classList.toggle(
-        "waiting",
-        talk.some(({ standing, quiet }) => standing === "pending" && !quiet),
-      );
+      host.classList.toggle("waiting", talk.some(({ standing, quiet }) => standing === "pending" && !quiet));
     },
   };
+}
+
+const touch = () => matchMedia("(hover: none)").matches;
+
+/**
+ * @param {string} text
+ * @param {Suggestions} suggestions
+ * @param {{input: () => void, key: (event: KeyboardEvent) => void, blur: () => void}} on
+ * @param {(() => unknown) | null} microphone
+ */
+function template(text, suggestions, { input, key, blur }, microphone) {
+  const { chosen, sentences } = suggestions.shown;
+  return html`${suggestions.list()}
+    <div class="words-box">
+      <input id="words" class="words" type="text" placeholder=${t("talk.placeholder")} autocomplete="off" autocapitalize="off" spellcheck="false" enterkeyhint="send"
+        maxlength=${LONGEST_TEXT} aria-label=${t("talk.box")} aria-keyshortcuts="/" role="combobox" aria-autocomplete="list" aria-controls="suggestions"
+        aria-expanded=${String(sentences.length > 0)} aria-describedby="preview" aria-activedescendant=${chosen < 0 ? nothing : `suggestion-${chosen}`}
+        .value=${live(text)} @input=${input} @keydown=${key} @blur=${blur}>
+      <kbd class="hint" aria-hidden="true">/</kbd>
+    </div>
+    ${microphone?.() ?? nothing}
+    <button class="button strong icon send" type="submit" aria-label=${t("talk.send")}>${iconOf("send")}</button>
+    ${suggestions.line(t(touch() ? "talk.hint_touch" : "talk.hint"))}`;
 }

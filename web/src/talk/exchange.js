@@ -1,10 +1,11 @@
 // @ts-check
-/** One exchange as an element: the words, the reply, what changed, or why nothing did. */
+/** One exchange: the words, the reply, what changed, or why nothing did. */
 
-import { make } from "../ui/dom.js";
+import { html, nothing } from "../../vendor/lit-html.js";
+import { t } from "../core/texts.js";
+import { changeWords, markWords } from "../core/words.js";
+import { answerTemplate } from "./answer.js";
 import { changesOf } from "./exchanges.js";
-import { changeWords, counted, markWords } from "../core/words.js";
-import { answerElement } from "./answer.js";
 
 /** @import { Page } from "../main.js" */
 /** @import { CommandResult, Problem, Change } from "../core/protocol.js" */
@@ -13,57 +14,48 @@ import { answerElement } from "./answer.js";
 /**
  * @param {Exchange} exchange
  * @param {Page} page
- * @param {number} undos  how many undos would take it back; 0 where none would
- * @param {boolean} taken  whether it was taken back
- * @returns {HTMLElement}
+ * @param {{undos: number, taken: boolean}} standing  how many undos would take it back, 0 where none would; whether it was
  */
-export function exchangeElement(exchange, page, undos, taken) {
-  const { said, standing, result, problem } = exchange;
-  const asked = problem?.choices?.length ? "asked" : standing;
-  const element = make("article", { class: "exchange", "data-standing": asked, "data-id": exchange.id });
-  element.append(make("p", { class: "said" }, ...sentence(said, problem?.unparsed ?? [])));
-  if (standing === "pending") element.append(make("p", { class: "reply pending" }, dots()));
-  if (standing === "unknown") {
-    const text = "The connection was lost before an answer came. The road shows whether it was done.";
-    element.append(make("p", { class: "reply" }, text));
-  }
-  if (result) element.append(...resultParts(result, page, undos, taken));
-  if (problem) element.append(...problemParts(problem, page));
-  return element;
+export function exchangeTemplate({ id, said, standing, result, problem }, page, { undos, taken }) {
+  return html`<article class="exchange" data-standing=${problem?.choices?.length ? "asked" : standing} data-id=${id}>
+    <p class="said">${sentence(said, problem?.unparsed ?? [])}</p>
+    ${standing === "pending" ? html`<p class="reply pending"><span class="dots" role="img" aria-label=${t("exchange.waiting")}></span></p>` : nothing}
+    ${standing === "unknown" ? html`<p class="reply">${t("exchange.lost")}</p>` : nothing}
+    ${result ? resultTemplate(result, page, undos, taken) : nothing} ${problem ? problemTemplate(problem, page) : nothing}
+  </article>`;
 }
 
 /** @param {CommandResult} result @param {Page} page @param {number} undos @param {boolean} taken */
-function resultParts(result, page, undos, taken) {
-  const parts = [];
-  for (const { from, to } of result.corrections ?? []) {
-    parts.push(make("p", { class: "correction" }, "Read “", make("s", {}, from), "” as “", make("b", {}, to), "”."));
-  }
-  if (result.answer) parts.push(answerElement(result.answer, result.reply, page));
-  else parts.push(make("p", { class: "reply" }, result.reply.replaceAll(" → ", "\u00a0→\u00a0")));
+function resultTemplate(result, page, undos, taken) {
   const changes = changesOf(result);
-  // A thing moved changes no figure, and can be taken back all the same.
-  if (changes.length > 0 || undos > 0 || taken) {
-    const list = make("ul", { class: "changes", "aria-label": "What changed" });
-    // Settings stand behind what is on the road; one that changes alone is what the sentence was about.
-    const onRoad = changes.length === 1 ? changes : changes.filter(({ path }) => !isSetting(path));
-    const settings = changes.filter((change) => !onRoad.includes(change));
-    list.append(...onRoad.map(changeElement));
-    if (undos > 0) list.append(make("li", { class: "change-undo" }, undoButton(undos, page)));
-    if (taken) list.append(make("li", { class: "change-taken" }, "taken back"));
-    parts.push(list);
-    if (settings.length > 0) {
-      const title = `${counted(settings.length, "setting")} changed`;
-      parts.push(
-        make(
-          "details",
-          { class: "settings" },
-          make("summary", {}, title),
-          make("ul", { class: "changes" }, ...settings.map(changeElement)),
-        ),
-      );
+  // Settings stand behind what is on the road; one that changes alone is what the sentence was about.
+  const onRoad = changes.length === 1 ? changes : changes.filter(({ path }) => !isSetting(path));
+  const settings = changes.filter((change) => !onRoad.includes(change));
+  return html`${(result.corrections ?? []).map(correction)}
+    ${result.answer ? answerTemplate(result.answer, result.reply, page) : html`<p class="reply">${result.reply.replaceAll(" → ", "\u00a0→\u00a0")}</p>`}
+    ${
+      // A thing moved changes no figure, and can be taken back all the same.
+      changes.length > 0 || undos > 0 || taken
+        ? html`<ul class="changes" aria-label=${t("exchange.changes")}>
+            ${onRoad.map(changeTemplate)} ${undos > 0 ? html`<li class="change-undo">${undoButton(undos, page)}</li>` : nothing}
+            ${taken ? html`<li class="change-taken">${t("exchange.taken_back")}</li>` : nothing}
+          </ul>`
+        : nothing
     }
-  }
-  return parts;
+    ${
+      settings.length > 0
+        ? html`<details class="settings">
+            <summary>${t("exchange.settings", { count: settings.length })}</summary>
+            <ul class="changes">${settings.map(changeTemplate)}</ul>
+          </details>`
+        : nothing
+    }`;
+}
+
+/** A word that was read as another. @param {{from: string, to: string}} read */
+function correction({ from, to }) {
+  const words = t("exchange.correction", { from: "\n1\n", to: "\n2\n" }).split("\n");
+  return html`<p class="correction">${words.map((each) => (each === "1" ? html`<s>${from}</s>` : each === "2" ? html`<b>${to}</b>` : each))}</p>`;
 }
 
 /**
@@ -72,9 +64,9 @@ function resultParts(result, page, undos, taken) {
  * @param {Page} page
  */
 function undoButton(undos, page) {
-  const label = undos === 1 ? "Undo" : `Undo this and the ${undos === 2 ? "one" : undos - 1} after`;
-  const undo = () => page.act(Array(undos).fill({ do: "undo" }), label, true);
-  return make("button", { class: "button quiet small", type: "button", onclick: undo }, label);
+  const label = undos === 1 ? t("clock.undo") : t("exchange.undo_all", { count: undos - 1 });
+  const undo = () => page.act(Array.from({ length: undos }, () => ({ do: "undo" })), label, true);
+  return html`<button class="button quiet small" type="button" @click=${undo}>${label}</button>`;
 }
 
 /** What future roads are made from, rather than what is on this one. @param {string} path */
@@ -83,56 +75,35 @@ function isSetting(path) {
 }
 
 /** @param {Change} change */
-function changeElement(change) {
+function changeTemplate(change) {
   const { name, before, after } = changeWords(change);
-  return make(
-    "li",
-    { class: "change" },
-    `${name} `,
-    make("span", { class: "before" }, before),
-    " → ",
-    make("span", { class: "after" }, after),
-  );
+  return html`<li class="change">${name} <span class="before">${before}</span> → <span class="after">${after}</span></li>`;
 }
 
 /** @param {Problem} problem @param {Page} page */
-function problemParts(problem, page) {
-  /** @type {HTMLElement[]} */
-  const parts = [make("p", { class: "reply" }, problem.detail || problem.title)];
+function problemTemplate(problem, page) {
   const errors = (problem.errors ?? []).filter(({ message }) => message && message !== problem.detail);
-  if (errors.length > 0) {
-    parts.push(make("ul", { class: "errors" }, ...errors.map(({ message }) => make("li", {}, message))));
-  }
   const choices = problem.choices ?? [];
   const suggestions = problem.suggestions ?? [];
-  if (choices.length > 0) {
-    parts.push(
-      offers(
-        "Choices",
-        choices.map(({ text, actions }) => offer(text, () => page.act(actions, text))),
-      ),
-    );
-  }
-  if (suggestions.length > 0) {
-    parts.push(
-      make("p", { class: "offers-title" }, "You could say"),
-      offers(
-        "Suggestions",
-        suggestions.map((text) => offer(text, () => page.say(text))),
-      ),
-    );
-  }
-  return parts;
+  return html`<p class="reply">${problem.detail || problem.title}</p>
+    ${errors.length > 0 ? html`<ul class="errors">${errors.map(({ message }) => html`<li>${message}</li>`)}</ul>` : nothing}
+    ${choices.length > 0 ? offers(t("exchange.choices"), choices.map(({ text, actions }) => offer(text, () => page.act(actions, text)))) : nothing}
+    ${
+      suggestions.length > 0
+        ? html`<p class="offers-title">${t("exchange.could_say")}</p>
+            ${offers(t("exchange.suggestions"), suggestions.map((text) => offer(text, () => page.say(text))))}`
+        : nothing
+    }`;
 }
 
-/** @param {string} name @param {HTMLElement[]} buttons */
+/** @param {string} name @param {unknown[]} buttons */
 function offers(name, buttons) {
-  return make("div", { class: "offers", role: "group", "aria-label": name }, ...buttons);
+  return html`<div class="offers" role="group" aria-label=${name}>${buttons}</div>`;
 }
 
-/** @param {string} text @param {() => void} onclick */
-function offer(text, onclick) {
-  return make("button", { class: "button offer", type: "button", onclick }, text);
+/** @param {string} text @param {() => void} press */
+function offer(text, press) {
+  return html`<button class="button offer" type="button" @click=${press}>${text}</button>`;
 }
 
 /**
@@ -141,11 +112,6 @@ function offer(text, onclick) {
  * @param {string[]} unparsed
  */
 function sentence(said, unparsed) {
-  return markWords(said, unparsed).map(({ text, marked }) =>
-    marked ? make("mark", { title: "not understood" }, text) : text,
-  );
-}
-
-function dots() {
-  return make("span", { class: "dots", role: "img", "aria-label": "waiting for the answer" });
+  const title = t("exchange.not_understood");
+  return markWords(said, unparsed).map(({ text, marked }) => (marked ? html`<mark title=${title}>${text}</mark>` : text));
 }

@@ -1,124 +1,137 @@
 // @ts-check
 /** Help: what can be said, by kind, which keys there are, and what the reader may choose. `?` opens it. */
 
-import { byId, make } from "../ui/dom.js";
-import { guide, spoken } from "./language.js";
-import { prefer } from "../core/preferences.js";
+import { html, nothing, render } from "../../vendor/lit-html.js";
+import { errorText } from "../core/http.js";
+import { turns } from "../core/latest.js";
+import { chooseLanguage, LANGUAGE, languages, t } from "../core/texts.js";
 import { chooseTheme, theme } from "../core/theme.js";
 import { plain } from "../core/words.js";
+import { guide } from "./language.js";
 import { canSpeak, speak, speaks } from "./speech.js";
 
-/** @import { Act } from "../core/commands.js" */
-/** @import { Guide } from "./language.js" */
 /** @import { Page } from "../main.js" */
+/** @import { LanguageGuide, TaughtPhrase } from "../core/wire.js" */
 /** @import { Panel } from "../panels/index.js" */
 
-const NAMES = /** @type {Record<string, string>} */ ({ en: "English", de: "Deutsch" });
-const THEMES = [
-  ["", "As the system"],
-  ["light", "Light"],
-  ["dark", "Dark"],
-];
 const MOST_EXAMPLES = 3;
 /** Kinds of sentences under people's headings, in the order of a first hour; others follow under their own name. */
 const HEADINGS = /** @type {[string, string[]][]} */ ([
-  ["New roads", ["scenario", "reset"]],
-  ["Put things there", ["add", "set_count"]],
-  ["Take things away", ["remove"]],
-  ["Ask why", ["ask why", "ask why_not", "ask what_if"]],
-  ["Ask what is", ["ask status", "ask scene", "ask next", "ask metrics", "ask confidence"]],
-  ["Clock", ["pause", "resume", "step"]],
-  ["Time", ["undo", "redo", "rewind", "save", "load"]],
-  ["Drive yourself", ["mode", "drive"]],
-  ["Settings", ["set", "adjust", "prefer"]],
-  ["Views", ["show", "hide"]],
-  ["Advice", ["advise", "ask maintenance"]],
-  ["Teach a phrase", ["teach", "forget"]],
+  ["roads", ["scenario", "reset"]],
+  ["put", ["add", "set_count"]],
+  ["take", ["remove"]],
+  ["why", ["ask why", "ask why_not", "ask what_if"]],
+  ["what", ["ask status", "ask scene", "ask next", "ask metrics", "ask confidence"]],
+  ["clock", ["pause", "resume", "step"]],
+  ["time", ["undo", "redo", "rewind", "save", "load"]],
+  ["drive", ["mode", "drive"]],
+  ["settings", ["set", "adjust", "prefer"]],
+  ["views", ["show", "hide"]],
+  ["advice", ["advise", "ask maintenance"]],
+  ["teach", ["teach", "forget"]],
 ]);
 /** Keys that are not acts of their own. */
 const MORE_KEYS = [
-  ["/", "To the box"],
-  ["↑ ↓", "In the box: what was said before"],
-  ["Tab", "In the box: complete the sentence"],
-  ["Escape", "Close, or clear the box"],
+  ["/", "help.key_box"],
+  ["↑ ↓", "help.key_said"],
+  ["Tab", "help.key_complete"],
+  ["Escape", "help.key_close"],
 ];
 
-/** @param {HTMLElement} button @param {Page} page @returns {Panel} */
-export function createHelp(button, page) {
-  const body = make("div", { class: "help-body" });
-  const close = make("button", { class: "button quiet", type: "button", onclick: () => dialog.close() }, "Close");
-  const title = make("h2", { id: "help-title" }, "What can I say?");
-  const dialog = make("dialog", { class: "help", "aria-labelledby": "help-title" }, make("header", {}, title, close), body);
-  document.body.append(dialog);
+/** @typedef {{guidance: LanguageGuide | null, trouble: string | null}} Known  what the service has told */
+
+/** @param {HTMLElement} button @param {HTMLDialogElement} dialog @param {Page} page @returns {Panel} */
+export function createHelp(button, dialog, page) {
+  const asking = turns();
+  const put = (/** @type {string} */ text) => {
+    dialog.close();
+    page.put(text);
+  };
+
+  /** @param {Known} known */
+  function show(known) {
+    const sentences = known.guidance ? sayings(known.guidance, put) : waiting(known.trouble);
+    render(template([sentences, keys(page), choices()], () => dialog.close()), dialog);
+  }
+
+  async function open() {
+    if (document.querySelector("dialog[open]")) return;
+    show({ guidance: null, trouble: null });
+    dialog.showModal();
+    dialog.querySelector("button")?.focus();
+    const newest = asking();
+    try {
+      const guidance = await guide();
+      if (newest()) show({ guidance, trouble: null });
+    } catch (error) {
+      if (newest()) show({ guidance: null, trouble: errorText(error) });
+    }
+  }
+
   dialog.addEventListener("click", (event) => {
     if (event.target === dialog) dialog.close();
   });
-  button.addEventListener("click", open);
-
-  /** @type {Act} */
-  const opens = { name: "help", group: "Help", key: "?", keyName: "?", now: () => ({ label: "What can I say?", run: open }) };
-  /** @type {Act} */
-  const speech = {
-    name: "box",
-    group: "Talk",
-    keyName: "/",
-    now: () => ({ label: "To the box", run: () => byId("words").focus() }),
+  button.addEventListener("click", () => void open());
+  return {
+    acts: [
+      { name: "box", group: t("groups.talk"), keyName: "/", now: () => ({ label: t("talk.to_box"), run: () => document.getElementById("words")?.focus() }) },
+      { name: "help", group: t("groups.help"), key: "?", keyName: "?", now: () => ({ label: t("help.title"), run: () => void open() }) },
+    ],
   };
-
-  function open() {
-    if (document.querySelector("dialog[open]")) return;
-    const wait = make("p", { class: "help-wait" }, "One moment…");
-    body.replaceChildren(wait, keys(page), choices(open));
-    dialog.showModal();
-    close.focus();
-    // Each answer takes the place of its own wait: one that was asked for before the language changed, and comes late,
-    // finds its place gone.
-    void guide().then(
-      (told) => wait.replaceWith(sayings(told, page, dialog)),
-      (error) => wait.replaceWith(make("p", { class: "help-wait", role: "alert" }, `What can be said is not known just now. ${error.message}`)),
-    );
-  }
-
-  return { acts: [speech, opens] };
 }
 
-/** @param {Guide} told @param {Page} page @param {HTMLDialogElement} dialog */
-function sayings({ intents, taught }, page, dialog) {
-  const not = intents.filter(({ available }) => !available);
-  const section = make("section", { class: "help-sayings", "aria-label": "Sentences" });
+/** @param {unknown[]} parts @param {() => void} close */
+function template(parts, close) {
+  return html`<header>
+      <h2 id="help-title">${t("help.title")}</h2>
+      <button class="button quiet" type="button" @click=${close}>${t("page.close")}</button>
+    </header>
+    <div class="help-body">${parts}</div>`;
+}
+
+/** @param {string | null} trouble */
+function waiting(trouble) {
+  if (trouble === null) return html`<p class="help-wait">${t("help.wait")}</p>`;
+  return html`<p class="help-wait" role="alert">${t("help.unknown", { reason: trouble })}</p>`;
+}
+
+/** @param {LanguageGuide} guidance @param {(text: string) => void} put */
+function sayings({ intents, taught }, put) {
+  const not = intents.filter(({ available }) => !available).map(({ intent }) => plain(intent));
+  return html`<section class="help-sayings" aria-label=${t("help.sentences")}>
+    ${byHeading(intents).map(([heading, examples]) => group(heading, examples, put))} ${taught.length > 0 ? phrases(taught) : nothing}
+    ${not.length > 0 ? html`<p class="help-not">${t("help.not_yet", { kinds: not.join(", ") })}</p>` : nothing}
+  </section>`;
+}
+
+/** Examples of what can be said under their headings. @param {LanguageGuide["intents"]} intents @returns {[heading: string, examples: {text: string}[]][]} */
+function byHeading(intents) {
   const left = new Map(intents.filter(({ available }) => available).map((intent) => [intent.intent, intent.examples]));
+  /** @type {[string, {text: string}[]][]} */
+  const groups = [];
   for (const [heading, kinds] of HEADINGS) {
     const found = kinds.flatMap((kind) => left.get(kind)?.slice(0, kinds.length > 1 ? 2 : MOST_EXAMPLES) ?? []);
     for (const kind of kinds) left.delete(kind);
-    if (found.length > 0) section.append(group(heading, found));
+    if (found.length > 0) groups.push([t(`help.headings.${heading}`), found]);
   }
-  for (const [kind, examples] of left) section.append(group(plain(kind), examples.slice(0, MOST_EXAMPLES)));
-  if (taught.length > 0) {
-    section.append(
-      make(
-        "div",
-        { class: "help-intent" },
-        make("h3", {}, "taught here"),
-        ...taught.map(({ phrase, sentence }) => make("p", {}, make("b", {}, phrase), ` means ${sentence}`)),
-      ),
-    );
-  }
-  if (not.length > 0) {
-    section.append(make("p", { class: "help-not" }, `Understood, but not available yet: ${not.map(({ intent }) => plain(intent)).join(", ")}.`));
-  }
-  return section;
+  for (const [kind, examples] of left) groups.push([plain(kind), examples.slice(0, MOST_EXAMPLES)]);
+  return groups;
+}
 
-  /** @param {string} heading @param {{text: string}[]} examples */
-  function group(heading, examples) {
-    const offers = examples.map(({ text }) => {
-      const put = () => {
-        dialog.close();
-        page.put(text);
-      };
-      return make("button", { class: "help-example", type: "button", title: "Put it in the box", onclick: put }, text);
-    });
-    return make("div", { class: "help-intent" }, make("h3", {}, heading), ...offers);
-  }
+/** @param {string} heading @param {{text: string}[]} examples @param {(text: string) => void} put */
+function group(heading, examples, put) {
+  return html`<div class="help-intent">
+    <h3>${heading}</h3>
+    ${examples.map(({ text }) => html`<button class="help-example" type="button" title=${t("help.put")} @click=${() => put(text)}>${text}</button>`)}
+  </div>`;
+}
+
+/** @param {TaughtPhrase[]} taught */
+function phrases(taught) {
+  return html`<div class="help-intent">
+    <h3>${t("help.taught")}</h3>
+    ${taught.map((each) => html`<p>${t("help.means", { ...each })}</p>`)}
+  </div>`;
 }
 
 /** @param {Page} page */
@@ -130,39 +143,41 @@ function keys(page) {
   /** @type {Map<string, string[]>} what can be done → the keys that do it */
   const rows = new Map();
   const taken = new Set();
-  for (const [key, what] of [...MORE_KEYS, ...acts]) {
+  for (const [key, what] of [...MORE_KEYS.map(([key, text]) => [key, t(text)]), ...acts]) {
     if (taken.has(key)) continue;
     taken.add(key);
     rows.set(what, [...(rows.get(what) ?? []), key]);
   }
-  return make(
-    "section",
-    { class: "help-keys", "aria-label": "Keys" },
-    make("h3", {}, "Keys"),
-    make("dl", {}, ...[...rows].map(([what, keys]) => make("div", {}, make("dt", {}, ...keys.map((key) => make("kbd", {}, key))), make("dd", {}, what)))),
-  );
+  return html`<section class="help-keys" aria-label=${t("help.keys")}>
+    <h3>${t("help.keys")}</h3>
+    <dl>${[...rows].map(([what, all]) => html`<div><dt>${all.map((key) => html`<kbd>${key}</kbd>`)}</dt><dd>${what}</dd></div>`)}</dl>
+  </section>`;
 }
 
-/** What the reader may choose. @param {() => void} again  show help anew */
-function choices(again) {
-  const language = make("select", { id: "choose-language" });
-  for (const [code, name] of Object.entries(NAMES)) language.append(make("option", { value: code, selected: code === spoken() }, name));
-  language.addEventListener("change", () => {
-    prefer("language", language.value);
-    /** @type {HTMLDialogElement | null} */ (language.closest("dialog"))?.close();
-    again();
-  });
-  const themes = make("select", { id: "choose-theme" });
-  for (const [value, name] of THEMES) themes.append(make("option", { value, selected: value === theme() }, name));
-  themes.addEventListener("change", () => chooseTheme(themes.value));
-  const aloud = make("input", { type: "checkbox", id: "choose-aloud", checked: speaks() });
-  aloud.addEventListener("change", () => speak(aloud.checked));
-  return make(
-    "section",
-    { class: "help-choices", "aria-label": "Choices" },
-    make("h3", {}, "Choices"),
-    make("label", { htmlFor: "choose-language" }, "I speak", language),
-    make("label", { htmlFor: "choose-theme" }, "Colours", themes),
-    canSpeak() && make("label", { htmlFor: "choose-aloud" }, aloud, "Read aloud what matters"),
-  );
+/** What the reader may choose. */
+function choices() {
+  const themes = [["", t("help.system")], ["light", t("help.light")], ["dark", t("help.dark")]];
+  return html`<section class="help-choices" aria-label=${t("help.choices")}>
+    <h3>${t("help.choices")}</h3>
+    ${choice("choose-language", t("help.language"), languages(), LANGUAGE, chooseLanguage)}
+    ${choice("choose-theme", t("help.colours"), themes, theme(), chooseTheme)}
+    ${
+      canSpeak()
+        ? html`<label for="choose-aloud"><input type="checkbox" id="choose-aloud" .checked=${speaks()} @change=${aloud}>${t("talk.aloud")}</label>`
+        : nothing
+    }
+  </section>`;
+}
+
+/** @param {Event} event */
+function aloud({ target }) {
+  speak(/** @type {HTMLInputElement} */ (target).checked);
+}
+
+/** @param {string} id @param {string} label @param {string[][]} options @param {string} now @param {(value: string) => void} choose */
+function choice(id, label, options, now, choose) {
+  const chosen = (/** @type {Event} */ { target }) => choose(/** @type {HTMLSelectElement} */ (target).value);
+  return html`<label for=${id}>${label}
+    <select id=${id} @change=${chosen}>${options.map(([value, name]) => html`<option value=${value} ?selected=${value === now}>${name}</option>`)}</select>
+  </label>`;
 }

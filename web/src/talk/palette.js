@@ -1,118 +1,102 @@
 // @ts-check
 /** Everything that can be done, in one list to search: acts with their keys, then sentences. Ctrl K opens it. */
 
+import { html, live, nothing, render } from "../../vendor/lit-html.js";
 import { perform } from "../core/commands.js";
-import { make } from "../ui/dom.js";
-import { guide } from "./language.js";
 import { turns } from "../core/latest.js";
+import { t } from "../core/texts.js";
+import { guide } from "./language.js";
+import { rank } from "./rank.js";
 
-/** @import { Act } from "../core/commands.js" */
 /** @import { Page } from "../main.js" */
 /** @import { Panel } from "../panels/index.js" */
 
-/** @typedef {{label: string, group: string, key?: string, run: () => void}} Entry */
+/** @typedef {{label: string, group: string, key?: string, said?: boolean, run: () => void}} Entry  said: a sentence */
+/** @typedef {{entries: Entry[], typed: string, at: number}} Shown */
 
 const MOST_SHOWN = 60;
+/** Sentences of a kind. */
+const MOST_EXAMPLES = 3;
 
 /** @param {HTMLDialogElement} dialog @param {Page} page @returns {Panel} */
 export function createPalette(dialog, page) {
-  const search = make("input", {
-    class: "palette-search",
-    type: "text",
-    role: "combobox",
-    placeholder: "Do or say…",
-    autocomplete: "off",
-    spellcheck: false,
-    "aria-label": "Search what can be done or said",
-    "aria-controls": "palette-list",
-    "aria-expanded": "true",
-    "aria-autocomplete": "list",
-  });
-  const list = make("div", { class: "palette-list", id: "palette-list", role: "listbox", "aria-label": "Found" });
-  dialog.append(search, list);
-  /** @type {Entry[]} */ let entries = [];
-  /** @type {{entry: Entry, element: HTMLElement}[]} */ let found = [];
-  let at = 0;
+  /** @type {Shown} */ let shown = { entries: [], typed: "", at: 0 };
   const asking = turns();
+  const found = () => rank(shown.entries, shown.typed).slice(0, MOST_SHOWN);
+  dialog.setAttribute("aria-label", t("palette.label"));
 
-  /** @type {Act} */
-  const opens = { name: "palette", group: "Help", keyName: "Ctrl K", now: () => ({ label: "Everything that can be done", run: open }) };
+  /** @param {Partial<Shown>} change @param {boolean} [scroll] */
+  function show(change, scroll = true) {
+    shown = { ...shown, ...change };
+    render(template(found(), shown, { type, mark: (at) => at !== shown.at && show({ at }, false), run }), dialog);
+    if (scroll) dialog.querySelector('[aria-selected="true"]')?.scrollIntoView({ block: "nearest" });
+  }
+
+  /** @param {Event} event */
+  function type({ target }) {
+    show({ typed: /** @type {HTMLInputElement} */ (target).value, at: 0 });
+  }
+
+  /** @param {Entry} entry */
+  function run(entry) {
+    dialog.close();
+    entry.run();
+  }
+
+  async function open() {
+    if (document.querySelector("dialog[open]")) return;
+    show({ entries: actsNow(page), typed: "", at: 0 });
+    dialog.showModal();
+    const newest = asking();
+    const guidance = await guide().catch(() => null); // the acts alone are useful too
+    if (guidance === null || !newest() || !dialog.open) return;
+    const sentences = guidance.intents.filter(({ available }) => available).flatMap(({ examples }) => examples.slice(0, MOST_EXAMPLES));
+    const marked = found()[shown.at]?.label;
+    shown.entries = [...actsNow(page), ...sentences.map(({ text }) => ({ label: text, group: t("groups.say"), said: true, run: () => page.put(text) }))];
+    // What was chosen meanwhile stays chosen.
+    show({ at: Math.max(0, found().findIndex(({ label }) => label === marked)) });
+  }
 
   addEventListener("keydown", (event) => {
     if (event.key.toLowerCase() !== "k" || !(event.ctrlKey || event.metaKey) || event.altKey || event.shiftKey) return;
     event.preventDefault();
     if (dialog.open) dialog.close();
-    else open();
+    else void open();
   });
-  search.addEventListener("input", show);
   dialog.addEventListener("click", (event) => {
     if (event.target === dialog) dialog.close(); // beside it
   });
   dialog.addEventListener("keydown", (event) => {
-    if (event.key === "ArrowDown" || event.key === "ArrowUp") mark(at + (event.key === "ArrowDown" ? 1 : -1));
-    else if (event.key === "Enter") found[at]?.element.click();
-    else return;
+    const all = found();
+    if (event.key === "ArrowDown" || event.key === "ArrowUp") {
+      if (all.length > 0) show({ at: (shown.at + (event.key === "ArrowDown" ? 1 : -1) + all.length) % all.length });
+    } else if (event.key === "Enter") {
+      if (all.length > 0) run(all[shown.at]);
+    } else return;
     event.preventDefault();
   });
 
-  function open() {
-    if (document.querySelector("dialog[open]")) return;
-    entries = actsNow(page);
-    search.value = "";
-    dialog.showModal();
-    show();
-    const newest = asking();
-    void guide().then(({ intents }) => {
-      if (!newest() || !dialog.open) return;
-      const sentences = intents.filter(({ available }) => available).flatMap(({ examples }) => examples.slice(0, 3));
-      entries = [...actsNow(page), ...sentences.map(({ text }) => ({ label: text, group: "Say", run: () => page.put(text) }))];
-      const marked = found[at]?.entry.label;
-      show();
-      const again = found.findIndex(({ entry }) => entry.label === marked);
-      if (again > 0) mark(again); // what was chosen meanwhile stays chosen
-    }, () => {}); // the acts alone are useful too
-  }
+  return { acts: [{ name: "palette", group: t("groups.help"), keyName: "Ctrl K", now: () => ({ label: t("palette.label"), run: () => void open() }) }] };
+}
 
-  function show() {
-    const ranked = rank(entries, search.value).slice(0, MOST_SHOWN);
-    let group = "";
-    list.replaceChildren();
-    found = ranked.map((entry, number) => {
-      if (entry.group !== group && search.value === "") {
-        group = entry.group;
-        list.append(make("p", { class: "palette-group", role: "presentation" }, group));
-      }
-      const element = make(
-        "div",
-        { class: "palette-entry", role: "option", id: `palette-${number}`, "aria-selected": "false" },
-        make("span", { class: "palette-label" }, entry.group === "Say" ? `“${entry.label}”` : entry.label),
-        entry.key && make("kbd", {}, entry.key),
-      );
-      element.addEventListener("pointermove", () => mark(number, false));
-      element.addEventListener("click", () => {
-        dialog.close();
-        entry.run();
-      });
-      list.append(element);
-      return { entry, element };
-    });
-    if (found.length === 0) list.append(make("p", { class: "palette-none" }, "Nothing like that."));
-    at = 0;
-    mark(0);
-  }
-
-  /** @param {number} next @param {boolean} [scroll] */
-  function mark(next, scroll = true) {
-    if (found.length === 0) return search.removeAttribute("aria-activedescendant");
-    found[at]?.element.setAttribute("aria-selected", "false");
-    at = (next + found.length) % found.length;
-    const { element } = found[at];
-    element.setAttribute("aria-selected", "true");
-    search.setAttribute("aria-activedescendant", element.id);
-    if (scroll) element.scrollIntoView({ block: "nearest" });
-  }
-
-  return { acts: [opens] };
+/**
+ * @param {Entry[]} found
+ * @param {Shown} shown
+ * @param {{type: (event: Event) => void, mark: (at: number) => void, run: (entry: Entry) => void}} does
+ */
+function template(found, { typed, at }, { type, mark, run }) {
+  return html`<input class="palette-search" type="text" role="combobox" placeholder=${t("palette.placeholder")} autocomplete="off" spellcheck="false" aria-label=${t("palette.search")}
+      aria-controls="palette-list" aria-expanded="true" aria-autocomplete="list" aria-activedescendant=${found.length > 0 ? `palette-${at}` : nothing} .value=${live(typed)} @input=${type}>
+    <div class="palette-list" id="palette-list" role="listbox" aria-label=${t("palette.found")}>
+      ${found.map((entry, number) => {
+        const heading = typed === "" && entry.group !== found[number - 1]?.group;
+        return html`${heading ? html`<p class="palette-group" role="presentation">${entry.group}</p>` : nothing}
+          <div class="palette-entry" role="option" id="palette-${number}" aria-selected=${String(number === at)} @pointermove=${() => mark(number)} @click=${() => run(entry)}>
+            <span class="palette-label">${entry.said ? t("palette.sentence", { text: entry.label }) : entry.label}</span>${entry.key ? html`<kbd>${entry.key}</kbd>` : nothing}
+          </div>`;
+      })}
+      ${found.length === 0 ? html`<p class="palette-none">${t("palette.none")}</p>` : nothing}
+    </div>`;
 }
 
 /** What two keys do stands here once. @param {Page} page @returns {Entry[]} */
@@ -126,34 +110,4 @@ function actsNow(page) {
     const own = acts.filter((act) => act.group === group);
     return own.filter(({ label }, at) => own.findIndex((act) => act.label === label) === at);
   });
-}
-
-/**
- * Those that fit what was typed, best first: whole words before beginnings before letters in order.
- * @template {{label: string}} T
- * @param {T[]} entries
- * @param {string} typed
- * @returns {T[]}
- */
-export function rank(entries, typed) {
-  const wanted = typed.trim().toLowerCase();
-  if (wanted === "") return entries;
-  return entries
-    .map((entry, order) => ({ entry, order, score: score(entry.label.toLowerCase(), wanted) }))
-    .filter(({ score }) => score > 0)
-    .sort((a, b) => b.score - a.score || a.order - b.order)
-    .map(({ entry }) => entry);
-}
-
-/** @param {string} label @param {string} wanted */
-function score(label, wanted) {
-  const at = label.indexOf(wanted);
-  if (at === 0) return 4;
-  if (at > 0) return label[at - 1] === " " ? 3 : 2;
-  let from = -1;
-  for (const letter of wanted.replaceAll(" ", "")) {
-    from = label.indexOf(letter, from + 1);
-    if (from === -1) return 0;
-  }
-  return 1;
 }

@@ -5,50 +5,52 @@
  * Neither is on by itself. A browser may send what it hears to its maker; that is said before it listens.
  */
 
-import { icon } from "../ui/icons.js";
-import { make } from "../ui/dom.js";
-import { spoken } from "./language.js";
+import { html } from "../../vendor/lit-html.js";
 import { prefer, preference } from "../core/preferences.js";
+import { LANGUAGE, t } from "../core/texts.js";
+import { iconOf } from "../ui/icons.js";
 
 /** @import { Act } from "../core/commands.js" */
 /** @import { Panel } from "../panels/index.js" */
 
-const WARNING = "Speak. Your browser may send what it hears to its maker; the words are put in the box, not sent off.";
 /** Decisions of this weight and more are told aloud. */
 const TELLING = 2;
 
 /**
  * A button that listens; null where the browser cannot.
  * @param {(text: string) => void} put
- * @returns {HTMLButtonElement | null}
+ * @param {() => void} changed
+ * @returns {(() => unknown) | null}
  */
-export function createMicrophone(put) {
+export function createMicrophone(put, changed) {
   const Recognition = Reflect.get(window, "SpeechRecognition") ?? Reflect.get(window, "webkitSpeechRecognition");
   if (!Recognition) return null;
-  const button = make(
-    "button",
-    { class: "button quiet icon microphone", type: "button", "aria-label": "Speak", "aria-pressed": "false", title: WARNING },
-    icon("microphone"),
-  );
+  let title = t("talk.speak_warning");
   /** @type {any} */ let listening = null;
-  const stop = () => {
+
+  function stop() {
     listening = null;
-    button.setAttribute("aria-pressed", "false");
-  };
-  button.addEventListener("click", () => {
+    changed();
+  }
+
+  function press() {
     if (listening) return listening.stop();
     listening = new Recognition();
-    listening.lang = spoken();
+    listening.lang = LANGUAGE;
     listening.addEventListener("result", (/** @type {any} */ event) => put(event.results[0][0].transcript));
     listening.addEventListener("error", (/** @type {any} */ event) => {
-      button.title = `The browser did not hear anything (${event.error}).`;
+      title = t("talk.heard_nothing", { error: event.error });
       stop();
     });
     listening.addEventListener("end", stop);
-    button.setAttribute("aria-pressed", "true");
     listening.start();
-  });
-  return button;
+    changed();
+  }
+
+  return () =>
+    html`<button class="button quiet icon microphone" type="button" aria-label=${t("talk.speak")} aria-pressed=${String(listening !== null)} title=${title} @click=${press}>
+      ${iconOf("microphone")}
+    </button>`;
 }
 
 /** Whether this browser can read aloud at all. */
@@ -64,18 +66,14 @@ export function speak(on) {
 
 /** Reads aloud what matters: replies, ends, and decisions of weight. @returns {Panel} */
 export function createReader() {
-  /** @type {Act[]} */
-  const acts = canSpeak()
-    ? [
-        {
-          name: "aloud",
-          group: "Talk",
-          now: () => ({ label: speaks() ? "Stop reading aloud" : "Read aloud what matters", run: () => speak(!speaks()) }),
-        },
-      ]
-    : [];
+  /** @type {Act} */
+  const toggle = {
+    name: "aloud",
+    group: t("groups.talk"),
+    now: () => ({ label: t(speaks() ? "talk.aloud_stop" : "talk.aloud"), run: () => speak(!speaks()) }),
+  };
   return {
-    acts,
+    acts: canSpeak() ? [toggle] : [],
     update(state, before) {
       if (!speaks()) return;
       if (state.announcement !== before.announcement) say(state.announcement);
@@ -87,8 +85,8 @@ export function createReader() {
 /** @param {string | null} text */
 function say(text) {
   if (!text) return;
-  const spokenText = new SpeechSynthesisUtterance(text);
-  spokenText.lang = "en";
+  const utterance = new SpeechSynthesisUtterance(text);
+  utterance.lang = LANGUAGE;
   speechSynthesis.cancel(); // the newest is what matters
-  speechSynthesis.speak(spokenText);
+  speechSynthesis.speak(utterance);
 }

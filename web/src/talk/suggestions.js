@@ -6,9 +6,10 @@
  * first one while what stands there is no whole sentence yet. What stands in the box is what is sent, always.
  */
 
-import { make, setText } from "../ui/dom.js";
-import { foresee, previewWords } from "./language.js";
+import { html } from "../../vendor/lit-html.js";
 import { Latest } from "../core/latest.js";
+import { t } from "../core/texts.js";
+import { foresee, previewWords } from "./language.js";
 
 /** @import { Page } from "../main.js" */
 /** @import { Foreseen } from "./language.js" */
@@ -17,151 +18,135 @@ const PAUSE_MS = 120;
 const MOST_SHOWN = 6;
 
 /**
- * @typedef {object} Suggest
- * @property {HTMLElement} list  over the box
- * @property {HTMLElement} line  under it
- * @property {(event: KeyboardEvent) => boolean} key  whether the list had a use for the key
- * @property {() => void} close
+ * @typedef {object} Shown
+ * @property {string[]} sentences  that go on from what was typed
+ * @property {number} chosen  which of them stands in the box; -1: what was typed
+ * @property {boolean} busy  whether this is not yet what goes on from what stands in the box
+ * @property {boolean} unfinished  whether what was typed is no whole sentence, and could become one
+ * @property {string} standing  of what was typed, as it stands
+ * @property {string} line  what it would do; empty where there is nothing to tell
  */
+
+/** @type {Shown} */
+const CLOSED = { sentences: [], chosen: -1, busy: false, unfinished: false, standing: "", line: "" };
 
 /**
- * @param {HTMLInputElement} words  the box
- * @param {Page} page
- * @param {string} rest  what the line says when there is nothing to foresee
- * @returns {Suggest}
+ * @typedef {object} Box
+ * @property {() => string} text  what stands there
+ * @property {() => boolean} focused
+ * @property {(text: string) => void} put  let a sentence stand there
+ * @property {() => void} changed  something else is to be shown
  */
-export function createSuggest(words, page, rest) {
-  const list = make("div", { class: "suggestions", id: "suggestions", role: "listbox", "aria-label": "Sentences", hidden: true });
-  const line = make("p", { class: "preview", id: "preview" }, rest);
-  for (const [name, value] of Object.entries({
-    role: "combobox",
-    "aria-autocomplete": "list",
-    "aria-controls": "suggestions",
-    "aria-expanded": "false",
-    "aria-describedby": "preview",
-  })) {
-    words.setAttribute(name, value);
-  }
-  /** @type {HTMLElement[]} */ let options = [];
-  let chosen = -1;
-  let typed = "";
-  let unfinished = false;
 
-  const latest = new Latest({ pauseMs: PAUSE_MS, ask: wanted, tell });
+export class Suggestions {
+  /** @type {Shown} */ shown = CLOSED;
+  #typed = "";
 
-  words.addEventListener("input", () => {
-    typed = words.value;
-    if (typed.trim() === "" || page.state().session === null) return close();
-    // What no longer goes on from what stands there must not be taken by a quick key.
-    const fitting = options.map((option) => option.dataset.text ?? "").filter((each) => begins(each, typed));
-    if (fitting.length < options.length) show(fitting, typed);
-    busy(true);
-    latest.want(typed);
-  });
-  words.addEventListener("blur", close);
-
-  /** @param {string} text */
-  function wanted(text) {
-    return foresee(text, page.state().session ?? "").finally(() => text === words.value && busy(false));
-  }
-
-  /** Whether what is listed is not yet what goes on from what stands in the box. @param {boolean} on */
-  function busy(on) {
-    list.setAttribute("aria-busy", String(on));
-  }
-
-  /** @param {Foreseen} foreseen @param {string} text */
-  function tell({ completions, preview }, text) {
-    if (words.value !== text || document.activeElement !== words) return;
-    show(completions.filter((each) => each !== text).slice(0, MOST_SHOWN), text);
-    // Most sentences are not understood before they are whole, and then there is more to choose from than to say.
-    unfinished = preview?.standing === "not_understood" && options.length > 0;
-    line.dataset.standing = unfinished ? "unfinished" : (preview?.standing ?? "");
-    setText(line, unfinished ? "Tab completes it" : previewWords(preview) || rest);
-  }
-
-  /** @param {string[]} sentences @param {string} text */
-  function show(sentences, text) {
-    choose(-1);
-    options = sentences.map((sentence, at) => {
-      const same = begins(sentence, text) ? text.length : 0;
-      const option = make(
-        "div",
-        { class: "suggestion", id: `suggestion-${at}`, role: "option", "aria-selected": "false", "data-text": sentence },
-        make("span", { class: "suggestion-typed" }, sentence.slice(0, same)),
-        sentence.slice(same),
-      );
-      // Before the box loses the focus.
-      option.addEventListener("pointerdown", (event) => {
-        event.preventDefault();
-        take(sentence);
-      });
-      return option;
+  /** @param {Page} page @param {Box} box */
+  constructor(page, box) {
+    this.page = page;
+    this.box = box;
+    this.latest = new Latest({
+      pauseMs: PAUSE_MS,
+      ask: (/** @type {string} */ text) => this.#ask(text),
+      tell: (/** @type {Foreseen} */ foreseen, text) => this.#tell(foreseen, text),
     });
-    list.replaceChildren(...options);
-    list.hidden = options.length === 0;
-    words.setAttribute("aria-expanded", String(!list.hidden));
   }
 
-  /** Mark one of the list, and let it stand in the box; none: what was typed. @param {number} at */
-  function choose(at) {
-    options[chosen]?.setAttribute("aria-selected", "false");
-    chosen = at;
-    const option = options[at];
-    option?.setAttribute("aria-selected", "true");
-    option?.scrollIntoView({ block: "nearest" });
-    if (option) words.setAttribute("aria-activedescendant", option.id);
-    else words.removeAttribute("aria-activedescendant");
+  /** Something was typed into the box. */
+  typed() {
+    this.#typed = this.box.text();
+    if (this.#typed.trim() === "" || this.page.state().session === null) return this.close();
+    // What no longer goes on from what stands there must not be taken by a quick key.
+    const fitting = this.shown.sentences.filter((each) => begins(each, this.#typed));
+    this.#show({ busy: true, ...(fitting.length < this.shown.sentences.length ? { sentences: fitting, chosen: -1 } : {}) });
+    this.latest.want(this.#typed);
+  }
+
+  close() {
+    this.latest.drop();
+    if (this.shown !== CLOSED) this.#show(CLOSED);
   }
 
   /** Put a sentence into the box as if it had been typed. @param {string} sentence */
-  function take(sentence) {
-    words.value = sentence;
-    words.setSelectionRange(sentence.length, sentence.length);
-    words.dispatchEvent(new Event("input"));
+  take(sentence) {
+    this.box.put(sentence);
+    this.typed();
   }
 
-  function close() {
-    latest.drop();
-    busy(false);
-    choose(-1);
-    options = [];
-    unfinished = false;
-    list.hidden = true;
-    list.replaceChildren();
-    words.setAttribute("aria-expanded", "false");
-    line.dataset.standing = "";
-    setText(line, rest);
+  /** @param {KeyboardEvent} event @returns {boolean} whether the list had a use for the key */
+  key(event) {
+    const { sentences, chosen, unfinished } = this.shown;
+    if (sentences.length === 0) return false;
+    if (event.key === "ArrowDown" || event.key === "ArrowUp") this.#walk(event.key === "ArrowDown" ? 1 : -1);
+    else if (event.key === "Tab" && !event.shiftKey && (chosen >= 0 || unfinished)) this.take(sentences[Math.max(0, chosen)]);
+    else if (event.key === "Escape") {
+      this.box.put(this.#typed);
+      this.close();
+    } else return false;
+    return true;
   }
 
-  return {
-    list,
-    line,
-    close,
-    key(event) {
-      if (list.hidden) return false;
-      const count = options.length;
-      if (event.key === "ArrowDown" || event.key === "ArrowUp") {
-        // One place beyond either end stands for what was typed.
-        const step = event.key === "ArrowDown" ? 1 : -1;
-        choose(((chosen + 1 + step + count + 1) % (count + 1)) - 1);
-        const sentence = options[chosen]?.dataset.text ?? typed;
-        words.value = sentence;
-        words.setSelectionRange(sentence.length, sentence.length);
-        return true;
-      }
-      if (event.key === "Tab" && !event.shiftKey && (chosen >= 0 || unfinished)) {
-        take(options[Math.max(0, chosen)].dataset.text ?? typed);
-        return true;
-      }
-      if (event.key === "Escape") {
-        words.value = typed;
-        close();
-        return true;
-      }
-      return false;
-    },
-  };
+  /** One place beyond either end stands for what was typed. @param {1 | -1} step */
+  #walk(step) {
+    const { sentences, chosen } = this.shown;
+    const count = sentences.length + 1;
+    const next = ((chosen + 1 + step + count) % count) - 1;
+    this.#show({ chosen: next });
+    this.box.put(sentences[next] ?? this.#typed);
+  }
+
+  /** @param {string} text */
+  #ask(text) {
+    return foresee(text, this.page.state().session ?? "").finally(() => text === this.box.text() && this.#show({ busy: false }));
+  }
+
+  /** @param {Foreseen} foreseen @param {string} text */
+  #tell({ completions, preview }, text) {
+    if (this.box.text() !== text || !this.box.focused()) return;
+    const sentences = completions.filter((each) => each !== text).slice(0, MOST_SHOWN);
+    // Most sentences are not understood before they are whole, and then there is more to choose from than to say.
+    const unfinished = preview?.standing === "not_understood" && sentences.length > 0;
+    this.#show({
+      sentences,
+      chosen: -1,
+      unfinished,
+      standing: unfinished ? "unfinished" : (preview?.standing ?? ""),
+      line: unfinished ? t("suggestions.complete") : previewWords(preview),
+    });
+  }
+
+  /** @param {Partial<Shown>} change */
+  #show(change) {
+    this.shown = { ...this.shown, ...change };
+    if (change === CLOSED) this.shown = CLOSED;
+    this.box.changed();
+  }
+
+  /** The list over the box. */
+  list() {
+    const { sentences, chosen, busy } = this.shown;
+    return html`<div class="suggestions" id="suggestions" role="listbox" aria-label=${t("suggestions.label")} aria-busy=${String(busy)} ?hidden=${sentences.length === 0}>
+      ${sentences.map((sentence, at) => this.#option(sentence, at, at === chosen))}
+    </div>`;
+  }
+
+  /** @param {string} sentence @param {number} at @param {boolean} chosen */
+  #option(sentence, at, chosen) {
+    const same = begins(sentence, this.#typed) ? this.#typed.length : 0;
+    // Before the box loses the focus.
+    const take = (/** @type {Event} */ event) => {
+      event.preventDefault();
+      this.take(sentence);
+    };
+    return html`<div class="suggestion" id="suggestion-${at}" role="option" aria-selected=${String(chosen)} data-text=${sentence} @pointerdown=${take}
+      ><span class="suggestion-typed">${sentence.slice(0, same)}</span>${sentence.slice(same)}</div>`;
+  }
+
+  /** The line under the box. @param {string} rest  what it says when there is nothing to foresee */
+  line(rest) {
+    return html`<p class="preview" id="preview" data-standing=${this.shown.standing}>${this.shown.line || rest}</p>`;
+  }
 }
 
 /** @param {string} sentence @param {string} typed */

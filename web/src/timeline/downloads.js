@@ -1,11 +1,12 @@
 // @ts-check
-/** Things to take away: pictures, films, recordings; and a recording brought back. */
+/** Things to take away: pictures, videos, recordings; and a recording brought back. */
 
 import { ask } from "../core/http.js";
 import { sessionPath } from "../core/protocol.js";
+import { decimalText, t } from "../core/texts.js";
 
 /**
- * @typedef {object} FilmWish
+ * @typedef {object} VideoWish
  * @property {number} from
  * @property {number} to
  * @property {"gif" | "mp4"} format
@@ -17,12 +18,12 @@ import { sessionPath } from "../core/protocol.js";
 const FRAMES = { most: 240, fastest: 12, slowest: 2 };
 
 /**
- * Where a film is made.
+ * Where a video is made.
  * @param {string} session
- * @param {FilmWish} wish
+ * @param {VideoWish} wish
  * @param {number} stepS  seconds of a tick
  */
-export function filmPath(session, { from, to, format, view, side }, stepS) {
+export function videoPath(session, { from, to, format, view, side }, stepS) {
   const seconds = Math.max(stepS, (to - from) * stepS);
   const fps = Math.max(FRAMES.slowest, Math.min(FRAMES.fastest, Math.floor(FRAMES.most / seconds)));
   const query = new URLSearchParams({ from: `${from}`, to: `${to}`, format, fps: `${fps}`, view, side: `${side}` });
@@ -57,8 +58,9 @@ export function fileName(session, part, ending) {
 }
 
 /** How large a file is. @param {number} bytes */
-export function sizeWords(bytes) {
-  return bytes < 1_000_000 ? `${Math.max(1, Math.round(bytes / 1000))} kB` : `${(bytes / 1_000_000).toFixed(1)} MB`;
+export function sizeText(bytes) {
+  if (bytes >= 1_000_000) return t("session.megabytes", { value: decimalText(bytes / 1_000_000, 1) });
+  return t("session.kilobytes", { value: Math.max(1, Math.round(bytes / 1000)) });
 }
 
 /**
@@ -91,10 +93,10 @@ export function recordingIn(text, name) {
   try {
     found = JSON.parse(text);
   } catch {
-    throw new Error(`“${name}” is no recording: it is not JSON, or cut off.`);
+    throw new Error(t("session.no_json", { name }));
   }
   if (found?.format !== "roadtalk-recording") {
-    throw new Error(`“${name}” is no recording of a session: it does not say that it is one.`);
+    throw new Error(t("session.no_format", { name }));
   }
   return found;
 }

@@ -1,57 +1,73 @@
 // @ts-check
-/** Things to take away (a picture, the recording, a film) and a recording brought back, also by dropping it. */
+/** Things to take away (a picture, the recording, a video) and a recording brought back, also by dropping it. */
 
-import { make } from "../ui/dom.js";
+import { html, nothing, render } from "../../vendor/lit-html.js";
 import { onDemand, styled } from "../core/lazy.js";
+import { t } from "../core/texts.js";
+import { find } from "../ui/slot.js";
 
 /** @import { Act } from "../core/commands.js" */
 /** @import { Page } from "../main.js" */
-/** @import { Looking } from "./past.js" */
 /** @import { Panel } from "../panels/index.js" */
 
-/** @param {HTMLElement} road  where the road's canvas is @param {Page} page @param {Looking} looking @returns {Panel} */
-export function createExport(road, page, looking) {
-  const film = onDemand(page, async () => {
-    const [{ filmDialog }] = await Promise.all([import("./videoDialog.js"), styled("dialog")]);
-    return filmDialog(page, looking);
-  });
-  const files = onDemand(page, async () => (await import("./files.js")).createFiles(road, page, looking));
-  const chooser = make("input", { type: "file", accept: ".json,application/json", hidden: true, "aria-label": "Recording" });
-  const over = make("div", { class: "drop", hidden: true }, make("p", {}, "Drop a recording to open it as a new session"));
-  document.body.append(chooser, over);
+/** @typedef {{picture: () => void, recording: () => Promise<void>, open: (file: File | undefined) => Promise<void>}} Files */
 
-  chooser.addEventListener("change", () => {
-    const file = chooser.files?.[0];
-    files(({ open }) => void open(file));
+/** @param {HTMLElement} host @param {Page} page @returns {Panel} */
+export function createExport(host, page) {
+  const video = onDemand(page, async () => {
+    const [{ createVideoDialog }] = await Promise.all([import("./videoDialog.js"), styled("dialog")]);
+    return createVideoDialog(page);
+  });
+  /** @type {(use: (files: Files) => void) => void} */
+  const files = onDemand(page, async () => (await import("./files.js")).createFiles(page));
+  const open = (/** @type {File | undefined} */ file) => files((all) => void all.open(file));
+  const show = (/** @type {boolean} */ over) => render(content(over, open), host);
+  show(false);
+  watchDrops(show, open);
+
+  const group = t("groups.session");
+  /** @type {Act[]} */
+  const acts = [
+    { name: "picture", group, now: ({ past }) => ({ label: past ? t("session.picture_tick", past.world) : t("session.picture"), run: () => files((all) => all.picture()) }) },
+    { name: "video", group, now: () => ({ label: t("session.video"), run: () => video((show) => show()) }) },
+    { name: "recording", group, now: () => ({ label: t("session.recording"), run: () => files((all) => void all.recording()) }) },
+    { name: "open-recording", group, now: () => ({ label: t("session.open_recording"), run: () => find(host, "input").click() }) },
+  ];
+  return { acts };
+}
+
+/** @param {boolean} over  whether a file is held over the page @param {(file: File | undefined) => void} open */
+function content(over, open) {
+  /** @param {Event} event */
+  const chosen = ({ target }) => {
+    const chooser = /** @type {HTMLInputElement} */ (target);
+    open(chooser.files?.[0]);
     chooser.value = "";
-  });
+  };
+  return html`<input type="file" accept=".json,application/json" hidden aria-label=${t("session.recording_label")} @change=${chosen}>
+    ${over ? html`<div class="drop"><p>${t("session.drop")}</p></div>` : nothing}`;
+}
 
-  // Files alone: what is dragged within the page is somebody else's.
+/**
+ * Files alone: what is dragged within the page is somebody else's.
+ * @param {(over: boolean) => void} show
+ * @param {(file: File | undefined) => void} open
+ */
+function watchDrops(show, open) {
   /** @param {DragEvent} event */
   const brings = (event) => event.dataTransfer?.types.includes("Files") ?? false;
   addEventListener("dragover", (event) => {
     if (!brings(event)) return;
     event.preventDefault();
-    over.hidden = false;
+    show(true);
   });
   addEventListener("dragleave", (event) => {
-    if (event.relatedTarget === null) over.hidden = true;
+    if (event.relatedTarget === null) show(false);
   });
   addEventListener("drop", (event) => {
-    over.hidden = true;
+    show(false);
     if (!brings(event)) return;
     event.preventDefault();
-    const file = event.dataTransfer?.files[0];
-    files(({ open }) => void open(file));
+    open(event.dataTransfer?.files[0]);
   });
-
-  const group = "Session";
-  /** @type {Act[]} */
-  const acts = [
-    { name: "picture", group, now: ({ past }) => ({ label: past ? `Save a picture of tick ${past.world.tick}` : "Save a picture of the road", run: () => files((all) => all.picture()) }) },
-    { name: "film", group, now: () => ({ label: "Make a film…", run: () => film((dialog) => dialog.open()) }) },
-    { name: "recording", group, now: () => ({ label: "Save the recording", run: () => files((all) => void all.recording()) }) },
-    { name: "open-recording", group, now: () => ({ label: "Open a recording…", run: () => chooser.click() }) },
-  ];
-  return { acts };
 }

@@ -1,50 +1,52 @@
 // @ts-check
 /** Files out of the page and back into it: a picture, the recording; fetched when one is first wanted. */
 
+import { hashOf } from "../core/address.js";
+import { errorText } from "../core/http.js";
+import { t } from "../core/texts.js";
 import { fetched, fileName, recordingIn, recordingPath, save } from "./downloads.js";
-import { words } from "../core/http.js";
-import { hashOf, openRecording } from "./links.js";
+import { openRecording } from "./links.js";
 
 /** @import { Page } from "../main.js" */
-/** @import { Looking } from "./past.js" */
+/** @import { Files } from "./export.js" */
 
-/** @param {HTMLElement} road  where the road's canvas is @param {Page} page @param {Looking} looking */
-export function createFiles(road, page, looking) {
-  function picture() {
-    const { session, world } = page.state();
-    const canvas = road.querySelector("canvas");
-    if (!canvas || !session) return;
-    canvas.toBlob((data) => {
-      if (data) save(data, fileName(session, `tick-${looking.tick ?? world?.tick ?? 0}`, "png"));
-      else page.tell({ text: "The picture could not be made.", tone: "bad" });
-    }, "image/png");
-  }
+/** @param {Page} page @returns {Files} */
+export function createFiles(page) {
+  return {
+    picture() {
+      const { look, session, world } = page.state();
+      const canvas = /** @type {HTMLCanvasElement | null} */ (document.querySelector("#road canvas"));
+      if (!canvas || !session) return;
+      canvas.toBlob((data) => {
+        if (data) save(data, fileName(session, `tick-${look.tick ?? world?.tick ?? 0}`, "png"));
+        else page.tell({ text: t("session.no_picture"), tone: "bad" });
+      }, "image/png");
+    },
 
-  async function recording() {
-    const { session } = page.state();
-    if (!session) return;
-    try {
-      save(await fetched(recordingPath(session)), fileName(session, "recording", "json"));
-    } catch (error) {
-      page.tell({ text: `The recording was not fetched. ${words(error)}`, tone: "bad" });
-    }
-  }
+    async recording() {
+      const { session } = page.state();
+      if (!session) return;
+      try {
+        save(await fetched(recordingPath(session)), fileName(session, "recording", "json"));
+      } catch (error) {
+        page.tell({ text: t("session.no_recording", { reason: errorText(error) }), tone: "bad" });
+      }
+    },
 
-  /** @param {File | undefined} file */
-  async function open(file) {
-    if (!file) return;
-    const { session } = page.state();
-    page.tell({ text: `Opening “${file.name}”. A long run takes a moment to replay.` });
-    try {
-      const { id } = await openRecording(recordingIn(await file.text(), file.name));
-      const go = () => void (location.hash = hashOf(id));
-      const here = page.state().session === session; // else somebody has gone elsewhere meanwhile, and stays there
-      if (here) go();
-      page.tell({ text: `“${file.name}” is open as a session of its own, paused where it ends.`, ...(here ? {} : { offer: { label: "Go there", run: go } }) });
-    } catch (error) {
-      page.tell({ text: `${words(error)} The session here is as it was.`, tone: "bad" });
-    }
-  }
-
-  return { picture, recording, open };
+    async open(file) {
+      if (!file) return;
+      const { name } = file;
+      const { session } = page.state();
+      page.tell({ text: t("session.opening", { name }) });
+      try {
+        const { id } = await openRecording(recordingIn(await file.text(), name));
+        const go = () => void (location.hash = hashOf(id));
+        const here = page.state().session === session; // else somebody has gone elsewhere meanwhile, and stays there
+        if (here) go();
+        page.tell({ text: t("session.opened", { name }), ...(here ? {} : { offer: { label: t("session.go_there"), run: go } }) });
+      } catch (error) {
+        page.tell({ text: t("session.not_opened", { reason: errorText(error) }), tone: "bad" });
+      }
+    },
+  };
 }

@@ -12,40 +12,6 @@ const KEY = "roadtalk.forks";
 const KEPT = 200;
 
 /**
- * What a page's address asks for: a session, perhaps at a tick, or one that is carried whole.
- * @param {string} hash
- * @returns {{session: string, tick: number | null} | {carried: string} | null}
- */
-export function placeInHash(hash) {
-  if (/^#\/r\/[\w-]+$/.test(hash)) return { carried: hash };
-  const match = /^#\/s\/([^/?#]+)(?:\/(\d{1,15}))?$/.exec(hash);
-  if (match === null) return null;
-  try {
-    return { session: decodeURIComponent(match[1]), tick: match[2] === undefined ? null : Number(match[2]) };
-  } catch {
-    return null;
-  }
-}
-
-/**
- * @param {string} session
- * @param {number | null} [tick]  null: the present
- */
-export function hashOf(session, tick = null) {
-  return `#/s/${encodeURIComponent(session)}${tick === null ? "" : `/${tick}`}`;
-}
-
-/**
- * A session out of a link that carries it. Throws `Refused`.
- * @param {string} carried
- * @param {typeof fetch} [http]
- * @returns {Promise<Session>}
- */
-export function openLink(carried, http) {
-  return askJson(SESSIONS_PATH, { method: "POST", body: { link: carried }, http });
-}
-
-/**
  * A session out of a recording. Throws `Refused`.
  * @param {unknown} recording
  * @param {typeof fetch} [http]
@@ -82,9 +48,9 @@ export function forkAt(session, tick, paused, http) {
   return askJson(`${sessionPath(session)}/forks`, { method: "POST", body, http });
 }
 
-/** @typedef {Pick<Storage, "getItem" | "setItem">} Store */
+/** @typedef {Pick<Storage, "getItem" | "setItem">} KeptStorage */
 
-/** @param {Store | null} storage @returns {Fork[]} */
+/** @param {KeptStorage | null} storage @returns {Fork[]} */
 export function forks(storage) {
   try {
     const kept = JSON.parse(storage?.getItem(KEY) ?? "[]");
@@ -94,7 +60,7 @@ export function forks(storage) {
   }
 }
 
-/** @param {Store | null} storage @param {Fork} fork */
+/** @param {KeptStorage | null} storage @param {Fork} fork */
 export function noteFork(storage, fork) {
   try {
     storage?.setItem(KEY, JSON.stringify([...forks(storage), fork].slice(-KEPT)));

@@ -1,74 +1,75 @@
 // @ts-check
-/** Marks along a run: in words, by loudness, the next of a kind, and how long the line is that they stand on. */
+/** Events along a run: in words, by importance, the next of a kind, and how long the line is that they stand on. */
 
-/** @import { Kind, Mark } from "./runChart.js" */
+import { listText, t } from "../core/texts.js";
 
-/** The kinds one can jump between; the first means any of them. */
-export const JUMPS = /** @type {{name: string, label: string, kinds: Kind[]}[]} */ ([
-  { name: "any", label: "mark", kinds: ["crash", "stuck", "success", "near_miss", "command", "fork"] },
-  { name: "crash", label: "crash", kinds: ["crash", "stuck"] },
-  { name: "near_miss", label: "near miss", kinds: ["near_miss"] },
-  { name: "wait", label: "wait", kinds: ["wait"] },
-  { name: "detour", label: "detour", kinds: ["detour"] },
-  { name: "command", label: "change", kinds: ["command"] },
-  { name: "episode", label: "episode", kinds: ["episode"] },
-]);
+/** @import { Kind, TimelineEvent } from "./timelineState.js" */
+
+/** What one can jump between; the first means any of them. @type {{name: string, kinds: Kind[]}[]} */
+export const JUMPS = [
+  { name: "any", kinds: ["crash", "stuck", "success", "near_miss", "command", "fork"] },
+  { name: "crash", kinds: ["crash", "stuck"] },
+  { name: "near_miss", kinds: ["near_miss"] },
+  { name: "wait", kinds: ["wait"] },
+  { name: "detour", kinds: ["detour"] },
+  { name: "command", kinds: ["command"] },
+  { name: "episode", kinds: ["episode"] },
+];
 
 /**
- * The nearest mark of some kinds before or after a tick.
- * @param {Mark[]} marks  by tick
+ * The nearest event of some kinds before or after a tick.
+ * @param {TimelineEvent[]} events  by tick
  * @param {Kind[]} kinds
  * @param {number} tick
  * @param {1 | -1} direction
- * @returns {Mark | null}
+ * @returns {TimelineEvent | null}
  */
-export function nextMark(marks, kinds, tick, direction) {
-  const found = marks.filter((mark) => kinds.includes(mark.kind) && (mark.tick - tick) * direction > 0);
+export function nextEvent(events, kinds, tick, direction) {
+  const found = events.filter((event) => kinds.includes(event.kind) && (event.tick - tick) * direction > 0);
   return (direction > 0 ? found[0] : found.at(-1)) ?? null;
 }
 
-/** How loud a mark is where several share a place. */
-const LOUDNESS = /** @type {Kind[]} */ (["crash", "stuck", "success", "fork", "command", "near_miss", "episode", "wait", "detour"]);
+/** Where several share a place, the first is told and drawn. @type {Kind[]} */
+const IMPORTANCE = ["crash", "stuck", "success", "fork", "command", "near_miss", "episode", "wait", "detour"];
 
-/** The loudest first. @param {Mark[]} marks @returns {Mark[]} */
-export function byLoudness(marks) {
-  return [...marks].sort((a, b) => LOUDNESS.indexOf(a.kind) - LOUDNESS.indexOf(b.kind));
+/** The most important first. @param {TimelineEvent[]} events @returns {TimelineEvent[]} */
+export function byImportance(events) {
+  return [...events].sort((a, b) => IMPORTANCE.indexOf(a.kind) - IMPORTANCE.indexOf(b.kind));
 }
 
 /**
- * Marks that touch a stretch of ticks.
- * @param {Mark[]} marks
+ * Events that touch a stretch of ticks.
+ * @param {TimelineEvent[]} events
  * @param {number} first
  * @param {number} last
  */
-export function marksIn(marks, first, last) {
-  return marks.filter(({ tick, ticks = 1 }) => tick <= last && tick + ticks - 1 >= first);
+export function eventsIn(events, first, last) {
+  return events.filter(({ tick, ticks = 1 }) => tick <= last && tick + ticks - 1 >= first);
 }
 
-const NAMES = /** @type {Record<Kind, string>} */ ({
-  crash: "Crash",
-  stuck: "Stuck",
-  success: "Arrived",
-  near_miss: "Near miss",
-  episode: "An episode begins",
-  command: "Change",
-  fork: "Forked here",
-  wait: "Waits",
-  detour: "Detour",
-});
-
 /**
- * A mark in words.
- * @param {Mark} mark
+ * What is at a tick or within a reach of it, in words: of each kind the nearest, and how many more.
+ * @param {TimelineEvent[]} events
+ * @param {number} tick
+ * @param {number} reach  ticks
  */
-export function markWords({ kind, ids = [], ticks = 1, text }) {
-  const things = ids.map((id) => id.replace("-", " ")).join(" and ");
-  const long = ticks > 1 ? ` of ${ticks} ticks` : "";
-  if (kind === "crash") return things ? `Crash with ${things}` : "Crash";
-  if (kind === "near_miss") return `Near miss: ${things || "something"} moved into the cell just left`;
-  if (kind === "command") return `“${text}”`;
-  if (kind === "wait") return ticks > 1 ? `Waits for ${ticks} ticks` : "Waits";
-  return `${NAMES[kind]}${kind === "detour" ? long : ""}`;
+export function eventsNear(events, tick, reach) {
+  const distance = (/** @type {TimelineEvent} */ { tick: at, ticks = 1 }) => Math.max(at - tick, tick - at - ticks + 1, 0);
+  const near = eventsIn(events, tick - reach, tick + reach).filter(({ kind }) => kind !== "episode" || reach < 3);
+  const kinds = [...new Set(byImportance(near).map(({ kind }) => kind))];
+  return kinds.map((kind) => {
+    const alike = near.filter((event) => event.kind === kind).sort((a, b) => distance(a) - distance(b));
+    const text = eventText(alike[0]);
+    const placed = distance(alike[0]) > 0 ? t("timeline.near", { text, tick: alike[0].tick }) : text;
+    return alike.length > 1 ? t("timeline.alike", { text: placed, count: alike.length }) : placed;
+  });
+}
+
+/** An event in words. @param {TimelineEvent} event */
+export function eventText({ kind, ids = [], ticks = 1, text = "" }) {
+  const things = listText(ids.map((id) => id.replace("-", " "))) || t("timeline.events.something");
+  const key = kind === "crash" && ids.length > 0 ? "crash_with" : kind;
+  return t(`timeline.events.${key}`, { things, text, count: ticks });
 }
 
 /**

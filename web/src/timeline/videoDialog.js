@@ -1,107 +1,131 @@
 // @ts-check
-/** The dialog in which a film of a stretch of ticks is asked for; fetched when it is first opened. */
+/** The dialog in which a video of a stretch of ticks is asked for; fetched when it is first opened. */
 
-import { makeDialog } from "../ui/dialog.js";
-import { make, setText } from "../ui/dom.js";
-import { fetched, fileName, filmPath, save, sizeWords, stretch } from "./downloads.js";
-import { words } from "../core/http.js";
-import { counted } from "../core/words.js";
+import { html, live, nothing } from "../../vendor/lit-html.js";
+import { errorText } from "../core/http.js";
+import { decimalText, t } from "../core/texts.js";
+import { dialogSlot, makeDialog } from "../ui/dialog.js";
+import { fetched, fileName, save, sizeText, stretch, videoPath } from "./downloads.js";
 
 /** @import { Page } from "../main.js" */
-/** @import { Looking } from "./past.js" */
+/** @import { VideoWish } from "./downloads.js" */
 
 /**
- * @param {string} label
- * @param {HTMLElement} control
+ * @typedef {object} Shown
+ * @property {VideoWish} wish
+ * @property {number} now  the latest tick
+ * @property {number} stepS  seconds of a tick
+ * @property {{text: string, bad: boolean}} note
+ * @property {boolean} busy
  */
-function row(label, control) {
-  return make("label", { class: "form-row" }, make("span", {}, label), control);
-}
 
-/** @param {[string, string][]} options @param {string} name */
-function choice(options, name) {
-  return make("select", { class: "field", name }, ...options.map(([value, label]) => make("option", { value }, label)));
-}
+const CHOICES = {
+  view: [["road", "video.road"], ["schematic", "video.schematic"]],
+  format: [["gif", "GIF"], ["mp4", "MP4"]],
+  side: [["320", "video.small"], ["480", "video.middle"], ["720", "video.large"]],
+};
 
-/** @param {Page} page @param {Looking} looking */
-export function filmDialog(page, looking) {
-  const from = make("input", { class: "field", type: "number", min: "0", required: true });
-  const to = make("input", { class: "field", type: "number", min: "0", required: true });
-  const view = choice([["road", "The road"], ["schematic", "Its plan"]], "view");
-  const format = choice([["gif", "GIF"], ["mp4", "MP4"]], "format");
-  const side = choice([["320", "Small · 320"], ["480", "Middle · 480"], ["720", "Large · 720"]], "side");
-  side.value = "480";
-  const told = make("p", { class: "dialog-note", role: "status" });
-  const progress = make("progress", { class: "progress", hidden: true, "aria-label": "Making the film" });
-  const start = make("button", { class: "button strong", type: "submit" }, "Make film");
-  const cancel = make("button", { class: "button", type: "button", hidden: true, onclick: () => making?.abort() }, "Cancel");
-  const form = make(
-    "form",
-    { class: "form" },
-    make("div", { class: "form-pair" }, row("From tick", from), row("To tick", to)),
-    row("Show", view),
-    make("div", { class: "form-pair" }, row("Format", format), row("Size", side)),
-    told,
-    progress,
-    make("div", { class: "form-end" }, cancel, start),
-  );
-  const dialog = makeDialog("Make a film", form);
+/** @param {Page} page @returns {() => void} opens it */
+export function createVideoDialog(page) {
+  const dialog = makeDialog(t("video.title"));
+  const body = dialogSlot(dialog);
+  /** @type {Shown} */
+  let shown = { wish: { from: 0, to: 0, format: "gif", view: "road", side: 480 }, now: 0, stepS: 0.5, note: { text: "", bad: false }, busy: false };
   /** @type {AbortController | null} */ let making = null;
-
-  function length() {
-    const ticks = to.valueAsNumber - from.valueAsNumber;
-    const stepS = page.state().world?.stepS ?? 0.5;
-    told.dataset.tone = "plain";
-    setText(told, ticks > 0 ? `${counted(ticks, "tick")}, ${(ticks * stepS).toFixed(1)} s long.` : "");
-  }
-  form.addEventListener("input", length);
   dialog.addEventListener("close", () => making?.abort());
 
-  form.addEventListener("submit", async (event) => {
-    event.preventDefault();
-    const { session, world } = page.state();
-    if (!session || !world || making) return;
-    making = new AbortController();
-    const { signal } = making;
-    const wish = /** @type {import("./downloads.js").FilmWish} */ ({
-      from: from.valueAsNumber, to: to.valueAsNumber, format: format.value, view: view.value, side: Number(side.value),
-    });
+  /** @param {Partial<Shown>} change */
+  function show(change) {
+    shown = { ...shown, ...change };
+    body(form(shown, { choose, start: () => void start(), cancel: () => making?.abort() }));
+  }
+
+  /** @param {string} text */
+  const tell = (text, bad = false) => show({ note: { text, bad } });
+
+  /** @param {Partial<VideoWish>} part */
+  function choose(part) {
+    const wish = { ...shown.wish, ...part };
+    show({ wish, note: { text: lengthText(wish, shown.stepS), bad: false } });
+  }
+
+  async function start() {
+    const { session } = page.state();
+    if (!session || making) return;
+    const { wish, stepS } = shown;
+    const own = (making = new AbortController());
     const began = performance.now();
-    const say = () => setText(told, `Drawing ${counted(wish.to - wish.from, "tick")}: ${Math.round((performance.now() - began) / 1000)} s`);
-    told.dataset.tone = "plain";
-    say();
-    const clock = setInterval(say, 1_000);
-    show(true);
+    const drawing = () => tell(t("video.drawing", { count: wish.to - wish.from, seconds: Math.round((performance.now() - began) / 1000) }));
+    drawing();
+    const clock = setInterval(drawing, 1_000);
+    show({ busy: true });
     try {
-      const data = await fetched(filmPath(session, wish, world.stepS), signal);
+      const data = await fetched(videoPath(session, wish, stepS), own.signal);
       save(data, fileName(session, `${wish.from}-${wish.to}`, wish.format));
-      setText(told, `Saved: ${sizeWords(data.size)}.`);
+      tell(t("video.saved", { size: sizeText(data.size) }));
     } catch (error) {
-      told.dataset.tone = signal.aborted ? "plain" : "bad";
-      setText(told, signal.aborted ? "Cancelled." : words(error));
+      if (own.signal.aborted) tell(t("video.cancelled"));
+      else tell(errorText(error), true);
     } finally {
       clearInterval(clock);
       making = null;
-      show(false);
+      show({ busy: false });
     }
-  });
-
-  /** @param {boolean} busy */
-  function show(busy) {
-    progress.hidden = cancel.hidden = !busy;
-    start.disabled = busy;
   }
 
-  function open() {
-    const { world } = page.state();
+  return () => {
+    const { look, world } = page.state();
     const now = world?.tick ?? 0;
-    const part = stretch(now, looking.tick);
-    from.value = `${part.from}`;
-    to.value = `${part.to}`;
-    from.max = to.max = `${now}`;
-    length();
+    show({ now, stepS: world?.stepS ?? 0.5 });
+    choose(stretch(now, look.tick));
     dialog.showModal();
-    start.focus();
-  }
-  return { open };
+    /** @type {HTMLElement | null} */ (dialog.querySelector("[type=submit]"))?.focus();
+  };
+}
+
+/** @param {VideoWish} wish @param {number} stepS */
+function lengthText({ from, to }, stepS) {
+  const count = to - from;
+  return count > 0 ? t("video.length", { count, seconds: decimalText(count * stepS, 1) }) : "";
+}
+
+/**
+ * @param {Shown} shown
+ * @param {{choose: (part: Partial<VideoWish>) => void, start: () => void, cancel: () => void}} does
+ */
+function form({ wish, now, note, busy }, { choose, start, cancel }) {
+  /** @param {SubmitEvent} event */
+  const submit = (event) => {
+    event.preventDefault();
+    start();
+  };
+  const number = (/** @type {"from" | "to"} */ name) =>
+    row(t(`video.${name}`), html`<input class="field" type="number" min="0" max=${now} required .value=${live(String(wish[name]))}
+      @input=${(/** @type {Event} */ { target }) => choose({ [name]: /** @type {HTMLInputElement} */ (target).valueAsNumber })}>`);
+  const select = (/** @type {"view" | "format" | "side"} */ name, /** @type {string} */ label) =>
+    row(label, html`<select class="field" name=${name} @change=${(/** @type {Event} */ { target }) => choose(chosen(name, target))}>
+      ${CHOICES[name].map(([value, key]) => html`<option value=${value} ?selected=${value === String(wish[name])}>${t(key)}</option>`)}
+    </select>`);
+  return html`<form class="form" @submit=${submit}>
+    <div class="form-pair">${number("from")}${number("to")}</div>
+    ${select("view", t("video.view"))}
+    <div class="form-pair">${select("format", t("video.format"))}${select("side", t("video.size"))}</div>
+    <p class="dialog-note" role="status" data-tone=${note.bad ? "bad" : "plain"}>${note.text}</p>
+    ${busy ? html`<progress class="progress" aria-label=${t("video.making")}></progress>` : nothing}
+    <div class="form-end">
+      ${busy ? html`<button class="button" type="button" @click=${cancel}>${t("video.cancel")}</button>` : nothing}
+      <button class="button strong" type="submit" ?disabled=${busy}>${t("video.start")}</button>
+    </div>
+  </form>`;
+}
+
+/** @param {"view" | "format" | "side"} name @param {EventTarget | null} target @returns {Partial<VideoWish>} */
+function chosen(name, target) {
+  const { value } = /** @type {HTMLSelectElement} */ (target);
+  return { [name]: name === "side" ? Number(value) : value };
+}
+
+/** @param {string} label @param {unknown} control */
+function row(label, control) {
+  return html`<label class="form-row"><span>${label}</span>${control}</label>`;
 }

@@ -27,7 +27,7 @@ export function make(tag, properties = {}, ...children) {
  */
 export function byId(id) {
   const element = document.getElementById(id);
-  if (element === null) throw new Error(`the page has no #${id}`);
+  if (element === null) throw new Error(`no #${id}`);
   return element;
 }
 

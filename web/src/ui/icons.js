@@ -1,6 +1,8 @@
 // @ts-check
 /** The page's few icons, as SVG made here: nothing is fetched for them. */
 
+import { html } from "../../vendor/lit-html.js";
+
 const PATHS = /** @type {Record<string, string>} */ ({
   play: "M7 5.2v13.6L18.5 12z",
   pause: "M7 5h3.4v14H7zM13.6 5H17v14h-3.4z",
@@ -36,4 +38,9 @@ export function icon(name) {
   path.setAttribute("d", PATHS[name] ?? "");
   picture.append(path);
   return picture;
+}
+
+/** An icon as a template. @param {string} name */
+export function iconOf(name) {
+  return html`<svg class="icon" viewBox="0 0 24 24" aria-hidden="true"><path d=${PATHS[name] ?? ""}></path></svg>`;
 }

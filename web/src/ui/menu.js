@@ -1,8 +1,9 @@
 // @ts-check
-/** A menu behind a button, as the keyboard knows menus: arrows, Home, End, first letters, Escape. */
+/** A menu behind a button: a native popover, with the keys that menus have: arrows, Home, End, first letters. */
 
-import { make } from "./dom.js";
-import { icon } from "./icons.js";
+import { html, nothing, render } from "../../vendor/lit-html.js";
+import { iconOf } from "./icons.js";
+import { find } from "./slot.js";
 
 /**
  * @typedef {object} Item
@@ -14,6 +15,11 @@ import { icon } from "./icons.js";
  * @property {() => void} run
  */
 
+const GAP_PX = 4;
+const EDGE_PX = 8;
+/** So narrow that menus open at the edge. */
+const NARROW_PX = 480;
+
 /**
  * @param {HTMLElement} host
  * @param {string} label
@@ -21,81 +27,95 @@ import { icon } from "./icons.js";
  */
 export function createMenu(host, label, items) {
   const id = `${host.id}-list`;
-  const button = make(
-    "button",
-    { class: "button quiet menu-button", type: "button", "aria-haspopup": "menu", "aria-expanded": "false", "aria-controls": id, onclick: () => (list.hidden ? open() : close(true)) },
-    make("span", { class: "menu-label" }, label),
-    icon("down"),
-  );
-  const list = make("div", { class: "menu-list", id, role: "menu", "aria-label": label, hidden: true });
-  host.append(button, list);
+  let open = false;
+
+  function show() {
+    render(template({ id, label, open, items: open ? items() : [], pressed, toggles, toggled, opens }), host);
+  }
+  show();
+  const list = find(host, ".menu-list");
   const entries = () => /** @type {HTMLElement[]} */ ([...list.querySelectorAll("[role^=menuitem]")]);
 
-  /** @param {number} [at]  which to begin with; -1 is the last */
-  function open(at = 0) {
-    list.replaceChildren(...items().map((item) => (item ? entryOf(item) : make("div", { class: "menu-line", role: "separator" }))));
-    list.hidden = false;
-    button.setAttribute("aria-expanded", "true");
-    entries().at(at)?.focus();
+  /** @param {ToggleEvent} event */
+  function toggles({ newState }) {
+    open = newState === "open";
+    if (open) place(list, find(host, ".menu-button"));
+    show();
   }
 
-  /** @param {boolean} back  whether the button gets the focus */
-  function close(back) {
-    if (list.hidden) return;
-    list.hidden = true;
-    button.setAttribute("aria-expanded", "false");
-    if (back) button.focus();
+  /** @param {ToggleEvent} event */
+  function toggled({ newState }) {
+    if (newState === "open" && !list.contains(document.activeElement)) entries()[0]?.focus();
+  }
+
+  /** @param {KeyboardEvent} event */
+  function opens(event) {
+    if (event.key !== "ArrowDown" && event.key !== "ArrowUp") return;
+    list.showPopover();
+    entries().at(event.key === "ArrowDown" ? 0 : -1)?.focus();
+    event.preventDefault();
+    event.stopPropagation();
   }
 
   /** @param {Item} item */
-  function entryOf({ label: told, keyName, name, checked, choice, run }) {
-    const entry = make(
-      "button",
-      {
-        class: "menu-item", type: "button", role: checked === undefined ? "menuitem" : choice ? "menuitemradio" : "menuitemcheckbox", tabIndex: -1, "data-item": name ?? told,
-        onclick() {
-          if (checked === undefined) close(true);
-          run();
-          if (checked !== undefined) open(entries().indexOf(entry));
-        },
-      },
-      make("span", {}, told),
-      keyName && make("kbd", { "aria-hidden": "true" }, keyName),
-    );
-    if (checked !== undefined) entry.setAttribute("aria-checked", String(checked));
-    return entry;
+  function pressed({ checked, run }) {
+    if (checked === undefined) list.hidePopover();
+    run();
+    if (checked !== undefined) show();
   }
 
-  button.addEventListener("keydown", (event) => {
-    if (event.key !== "ArrowDown" && event.key !== "ArrowUp") return;
-    open(event.key === "ArrowDown" ? 0 : -1);
-    event.preventDefault();
-    event.stopPropagation();
-  });
-  list.addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const all = entries();
-    const at = all.indexOf(/** @type {HTMLElement} */ (document.activeElement));
-    if (event.key === "Tab") return close(false);
-    event.stopPropagation();
-    if (event.key === "Escape") close(true);
-    else if (event.key === "ArrowDown") all[(at + 1) % all.length]?.focus();
-    else if (event.key === "ArrowUp") all.at(at - 1)?.focus();
-    else if (event.key === "Home") all[0]?.focus();
-    else if (event.key === "End") all.at(-1)?.focus();
-    else if (event.key.length === 1 && event.key !== " ") {
-      const letter = event.key.toLowerCase();
-      [...all.slice(at + 1), ...all].find(({ textContent }) => textContent?.toLowerCase().startsWith(letter))?.focus();
-    } else return;
-    event.preventDefault();
-  });
-  host.addEventListener("focusout", (event) => {
-    if (event.relatedTarget instanceof Node && host.contains(event.relatedTarget)) return;
-    // A press on something that takes no focus is looked after by the listener below.
-    if (event.relatedTarget !== null) close(false);
-  });
-  addEventListener("pointerdown", (event) => {
-    if (event.target instanceof Node && !host.contains(event.target)) close(false);
-  });
-  return { open, close };
+  list.addEventListener("keydown", (event) => walk(event, entries(), list));
+}
+
+/**
+ * @param {object} menu
+ * @param {string} menu.id
+ * @param {string} menu.label
+ * @param {boolean} menu.open
+ * @param {(Item | null)[]} menu.items
+ * @param {(item: Item) => void} menu.pressed
+ * @param {(event: ToggleEvent) => void} menu.toggles
+ * @param {(event: ToggleEvent) => void} menu.toggled
+ * @param {(event: KeyboardEvent) => void} menu.opens
+ */
+function template({ id, label, open, items, pressed, toggles, toggled, opens }) {
+  return html`<button class="button quiet menu-button" type="button" popovertarget=${id} aria-haspopup="menu" aria-expanded=${String(open)} @keydown=${opens}>
+      <span class="menu-label">${label}</span>${iconOf("down")}
+    </button>
+    <div class="menu-list" id=${id} role="menu" aria-label=${label} popover @beforetoggle=${toggles} @toggle=${toggled}>
+      ${items.map((item) => (item ? entry(item, pressed) : html`<div class="menu-line" role="separator"></div>`))}
+    </div>`;
+}
+
+/** @param {Item} item @param {(item: Item) => void} pressed */
+function entry(item, pressed) {
+  const { label, keyName, name, checked, choice } = item;
+  const role = checked === undefined ? "menuitem" : choice ? "menuitemradio" : "menuitemcheckbox";
+  return html`<button class="menu-item" type="button" role=${role} tabindex="-1" data-item=${name ?? label} aria-checked=${checked === undefined ? nothing : String(checked)} @click=${() => pressed(item)}>
+    <span>${label}</span>${keyName ? html`<kbd aria-hidden="true">${keyName}</kbd>` : nothing}
+  </button>`;
+}
+
+/** Keys in an open menu. @param {KeyboardEvent} event @param {HTMLElement[]} all @param {HTMLElement} list */
+function walk(event, all, list) {
+  if (event.ctrlKey || event.metaKey || event.altKey) return;
+  if (event.key === "Tab") return list.hidePopover();
+  event.stopPropagation();
+  const at = all.indexOf(/** @type {HTMLElement} */ (document.activeElement));
+  if (event.key === "ArrowDown") all[(at + 1) % all.length]?.focus();
+  else if (event.key === "ArrowUp") all.at(at - 1)?.focus();
+  else if (event.key === "Home") all[0]?.focus();
+  else if (event.key === "End") all.at(-1)?.focus();
+  else if (event.key.length === 1 && event.key !== " ") {
+    const letter = event.key.toLowerCase();
+    [...all.slice(at + 1), ...all].find(({ textContent }) => textContent?.trim().toLowerCase().startsWith(letter))?.focus();
+  } else return;
+  event.preventDefault();
+}
+
+/** Under its button, and as far to the right; on a phone, at the edge of the window. @param {HTMLElement} list @param {HTMLElement} button */
+function place(list, button) {
+  const { bottom, right } = button.getBoundingClientRect();
+  const edge = innerWidth < NARROW_PX ? EDGE_PX : Math.max(EDGE_PX, innerWidth - right);
+  list.style.inset = `${Math.round(bottom + GAP_PX)}px ${Math.round(edge)}px auto auto`;
 }

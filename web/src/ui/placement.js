@@ -41,3 +41,10 @@ function inside(at, size, room) {
 export function meets({ left, top, width, height }, frame) {
   return left < frame.right - 2 && left + width > frame.left + 2 && top < frame.bottom - 2 && top + height > frame.top + 2;
 }
+
+/** Lay an element over a place of the window. @param {HTMLElement} element @param {Place} place */
+export function lay(element, { left, top, width, height }) {
+  element.style.transform = `translate(${left}px, ${top}px)`;
+  element.style.inlineSize = `${width}px`;
+  element.style.blockSize = `${height}px`;
+}

@@ -8,23 +8,11 @@ import { preference, prefer } from "../core/preferences.js";
 
 /** @typedef {Record<string, boolean>} Views  by name, whether it is shown */
 
-/** Parts of the page, in the order of their keys 1–6. @type {[name: string, label: string][]} */
-export const PARTS = [
-  ["road", "Road"],
-  ["schematic", "Schematic"],
-  ["plan", "Plan"],
-  ["occupancy", "Occupancy"],
-  ["metrics", "Metrics"],
-  ["log", "Driving log"],
-];
+/** Parts of the page, in the order of their keys 1–6. */
+export const PARTS = ["road", "schematic", "plan", "occupancy", "metrics", "log"];
 
-/** What can lie over the road. @type {[name: string, label: string][]} */
-export const LAYERS = [
-  ["path", "Path"],
-  ["potholes", "Pothole map"],
-  ["forecast", "Forecast"],
-  ["boxes", "Bounding boxes"],
-];
+/** What can lie over the road. */
+export const LAYERS = ["path", "potholes", "forecast", "boxes"];
 
 /** A narrow screen has room for one of them. */
 const NARROW_PX = 600;

@@ -1,8 +1,9 @@
 // @ts-check
-/** What may be asked to be otherwise, in words; and past decisions with all that spoke for and against them. */
+/** What may be imagined otherwise, with a title; and past decisions with all that spoke for and against them. */
 
 import { askJson } from "../core/http.js";
 import { sessionPath } from "../core/protocol.js";
+import { listText, nameText, t } from "../core/texts.js";
 
 /** @import { Action, Decision, Move } from "../core/protocol.js" */
 
@@ -24,15 +25,14 @@ export function fetchDecision(session, tick, signal, http) {
 }
 
 /**
- * A change as the beginning of a sentence.
+ * A change as a title: "Without pothole-3".
  * @param {Action[]} actions
  */
 export function labelOf(actions) {
   const ids = actions.map((action) => (action.do === "remove" ? /** @type {{id?: string}} */ (action.where)?.id : undefined));
-  if (ids.every((id) => id !== undefined)) return `If ${ids.join(" and ")} ${ids.length === 1 ? "wasn’t" : "weren’t"} there`;
-  if (actions.length === 1 && actions[0].do === "remove" && actions[0].count === "all") {
-    const { kind } = actions[0];
-    return kind === "everything" ? "If the road were empty" : `If there were no ${kind === "vehicle" ? "car" : kind}s`;
-  }
-  return "With that change";
+  if (ids.every((id) => id !== undefined)) return t("counterfactual.without", { things: listText(ids) });
+  const [action] = actions;
+  if (actions.length > 1 || action.do !== "remove" || action.count !== "all") return t("counterfactual.with_change");
+  const { kind } = action;
+  return kind === "everything" ? t("counterfactual.empty_road") : t("counterfactual.without", { things: nameText("plurals", kind) });
 }

@@ -2,24 +2,27 @@
 /**
  * What is this, and why: a small card beside any cell, thing or past decision that is pointed at.
  *
- * What is told is in `why.js`, what points in `pointing.js` and `cursor.js`. It goes with what it speaks of, stays
- * while the pointer or the focus is on it, and Escape sends it away.
+ * What is told is in `why.js`, what points in `pointing.js` and `cursor.js`. It is a native popover: it goes with what it
+ * speaks of, stays while the pointer or the focus is on it, and Escape or a press elsewhere sends it away.
  */
 
-import { make, setText } from "../ui/dom.js";
-import { capital, moveName } from "../road/hitTest.js";
-import { fetchDecision } from "./alternatives.js";
-import { besides, meets } from "../ui/placement.js";
+import { html, nothing, render } from "../../vendor/lit-html.js";
 import { sceneOf } from "../core/state.js";
-import { tellOf, thingOf } from "./why.js";
-import { MOVES, reasonWords } from "../core/words.js";
+import { capital, t } from "../core/texts.js";
+import { MOVES, moveName } from "../core/words.js";
 import { egoOf } from "../road/world.js";
-import { alike, lay } from "./bubbleLoader.js";
+import { besides, lay, meets } from "../ui/placement.js";
+import { createSlot, find } from "../ui/slot.js";
+import { fetchDecision } from "./alternatives.js";
+import { alike } from "./bubbleLoader.js";
+import { optionText } from "./moveOptions.js";
+import { tellOf, thingOf } from "./why.js";
 
 /** @import { Place, Places } from "../road/hitTest.js" */
 /** @import { Page } from "../main.js" */
 /** @import { Decision, Option } from "../core/protocol.js" */
-/** @import { Offer } from "./why.js" */
+/** @import { State } from "../core/state.js" */
+/** @import { Offer, Told } from "./why.js" */
 /** @import { Card, Target } from "./bubbleLoader.js" */
 /** @import { Panel } from "../panels/index.js" */
 
@@ -29,235 +32,211 @@ const LEAVE_MS = 280;
 /** A trace is asked for so often at most, however fast the ticks come. */
 const APART_MS = 400;
 
-/** @param {HTMLElement} host @param {Page} page @returns {Bubble} */
+/** @param {HTMLElement} host  a popover @param {Page} page @returns {Bubble} */
 export function createBubble(host, page) {
-  host.setAttribute("role", "dialog");
-  const mark = make("div", { class: "cell-mark", hidden: true });
-  host.before(mark);
+  const bubble = new WhyBubble(host, page);
+  return {
+    show: (target, pin) => bubble.show(target, pin),
+    hide: () => bubble.hide(),
+    leave: () => bubble.leave(),
+    stay: () => bubble.stay(),
+    focus() {
+      const first = host.querySelector("button");
+      first?.focus();
+      return first !== null;
+    },
+    target: () => bubble.target,
+    pinned: () => bubble.pinned,
+    update: (state, before) => bubble.update(state, before),
+    draw() {
+      bubble.place();
+      return false;
+    },
+  };
+}
 
-  /** @type {Target | null} */ let target = null;
-  let pinned = false;
-  let leaving = 0;
-  /** @type {Decision | null} the trace of the decision that is spoken of */ let trace = null;
-  /** @type {AbortController | null} */ let asking = null;
-  let written = "";
-  /** A button that is pressed stays where it is until it is let go: made anew, or moved, it would hear no click. */
-  let pressed = false;
-  let late = false;
-  let askedAt = -Infinity;
+class WhyBubble {
+  /** @type {Target | null} */ target = null;
+  pinned = false;
+  /** The trace of the decision that is spoken of. @type {Decision | null} */ trace = null;
+  /** A button that is pressed stays where it is until it is let go: moved, it would hear no click. */ pressed = false;
+  /** @type {AbortController | null} */ #asking = null;
+  #askedAt = -Infinity;
+  #leaving = 0;
 
-  /** @param {Target} next @param {boolean} [pin] */
-  function show(next, pin = false) {
-    clearTimeout(leaving);
-    const other = target === null || !alike(target, next);
-    target = next;
-    pinned = pin || (pinned && !other);
-    if (other) {
-      trace = null;
-      written = "";
-    }
-    host.hidden = false;
-    write();
-    place();
-    void ask();
+  /** @param {HTMLElement} host @param {Page} page */
+  constructor(host, page) {
+    this.host = host;
+    this.page = page;
+    createSlot(/** @type {HTMLElement} */ (host.parentElement), host)(html`<div class="cell-mark" hidden></div>`);
+    this.mark = find(document, ".cell-mark");
+    host.addEventListener("pointerdown", () => (this.pressed = true));
+    for (const end of ["pointerup", "pointercancel"]) addEventListener(end, () => this.pressed && setTimeout(() => this.#release())); // the click comes first
+    host.addEventListener("pointerenter", () => this.stay());
+    host.addEventListener("pointerleave", () => this.leave());
+    host.addEventListener("focusout", ({ relatedTarget }) => {
+      if (relatedTarget instanceof Node && !host.contains(relatedTarget)) this.hide();
+    });
+    host.addEventListener("toggle", (event) => /** @type {ToggleEvent} */ (event).newState === "closed" && this.#forget());
+    addEventListener("scroll", () => this.place(), { capture: true, passive: true });
   }
 
-  function hide() {
-    clearTimeout(leaving);
-    asking?.abort();
-    asking = null;
-    const focused = host.contains(document.activeElement);
-    const frame = target?.frame;
-    target = null;
-    pinned = false;
-    host.hidden = mark.hidden = true;
-    if (focused) frame?.focus({ preventScroll: true });
+  get scene() {
+    return sceneOf(this.page.state());
+  }
+
+  /** @param {Target} next @param {boolean} [pin] */
+  show(next, pin = false) {
+    clearTimeout(this.#leaving);
+    const other = this.target === null || !alike(this.target, next);
+    this.target = next;
+    this.pinned = pin || (this.pinned && !other);
+    if (other) this.trace = null;
+    this.write();
+    if (!this.host.matches(":popover-open")) this.host.showPopover();
+    this.place();
+    void this.#ask();
+  }
+
+  hide() {
+    this.#forget();
+    if (this.host.matches(":popover-open")) this.host.hidePopover();
+  }
+
+  /** Hide it soon, unless the pointer comes back. */
+  leave() {
+    if (this.pinned || this.host.contains(document.activeElement)) return;
+    clearTimeout(this.#leaving);
+    this.#leaving = setTimeout(() => this.hide(), LEAVE_MS);
+  }
+
+  stay() {
+    clearTimeout(this.#leaving);
+  }
+
+  #forget() {
+    clearTimeout(this.#leaving);
+    this.#asking?.abort();
+    this.#asking = this.target = null;
+    this.pinned = this.pressed = false;
+    this.mark.hidden = true;
+  }
+
+  #release() {
+    this.pressed = false;
+    this.write();
+    this.place();
+  }
+
+  /** @param {State} state @param {State} before */
+  update(state, before) {
+    const { target } = this;
+    if (target === null) return;
+    if (state.session !== before.session) return this.hide();
+    if (target.kind === "decision" || (state.world === before.world && state.decision === before.decision)) return;
+    if (target.id !== null && !state.world?.things.has(target.id)) return this.hide();
+    if (this.trace?.tick !== state.decision?.tick) this.trace = null;
+    this.write();
+    if (performance.now() - this.#askedAt > APART_MS) void this.#ask();
   }
 
   /** The whole trace of the decision; what the stream tells of it is less. */
-  async function ask() {
-    const state = sceneOf(page.state());
-    const tick = target?.kind === "decision" ? target.tick : state.decision?.tick;
-    if (tick === undefined || state.session === null || trace?.tick === tick) return;
-    asking?.abort();
-    askedAt = performance.now();
-    const mine = (asking = new AbortController());
+  async #ask() {
+    const { session, decision } = this.scene;
+    const tick = this.target?.kind === "decision" ? this.target.tick : decision?.tick;
+    if (tick === undefined || session === null || this.trace?.tick === tick) return;
+    this.#asking?.abort();
+    this.#askedAt = performance.now();
+    const mine = (this.#asking = new AbortController());
     try {
-      const told = await fetchDecision(state.session, tick, mine.signal);
-      if (mine !== asking) return;
-      trace = told;
+      const trace = await fetchDecision(session, tick, mine.signal);
+      if (mine !== this.#asking) return;
+      this.trace = trace;
     } catch {
       // Undone meanwhile, or a result stood: what the stream has told is all there is.
-      if (mine === asking && target?.kind === "decision") hide();
+      if (mine === this.#asking && this.target?.kind === "decision") this.hide();
       return;
     }
-    write();
-    place();
+    this.write();
+    this.place();
   }
 
-  function write() {
-    const state = sceneOf(page.state());
-    if (target === null) return;
-    if (pressed) return void (late = true);
-    const decision = target.kind === "decision" ? trace : (trace ?? state.decision);
-    const told = tellOf(target, state, decision);
+  write() {
+    const { target, trace, scene } = this;
+    if (target === null || this.pressed) return;
+    const decision = target.kind === "decision" ? trace : (trace ?? scene.decision);
+    const told = tellOf(target, scene, decision);
     if (told === null) return;
-    const { title, note, lines, moves, offers } = told;
-    // Made anew only when it says something else: its buttons keep the focus.
-    const key = JSON.stringify([title, note, moves, offers]);
-    if (key !== written) {
-      written = key;
-      const at = document.activeElement;
-      const focused = host.contains(at) ? at?.textContent : null;
-      host.replaceChildren(
-        make("p", { class: "bubble-title", "data-kind": told.kind }, capital(title), note ? make("span", { class: "bubble-id" }, note) : null),
-        make("div", { class: "bubble-lines" }),
-        moves.length > 0 && decision ? movesElement(moves, decision) : "",
-        offers.length > 0 ? offersElement(offers) : "",
-      );
-      host.setAttribute("aria-label", capital(title));
-      if (focused) [...host.querySelectorAll("button")].find(({ textContent }) => textContent === focused)?.focus();
-    }
-    const box = /** @type {HTMLElement} */ (host.querySelector(".bubble-lines"));
-    lines.forEach((line, at) => setText(box.children[at] ?? box.appendChild(make("p")), line));
-    while (box.children.length > lines.length) box.lastElementChild?.remove();
-  }
-
-  /** @param {Option[]} moves @param {Decision} decision */
-  function movesElement(moves, { tick }) {
-    const items = moves.map(({ move, reason }) =>
-      make(
-        "li",
-        {},
-        make(
-          "button",
-          {
-            class: "bubble-move",
-            type: "button",
-            title: "Play it beside the real run",
-            onclick: () => take({ text: "", pick: { kind: "move", tick, move } }),
-          },
-          make("span", { class: "option-arrow", "aria-hidden": "true" }, MOVES[move]?.arrow ?? ""),
-          make("span", {}, moveName(move)),
-          make("span", { class: "bubble-reason" }, reasonWords(reason)),
-        ),
-      ),
-    );
-    return make("div", { class: "bubble-moves" }, make("p", {}, "Instead, see what would have been"), make("ul", {}, ...items));
-  }
-
-  /** @param {Offer[]} offers */
-  function offersElement(offers) {
-    const button = (/** @type {Offer} */ offer) =>
-      make("button", { class: "button small", type: "button", onclick: () => take(offer) }, offer.text);
-    const small = offers.filter((offer) => offer.small).map(button);
-    return make(
-      "div",
-      { class: "bubble-offers" },
-      ...offers.filter((offer) => !offer.small).map(button),
-      small.length > 0 &&
-        make("div", { class: "bubble-put", role: "group", "aria-label": "Put here" }, make("span", {}, "Put here"), ...small),
-    );
+    this.host.setAttribute("aria-label", capital(told.title));
+    render(template(told, decision?.tick ?? 0, (offer) => this.#take(offer)), this.host);
   }
 
   /** @param {Offer} offer */
-  function take({ act, pick }) {
-    hide();
-    if (act) page.act(act.actions, act.label, act.quiet);
-    if (pick) page.pick?.(pick);
+  #take({ act, pick }) {
+    this.hide();
+    if (act) this.page.act(act.actions, act.label, act.quiet);
+    if (pick) this.page.pick?.(pick);
   }
 
   /** Beside what it speaks of, and wholly in the window. */
-  function place() {
-    if (target === null || pressed) return;
-    const anchor = anchorOf(target);
+  place() {
+    const { target, host } = this;
+    if (target === null || this.pressed) return;
+    const anchor = this.#anchor(target);
     const frame = (target.kind === "cell" ? target.frame : target.frame.parentElement)?.getBoundingClientRect();
-    if (!anchor || !frame || !meets(anchor, frame)) return hide();
-    const [x, y] = besides(anchor, host.offsetWidth, host.offsetHeight, target.kind === "cell" ? egoPlace(target.places) : null);
+    if (!anchor || !frame || !meets(anchor, frame)) return this.hide();
+    const [x, y] = besides(anchor, host.offsetWidth, host.offsetHeight, target.kind === "cell" ? this.#ego(target.places) : null);
     host.style.transform = `translate(${x}px, ${y}px)`;
-    mark.hidden = target.kind !== "cell";
-    lay(mark, anchor);
+    this.mark.hidden = target.kind !== "cell";
+    lay(this.mark, anchor);
   }
 
   /** @param {Target} at @returns {Place | null} */
-  function anchorOf(at) {
+  #anchor(at) {
     if (at.kind === "decision") return at.frame.isConnected ? at.frame.getBoundingClientRect() : null;
-    const { world } = sceneOf(page.state());
+    const { world } = this.scene;
     const thing = world && thingOf(world, at);
     const pose = thing && at.places.poseOf?.(thing.id);
     return at.places.placeOf(pose ? [pose.column, pose.row] : (thing?.cell ?? at.cell));
   }
 
   /** @param {Places} places @returns {Place | null} */
-  function egoPlace(places) {
-    const { world } = sceneOf(page.state());
+  #ego(places) {
+    const { world } = this.scene;
     const ego = world && egoOf(world);
     return ego && places.placeOf(ego.cell);
   }
+}
 
-  function leave() {
-    if (pinned || host.contains(document.activeElement)) return;
-    clearTimeout(leaving);
-    leaving = setTimeout(hide, LEAVE_MS);
-  }
+/** @param {Told} told @param {number} tick  of the decision that is spoken of @param {(offer: Offer) => void} take */
+function template({ kind, title, note, lines, moves, offers }, tick, take) {
+  return html`<p class="bubble-title" data-kind=${kind}>${capital(title)}${note ? html`<span class="bubble-id">${note}</span>` : nothing}</p>
+    <div class="bubble-lines">${lines.map((line) => html`<p>${line}</p>`)}</div>
+    ${moves.length > 0 ? movesTemplate(moves, tick, take) : nothing}
+    ${offers.length > 0 ? offersTemplate(offers, take) : nothing}`;
+}
 
-  function release() {
-    pressed = false;
-    if (late) write();
-    late = false;
-    place();
-  }
-
-  host.addEventListener("pointerdown", () => (pressed = true));
-  for (const end of ["pointerup", "pointercancel"]) addEventListener(end, () => pressed && setTimeout(release)); // the click comes first
-
-  const stay = () => clearTimeout(leaving);
-  host.addEventListener("pointerenter", stay);
-  host.addEventListener("pointerleave", leave);
-  host.addEventListener("focusout", ({ relatedTarget }) => {
-    if (relatedTarget instanceof Node && !host.contains(relatedTarget)) hide();
-  });
-  addEventListener("pointerdown", ({ target: over }) => {
-    if (over instanceof Node && !host.contains(over)) hide();
-  });
-  addEventListener(
-    "keydown",
-    (event) => {
-      if (event.key !== "Escape" || target === null) return;
-      hide();
-      event.preventDefault();
-      event.stopPropagation();
-    },
-    { capture: true },
-  );
-  addEventListener("scroll", place, { capture: true, passive: true });
-
-  return {
-    show,
-    hide,
-    leave,
-    stay,
-    focus() {
-      const first = host.querySelector("button");
-      first?.focus();
-      return first !== null;
-    },
-    target: () => target,
-    pinned: () => pinned,
-
-    update(state, before) {
-      if (target === null) return;
-      if (state.session !== before.session) return hide();
-      if (target.kind === "decision" || (state.world === before.world && state.decision === before.decision)) return;
-      if (target.id !== null && !state.world?.things.has(target.id)) return hide();
-      if (trace !== null && trace.tick !== state.decision?.tick) trace = null;
-      write();
-      if (performance.now() - askedAt > APART_MS) void ask();
-    },
-
-    draw() {
-      place();
-      return false;
-    },
+/** @param {Option[]} moves @param {number} tick @param {(offer: Offer) => void} take */
+function movesTemplate(moves, tick, take) {
+  const item = (/** @type {Option} */ option) => {
+    const { move } = option;
+    const play = () => take({ text: "", pick: { kind: "move", tick, move } });
+    return html`<li>
+      <button class="bubble-move" type="button" title=${t("bubble.play")} @click=${play}>
+        <span class="option-arrow" aria-hidden="true">${MOVES[move]?.arrow ?? ""}</span><span>${moveName(move)}</span>
+        <span class="bubble-reason">${optionText(option)}</span>
+      </button>
+    </li>`;
   };
+  return html`<div class="bubble-moves"><p>${t("bubble.instead")}</p><ul>${moves.map(item)}</ul></div>`;
+}
+
+/** @param {Offer[]} offers @param {(offer: Offer) => void} take */
+function offersTemplate(offers, take) {
+  const button = (/** @type {Offer} */ offer) => html`<button class="button small" type="button" @click=${() => take(offer)}>${offer.text}</button>`;
+  const [small, large] = [offers.filter((offer) => offer.small), offers.filter((offer) => !offer.small)];
+  return html`<div class="bubble-offers">
+    ${large.map(button)}
+    ${small.length > 0 ? html`<div class="bubble-put" role="group" aria-label=${t("bubble.put_here")}><span>${t("bubble.put_here")}</span>${small.map(button)}</div>` : nothing}
+  </div>`;
 }

@@ -4,7 +4,7 @@
 import { same } from "../road/hitTest.js";
 import { onDemand, styled } from "../core/lazy.js";
 
-/** @import { Place, Places } from "../road/hitTest.js" */
+/** @import { Places } from "../road/hitTest.js" */
 /** @import { Page } from "../main.js" */
 /** @import { Cell } from "../core/protocol.js" */
 /** @import { Bubble } from "./bubble.js" */
@@ -68,11 +68,4 @@ export function alike(a, b) {
   if (a.frame !== b.frame) return false;
   if (a.kind === "decision" || b.kind === "decision") return a.kind === b.kind;
   return a.id !== null || b.id !== null ? a.id === b.id : same(a.cell, b.cell);
-}
-
-/** Lay an element over a place of the window. @param {HTMLElement} element @param {Place} place */
-export function lay(element, { left, top, width, height }) {
-  element.style.transform = `translate(${left}px, ${top}px)`;
-  element.style.inlineSize = `${width}px`;
-  element.style.blockSize = `${height}px`;
 }

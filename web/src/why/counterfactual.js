@@ -1,10 +1,10 @@
 // @ts-check
 /** What would have been, from the service: two runs from one tick on, as worlds to be shown in step. */
 
-import { moveName } from "../road/hitTest.js";
 import { askJson } from "../core/http.js";
 import { sessionPath } from "../core/protocol.js";
-import { counted } from "../core/words.js";
+import { t } from "../core/texts.js";
+import { moveName } from "../core/words.js";
 import { worldAfter, worldOf } from "../road/world.js";
 
 /** @import { Otherwise } from "./alternatives.js" */
@@ -12,13 +12,14 @@ import { worldAfter, worldOf } from "../road/world.js";
 /** @import { World } from "../road/world.js" */
 
 /** @typedef {{world: World, decision: Decision | null}} Frame  a world, and the decision that led to it */
-/** @typedef {{outcome: string, tick: number, driven: number, by_hand: boolean, cause: {kind: string, ids: string[]} | null}} End */
+/** @typedef {{outcome: string, tick: number, driven: number, by_hand: boolean, cause: {kind: string, ids: string[]} | null, text: string}} End  `text`: in a few words */
 /** @typedef {{frames: Frame[], end: End}} Side */
 
 /**
  * @typedef {object} Beside
  * @property {number} tick
  * @property {Move | null} insteadOf  the move that was made, where another is asked about
+ * @property {string} text  what differs, in a sentence or two
  * @property {number} saidSince
  * @property {Side} real
  * @property {Side} changed
@@ -38,6 +39,7 @@ export async function fetchBeside(session, other, http) {
   return {
     tick: told.at_tick,
     insteadOf: told.instead_of,
+    text: told.text,
     saidSince: told.said_since,
     real: { frames: framesOf(told.real), end: told.real.end },
     changed: { frames: framesOf(told.changed), end: told.changed.end },
@@ -60,57 +62,19 @@ function framesOf({ state, ticks }) {
 }
 
 /**
- * How a run ends, in a few words.
- * @param {End} end
- */
-export function endWords({ outcome, driven, tick, cause, by_hand }) {
-  const ticks = counted(driven, "tick");
-  if (outcome === "success") return `arrives after ${ticks}`;
-  if (outcome === "crash") return `crashes ${cause ? `into a ${cause.kind} ` : ""}at tick ${tick}`;
-  if (by_hand) return "waits for you to drive";
-  return outcome === "stuck" ? `is stuck after ${ticks}` : "goes on too long to tell";
-}
-
-/**
- * What is otherwise, as the beginning of a sentence.
+ * What is otherwise, as a title.
  * @param {Otherwise} other
- * @param {Beside} found
+ * @param {number | null} [tick]  from which on, where that is known
  */
-export function titleOf(other, found) {
+export function titleOf(other, tick = null) {
   if (other.kind === "change") return other.label;
-  const went = other.move === "stay" ? "waited" : `gone ${moveName(other.move)}`;
-  return `If it had ${went} at tick ${found.tick}`;
+  const move = moveName(other.move);
+  return tick === null ? t("counterfactual.instead", { move }) : t("counterfactual.instead_at", { move, tick });
 }
-
-/**
- * What the difference comes to, in a sentence or two; `ends` stand over the two roads as well.
- * @param {Beside} found
- * @returns {{text: string, ends: string}}
- */
-export function sumOf(found) {
-  const { real, changed, saidSince } = found;
-  const part = partOf(found);
-  const told = [];
-  if (part === null) told.push("It is driven the same way.");
-  else told.push(`At tick ${part.tick} it ${does(part.changed)} instead of ${doing(part.real)}.`);
-  if (real.end.outcome === "success" && changed.end.outcome === "success") {
-    const later = changed.end.driven - real.end.driven;
-    const ticks = counted(Math.abs(later), "tick");
-    told.push(later === 0 ? "It arrives at the same tick." : `It arrives ${ticks} ${later > 0 ? "later" : "earlier"}.`);
-  }
-  if (saidSince > 0) told.push("What was said after that tick is left out of both.");
-  return { text: told.join(" "), ends: `It ${endWords(changed.end)}; in the real run it ${endWords(real.end)}.` };
-}
-
-/** @param {Move} move */
-const does = (move) => (move === "stay" ? "waits" : `goes ${moveName(move)}`);
-
-/** @param {Move} move */
-const doing = (move) => (move === "stay" ? "waiting" : `going ${moveName(move)}`);
 
 /** The short name of the other run. @param {Otherwise} other */
 export function nameOfOther(other) {
-  return other.kind === "change" ? "Otherwise" : `If ${other.move === "stay" ? "it waits" : moveName(other.move)}`;
+  return other.kind === "change" ? t("counterfactual.changed") : t("counterfactual.move", { move: moveName(other.move) });
 }
 
 /**

@@ -1,5 +1,5 @@
 // @ts-check
-/** What would have been beside what was (`beside.js`), fetched when somebody first wants to see it. */
+/** What would have been beside what was (`counterfactualView.js`), fetched when somebody first wants to see it. */
 
 import { onDemand, styled } from "../core/lazy.js";
 
@@ -7,18 +7,21 @@ import { onDemand, styled } from "../core/lazy.js";
 /** @import { Panel } from "../panels/index.js" */
 
 /** @param {HTMLElement} host @param {Page} page @returns {Panel} */
-export function createComparison(host, page) {
+export function createCounterfactual(host, page) {
   /** @type {Panel | null} */ let panel = null;
   const wanted = onDemand(page, async () => {
-    const [{ createBeside }] = await Promise.all([import("./counterfactualView.js"), styled("beside")]);
-    const beside = createBeside(host, page);
-    panel = beside;
-    return beside;
+    const [{ createCounterfactualView }] = await Promise.all([import("./counterfactualView.js"), styled("beside")]);
+    const view = createCounterfactualView(host, page);
+    panel = view;
+    return view;
   });
-  page.pick = (other) => wanted(({ open }) => open(other));
 
   return {
-    update: (state, before) => panel?.update?.(state, before),
+    update(state, before) {
+      const { comparison } = state;
+      if (comparison !== null && comparison !== before.comparison) wanted(({ open }) => open(comparison.other));
+      panel?.update?.(state, before);
+    },
     repaint: () => panel?.repaint?.(),
   };
 }

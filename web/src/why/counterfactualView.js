@@ -5,16 +5,18 @@
  * The service drives both; nothing of the live session is touched. The live road goes on underneath.
  */
 
-import { endWords, fetchBeside, nameOfOther, partOf, sumOf, titleOf } from "./counterfactual.js";
-import { make, setText } from "../ui/dom.js";
-import { capital, moveName } from "../road/hitTest.js";
-import { icon } from "../ui/icons.js";
+import { html, nothing, render } from "../../vendor/lit-html.js";
+import { words } from "../core/http.js";
 import { turns } from "../core/latest.js";
 import { createLoop } from "../core/renderLoop.js";
 import { INITIAL } from "../core/state.js";
+import { capital, t } from "../core/texts.js";
 import { wantsStillness } from "../core/theme.js";
 import { MOVES } from "../core/words.js";
 import { createRoad } from "../road/road.js";
+import { iconOf } from "../ui/icons.js";
+import { find } from "../ui/slot.js";
+import { fetchBeside, nameOfOther, partOf, titleOf } from "./counterfactual.js";
 
 /** @import { Beside, Frame } from "./counterfactual.js" */
 /** @import { Page } from "../main.js" */
@@ -23,222 +25,233 @@ import { createRoad } from "../road/road.js";
 /** @import { Panel } from "../panels/index.js" */
 
 const SIDES = /** @type {const} */ (["real", "changed"]);
-const VERDICTS = /** @type {Record<string, string>} */ ({ crash: "Crash", success: "Arrived", stuck: "Stuck" });
+const VERDICTS = /** @type {Record<string, string>} */ ({ crash: t("verdict.crash"), success: t("verdict.arrived"), stuck: t("verdict.stuck") });
 const TONES = /** @type {Record<string, string>} */ ({ crash: "bad", stuck: "bad", success: "good" });
 
 /** @param {HTMLElement} host @param {Page} page @returns {Panel & {open: (other: Otherwise) => void}} */
-export function createBeside(host, page) {
-  const title = make("h2", { class: "beside-title", id: "beside-title" });
-  const summary = make("p", { class: "beside-summary", role: "status" });
-  const close = make(
-    "button",
-    { class: "button quiet icon", type: "button", "aria-label": "Close the comparison", title: "Close  Esc", onclick: leave },
-    icon("close"),
-  );
-  const play = make("button", { class: "button strong icon", type: "button", onclick: () => run(!playing) });
-  const slider = make("input", {
-    class: "beside-slider",
-    type: "range",
-    min: "0",
-    step: "1",
-    "aria-label": "Tick of both runs",
-    oninput: () => {
-      run(false);
-      go(Number(slider.value));
+export function createCounterfactualView(host, page) {
+  const view = new CounterfactualView(host, page);
+  return {
+    open: (other) => void view.open(other),
+    update({ session }, before) {
+      if (session !== before.session && !host.hidden) view.leave();
     },
-  });
-  const parting = make("span", { class: "beside-parting", "aria-hidden": "true" });
-  const clock = make("output", { class: "beside-tick" });
-  const sides = SIDES.map((key) => {
-    const name = make("span", { class: "beside-name" }, "Real run");
-    const end = make("span", { class: "beside-end" });
-    const road = make("div", { class: "beside-road" });
-    const over = make("p", { class: "beside-verdict", hidden: true });
-    const move = make("p", { class: "beside-move" });
-    road.append(over);
-    const figure = make("figure", { class: "beside-side", "data-side": key }, make("figcaption", {}, name, end), road, move);
-    return { key, figure, name, end, over, move, canvas: createRoad(road), shown: INITIAL };
-  });
-  host.setAttribute("role", "dialog");
-  host.setAttribute("aria-labelledby", "beside-title");
-  host.append(
-    make("header", { class: "beside-head" }, make("div", { class: "beside-words" }, title, summary), close),
-    make("div", { class: "beside-sides" }, ...sides.map(({ figure }) => figure)),
-    make("div", { class: "beside-controls" }, play, make("div", { class: "beside-track" }, parting, slider), clock),
-  );
+    repaint: () => view.repaint(),
+  };
+}
 
-  /** @type {Beside | null} */ let found = null;
-  let at = 0;
-  let last = 0;
-  let playing = false;
-  let timer = 0;
-  const asking = turns();
-  /** @type {Element | null} */ let from = null;
+class CounterfactualView {
+  /** What is imagined otherwise. @type {Otherwise | null} */ other = null;
+  /** Both runs, once they have come. @type {Beside | null} */ found = null;
+  /** Why they have not, in words. */ trouble = "";
+  /** How many ticks after the first are shown. */ at = 0;
+  playing = false;
+  #timer = 0;
+  #asking = turns();
+  /** Where the focus was before. @type {Element | null} */ #from = null;
 
-  const loop = createLoop({
-    update() {},
-    draw(now) {
-      if (found === null) return false;
-      let moving = false;
-      for (const { canvas } of sides) moving = (canvas.draw?.(now) ?? false) || moving;
-      return moving;
-    },
-  });
+  /** @param {HTMLElement} host @param {Page} page */
+  constructor(host, page) {
+    this.host = host;
+    this.page = page;
+    host.setAttribute("role", "dialog");
+    host.setAttribute("aria-labelledby", "beside-title");
+    host.addEventListener("keydown", (event) => this.#onKey(event));
+    this.show();
+    this.roads = SIDES.map((key) => ({ key, road: createRoad(find(host, `[data-side=${key}] .beside-road`)), shown: INITIAL }));
+    this.loop = createLoop({
+      update() {},
+      draw: (now) => this.found !== null && this.roads.reduce((moving, { road }) => (road.draw?.(now) ?? false) || moving, false),
+    });
+    new ResizeObserver(() => !host.hidden && this.repaint()).observe(host);
+  }
+
+  /** The last tick of the longer run, from the first. */
+  get last() {
+    const { found } = this;
+    return found ? Math.max(...SIDES.map((side) => found[side].frames.length)) - 1 : 0;
+  }
 
   /** Only the newest question is answered. @param {Otherwise} other */
-  async function open(other) {
-    const { session } = page.state();
+  async open(other) {
+    const { session } = this.page.state();
     if (session === null) return;
-    const newest = asking();
-    if (host.hidden) from = document.activeElement;
-    show(true);
-    run(false);
-    found = null;
-    host.classList.add("waiting");
-    setText(title, other.kind === "change" ? other.label : `If it had gone ${moveName(other.move)}`);
-    setText(summary, "Driving both to the end …");
-    for (const side of sides) setText(side.end, "");
-    close.focus();
+    const newest = this.#asking();
+    if (this.host.hidden) this.#from = document.activeElement;
+    clearTimeout(this.#timer);
+    Object.assign(this, { other, found: null, trouble: "", at: 0, playing: false });
+    this.#reveal(true);
+    this.show();
+    find(this.host, ".beside-head .button").focus();
     try {
-      const answer = await fetchBeside(session, other);
-      if (!newest() || host.hidden) return;
-      begin(other, answer);
+      const found = await fetchBeside(session, other);
+      if (newest() && !this.host.hidden) this.#begin(found);
     } catch (error) {
       if (!newest()) return;
-      setText(summary, error instanceof Error ? error.message : String(error));
-      host.dataset.trouble = "";
+      this.trouble = words(error);
+      this.show();
     }
   }
 
-  /** @param {Otherwise} other @param {Beside} answer */
-  function begin(other, answer) {
-    found = answer;
-    host.classList.remove("waiting");
-    last = Math.max(...SIDES.map((side) => answer[side].frames.length)) - 1;
-    slider.max = String(last);
-    setText(title, titleOf(other, answer));
-    const { text, ends } = sumOf(answer);
-    summary.replaceChildren(text, make("span", { class: "unseen" }, ` ${ends}`));
-    setText(sides[1].name, nameOfOther(other));
-    for (const side of sides) {
-      const { end } = answer[side.key];
-      setText(side.end, endWords(end));
-      side.end.dataset.tone = TONES[end.outcome] ?? "";
-    }
-    const part = partOf(answer);
-    parting.hidden = part === null || last === 0;
-    if (part) parting.style.insetInlineStart = `${((part.at - 1) / last) * 100}%`;
-    go(0);
+  /** @param {Beside} found */
+  #begin(found) {
+    this.found = found;
+    this.go(0);
     // Who has gone elsewhere while the two were driven is not called back.
-    if (focused()) play.focus();
+    if (this.#isFocused()) find(this.host, ".beside-controls .button").focus();
     // Moving pictures are not forced on those who do not want them: they get the tick where the two part.
-    if (wantsStillness()) go(part?.at ?? last);
-    else run(true);
+    if (wantsStillness()) this.go(partOf(found)?.at ?? this.last);
+    else this.run(true);
+  }
+
+  show() {
+    const { other, found, trouble, at, last, playing } = this;
+    this.host.classList.toggle("waiting", found === null && trouble === "");
+    this.host.toggleAttribute("data-trouble", trouble !== "");
+    const hands = {
+      leave: () => this.leave(),
+      toggle: () => this.run(!this.playing),
+      slide: (/** @type {{target: HTMLInputElement}} */ { target }) => this.step(Number(target.value) - this.at),
+    };
+    render(template({ other, found, trouble, at, last, playing }, hands), this.host);
   }
 
   /** Show a tick of both; a run that has ended stays at its end. @param {number} index */
-  function go(index) {
-    if (found === null) return;
-    at = Math.max(0, Math.min(last, index));
-    slider.value = String(at);
-    const tick = found.tick + at;
-    setText(clock, `tick ${tick}`);
-    slider.setAttribute("aria-valuetext", `tick ${tick}`);
-    for (const side of sides) {
-      const { frames } = found[side.key];
-      const frame = frames[Math.min(at, frames.length - 1)];
-      side.canvas.update?.(/** @type {State} */ ({ ...INITIAL, world: frame.world, decision: frame.decision }), side.shown);
-      side.shown = { ...INITIAL, world: frame.world };
-      describe(side, frame, at >= frames.length - 1);
+  go(index) {
+    if (this.found === null) return;
+    this.at = Math.max(0, Math.min(this.last, index));
+    this.show();
+    for (const side of this.roads) {
+      const { world, decision } = frameAt(this.found[side.key].frames, this.at);
+      const next = /** @type {State} */ ({ ...INITIAL, world, decision });
+      side.road.update?.(next, side.shown);
+      side.shown = next;
     }
-    loop.wake();
-  }
-
-  /** @param {typeof sides[number]} side @param {Frame} frame @param {boolean} ended */
-  function describe({ over, move }, { world, decision }, ended) {
-    const verdict = ended ? VERDICTS[world.status] : undefined;
-    over.hidden = verdict === undefined;
-    over.dataset.tone = TONES[world.status] ?? "";
-    setText(over, verdict ?? "");
-    const made = decision && MOVES[decision.move];
-    setText(move, made ? `${made.arrow} ${capital(made.name)}` : "");
+    this.loop.wake();
   }
 
   /** @param {boolean} on */
-  function run(on) {
-    clearTimeout(timer);
-    playing = on && found !== null;
-    if (playing && at >= last) go(0);
-    play.replaceChildren(icon(playing ? "pause" : "play"));
-    play.setAttribute("aria-label", playing ? "Pause both" : "Play both");
-    play.title = `${playing ? "Pause" : "Play"}  Space`;
-    if (playing) timer = setTimeout(onward, stepMs());
+  run(on) {
+    clearTimeout(this.#timer);
+    this.playing = on && this.found !== null;
+    if (this.playing && this.at >= this.last) this.go(0);
+    this.show();
+    if (this.playing) this.#timer = setTimeout(() => this.#onward(), this.#stepMs());
   }
 
-  function onward() {
-    go(at + 1);
-    if (at >= last) run(false);
-    else timer = setTimeout(onward, stepMs());
+  #onward() {
+    this.go(this.at + 1);
+    if (this.at >= this.last) this.run(false);
+    else this.#timer = setTimeout(() => this.#onward(), this.#stepMs());
   }
 
-  function stepMs() {
-    return (found?.real.frames[0].world.stepS ?? 0.5) * 1000;
+  #stepMs() {
+    return (this.found?.real.frames[0].world.stepS ?? 0.5) * 1000;
+  }
+
+  /** @param {number} by */
+  step(by) {
+    this.run(false);
+    this.go(this.at + by);
   }
 
   /** @param {boolean} on */
-  function show(on) {
-    host.hidden = !on;
-    host.parentElement?.classList.toggle("comparing", on);
-    delete host.dataset.trouble;
-    if (on) for (const { canvas } of sides) canvas.repaint?.();
+  #reveal(on) {
+    this.host.hidden = !on;
+    this.host.parentElement?.classList.toggle("comparing", on);
+    if (on) this.repaint();
+  }
+
+  repaint() {
+    for (const { road } of this.roads) road.repaint?.();
+    this.loop.wake();
   }
 
   /** Whether the focus is here, or nowhere else. */
-  const focused = () => document.activeElement === document.body || host.contains(document.activeElement);
-
-  function leave() {
-    asking();
-    const inside = focused();
-    run(false);
-    found = null;
-    show(false);
-    if (inside && from instanceof HTMLElement && from.isConnected) from.focus({ preventScroll: true });
+  #isFocused() {
+    return document.activeElement === document.body || this.host.contains(document.activeElement);
   }
 
-  host.addEventListener("keydown", (event) => {
+  leave() {
+    this.#asking();
+    const focused = this.#isFocused();
+    this.run(false);
+    this.found = null;
+    this.#reveal(false);
+    const from = this.#from;
+    if (focused && from instanceof HTMLElement && from.isConnected) from.focus({ preventScroll: true });
+  }
+
+  /** @param {KeyboardEvent} event */
+  #onKey(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const onButton = event.target instanceof HTMLButtonElement;
-    if (event.key === "Escape") leave();
-    else if (event.key === " " && !onButton) run(!playing);
-    else if (event.key === "ArrowRight") step(1);
-    else if (event.key === "ArrowLeft") step(-1);
-    else if (event.key === "Home") step(-Infinity);
-    else if (event.key === "End") step(Infinity);
+    if (event.key === "Escape") this.leave();
+    else if (event.key === " " && !onButton) this.run(!this.playing);
+    else if (event.key === "ArrowRight") this.step(1);
+    else if (event.key === "ArrowLeft") this.step(-1);
+    else if (event.key === "Home") this.step(-Infinity);
+    else if (event.key === "End") this.step(Infinity);
     else if (event.key !== "Enter" && event.key !== " ") return;
     event.stopPropagation();
     if (!(onButton && (event.key === " " || event.key === "Enter"))) event.preventDefault();
-  });
-
-  /** @param {number} by */
-  function step(by) {
-    run(false);
-    go(at + by);
   }
+}
 
-  new ResizeObserver(() => {
-    if (host.hidden) return;
-    for (const { canvas } of sides) canvas.repaint?.();
-    loop.wake();
-  }).observe(host);
+/** @param {Frame[]} frames @param {number} at */
+function frameAt(frames, at) {
+  return frames[Math.min(at, frames.length - 1)];
+}
 
-  return {
-    open: (other) => void open(other),
-    update({ session }, before) {
-      if (session !== before.session && !host.hidden) leave();
-    },
-    repaint() {
-      for (const { canvas } of sides) canvas.repaint?.();
-      loop.wake();
-    },
-  };
+/** @typedef {{other: Otherwise | null, found: Beside | null, trouble: string, at: number, last: number, playing: boolean}} Shown */
+/** @typedef {{leave: () => void, toggle: () => void, slide: (event: {target: HTMLInputElement}) => void}} Hands */
+
+/** @param {Shown} shown @param {Hands} hands */
+function template(shown, hands) {
+  const { other, found, trouble } = shown;
+  const summary = trouble || (found ? found.text : t("counterfactual.waiting"));
+  return html`<header class="beside-head">
+      <div class="beside-words">
+        <h2 class="beside-title" id="beside-title">${other ? titleOf(other, found?.tick) : ""}</h2>
+        <p class="beside-summary" role="status">${summary}${found ? html`<span class="unseen"> ${endsText(found, other)}</span>` : nothing}</p>
+      </div>
+      <button class="button quiet icon" type="button" aria-label=${t("counterfactual.close")} title="${t("page.close")}  Esc" @click=${hands.leave}>${iconOf("close")}</button>
+    </header>
+    <div class="beside-sides">${SIDES.map((key) => side(key, shown))}</div>
+    ${controls(shown, hands)}`;
+}
+
+/** How each of the two ends. @param {Beside} found @param {Otherwise | null} other */
+function endsText({ real, changed }, other) {
+  return `${other ? nameOfOther(other) : ""}: ${changed.end.text}. ${t("counterfactual.real")}: ${real.end.text}.`;
+}
+
+/** @param {typeof SIDES[number]} key @param {Shown} shown */
+function side(key, { other, found, at }) {
+  const name = key === "changed" && other && found ? nameOfOther(other) : t("counterfactual.real");
+  const { frames, end } = found?.[key] ?? { frames: [], end: null };
+  const frame = found && frameAt(frames, at);
+  const verdict = frame && at >= frames.length - 1 ? VERDICTS[frame.world.status] : undefined;
+  const move = frame?.decision && MOVES[frame.decision.move];
+  return html`<figure class="beside-side" data-side=${key}>
+    <figcaption><span class="beside-name">${name}</span><span class="beside-end" data-tone=${TONES[end?.outcome ?? ""] ?? ""}>${end?.text ?? ""}</span></figcaption>
+    <div class="beside-road"><p class="beside-verdict" data-tone=${TONES[frame?.world.status ?? ""] ?? ""} ?hidden=${verdict === undefined}>${verdict ?? ""}</p></div>
+    <p class="beside-move">${move ? `${move.arrow} ${capital(move.name)}` : ""}</p>
+  </figure>`;
+}
+
+/** @param {Shown} shown @param {Hands} hands */
+function controls({ found, at, last, playing }, { toggle, slide }) {
+  const part = found && partOf(found);
+  const tick = t("counterfactual.tick", { tick: (found?.tick ?? 0) + at });
+  return html`<div class="beside-controls">
+    <button class="button strong icon" type="button" aria-label=${t(playing ? "counterfactual.pause" : "counterfactual.play")} title="${t(playing ? "clock.pause" : "clock.play")}  ${t("clock.space")}" @click=${toggle}>
+      ${iconOf(playing ? "pause" : "play")}
+    </button>
+    <div class="beside-track">
+      <span class="beside-parting" aria-hidden="true" ?hidden=${!part || last === 0} .style=${part && last > 0 ? `inset-inline-start: ${((part.at - 1) / last) * 100}%` : ""}></span>
+      <input class="beside-slider" type="range" min="0" step="1" max=${last} aria-label=${t("counterfactual.slider")} aria-valuetext=${tick} .value=${String(at)} @input=${slide} />
+    </div>
+    <output class="beside-tick">${found ? tick : ""}</output>
+  </div>`;
 }

@@ -33,17 +33,23 @@ export function pointedAt(page, { target: over, clientX: x, clientY: y }) {
 
 /** The decision that a line of the log tells. @param {HTMLElement} row @returns {Target | null} */
 function decisionOf(row) {
-  const tick = Number.parseInt(row.querySelector(".log-tick")?.textContent ?? "", 10);
-  return row.dataset.type !== "tick" || Number.isNaN(tick) ? null : { kind: "decision", tick, frame: row };
+  const { type, tick } = row.dataset;
+  return type !== "tick" || tick === undefined ? null : { kind: "decision", tick: Number(tick), frame: row };
 }
 
 /** @param {Page} page @param {Card} card @param {HTMLElement} log */
 export function watchPointing(page, card, log) {
+  watchPointer(page, card);
+  watchLog(page, card, log);
+}
+
+/** What the pointer rests on. @param {Page} page @param {Card} card */
+function watchPointer(page, card) {
   let rest = 0;
 
   addEventListener("pointermove", (event) => {
     clearTimeout(rest);
-    if (event.pointerType === "touch" || event.buttons !== 0 || card.pinned()) return;
+    if (event.pointerType === "touch" || event.buttons !== 0 || card.pinned() || document.querySelector(".menu-list:popover-open")) return;
     if (event.target instanceof Element && event.target.closest("#bubble")) return card.stay();
     const next = pointedAt(page, event);
     const shown = card.target();
@@ -59,7 +65,10 @@ export function watchPointing(page, card, log) {
     card.leave();
   });
 
-  // The lines of the log by keyboard: from line to line with the arrows, into the bubble with Enter.
+}
+
+/** The lines of the log by keyboard: from line to line with the arrows, into the bubble with Enter. @param {Page} page @param {Card} card @param {HTMLElement} log */
+function watchLog(page, card, log) {
   log.addEventListener("keydown", (event) => {
     if (!(event.target instanceof HTMLElement) || event.target instanceof HTMLButtonElement) return;
     const rows = /** @type {HTMLElement[]} */ ([...log.querySelectorAll('.log-line[data-type="tick"]')]);
@@ -73,8 +82,9 @@ export function watchPointing(page, card, log) {
     event.preventDefault();
     event.stopPropagation();
   });
-  log.addEventListener("focusin", ({ target: row }) => {
+  log.addEventListener("focusin", ({ target: row, relatedTarget: from }) => {
     if (!(row instanceof HTMLElement) || !row.matches(".log-line:focus-visible")) return;
+    if (from instanceof Element && from.closest("#bubble")) return; // which was just sent away
     const next = decisionOf(row);
     if (next) card.show(next);
   });

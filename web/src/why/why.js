@@ -1,10 +1,14 @@
 // @ts-check
 /** What is told of a cell, a thing or a past decision, and what can be done about it. Pure. */
 
+import { t } from "../core/texts.js";
+import { moveName } from "../core/words.js";
 import { hindrance, placing, removing, TOOLS } from "../road/edit.js";
-import { decidedAbout, decidedOn, headingWords, moveName, nameOf, placeWords, thingIn } from "../road/hitTest.js";
-import { labelOf } from "./alternatives.js";
+import { same, thingIn } from "../road/hitTest.js";
+import { headingWords, nameOf, nounOf, placeWords } from "../road/placeTexts.js";
 import { egoOf } from "../road/world.js";
+import { labelOf } from "./alternatives.js";
+import { optionLine } from "./moveOptions.js";
 
 /** @import { Otherwise } from "./alternatives.js" */
 /** @import { Action, Cell, Decision, Option } from "../core/protocol.js" */
@@ -62,25 +66,25 @@ export function thingOf(world, { cell, id }) {
  */
 function ofThing(world, thing, decision, past) {
   const { id, kind } = thing;
-  const part = decidedAbout(decision, id);
+  const part = linesAbout(decision, id);
   const change = removing(thing);
   return {
     kind,
-    title: nameOf(thing).replace(/^an? /, ""),
+    title: nounOf(thing),
     note: id,
     lines: [
       [placeWords(world, thing.cell), metres(world, thing.cell), headingWords(thing)].filter(Boolean).join(" · "),
-      part ?? "It had no part in the latest decision.",
+      ...(part.length > 0 ? part : [t("bubble.no_part")]),
     ],
     moves: [],
     offers: [
-      ...(decision && part ? [asking("Ask why", decision)] : []),
+      ...(decision && part.length > 0 ? [asking(t("bubble.ask_why"), decision)] : []),
       {
-        text: "What if it weren't there?",
-        ...(past ? {} : { act: { actions: [{ do: "ask", about: "what_if", change }], label: `What if ${id} weren't there?` } }),
+        text: t("bubble.what_if_gone"),
+        ...(past ? {} : { act: { actions: [{ do: "ask", about: "what_if", change }], label: t("ask.what_if_gone", { id }) } }),
         pick: { kind: "change", tick: past ? world.tick : null, actions: change, label: labelOf(change) },
       },
-      ...(past ? [] : [{ text: "Remove", act: { actions: change, label: `Remove ${id}`, quiet: true } }]),
+      ...(past ? [] : [{ text: t("bubble.remove"), act: { actions: change, label: t("edit.remove", { id }), quiet: true } }]),
     ],
   };
 }
@@ -96,44 +100,41 @@ function ofThing(world, thing, decision, past) {
 function ofEgo(world, ego, decision, narration, past) {
   return {
     kind: "av",
-    title: world.mode === "manual" ? "the vehicle you drive" : nameOf(ego),
+    title: world.mode === "manual" ? t("bubble.manual") : nameOf(ego),
     note: ego.id,
-    lines: [placeWords(world, ego.cell), decision?.narration ?? narration ?? "It has not decided anything yet."],
+    lines: [placeWords(world, ego.cell), decision?.narration ?? narration ?? t("bubble.undecided")],
     moves: rejected(decision),
-    offers: [
-      ...(decision ? [asking("Ask why", decision)] : []),
-      ...(past ? [] : [steering(world)]),
-    ],
+    offers: [...(decision ? [asking(t("bubble.ask_why"), decision)] : []), ...(past ? [] : [steering(world)])],
   };
 }
 
 /** Who drives. @param {World} world @returns {Offer} */
 function steering({ mode }) {
-  return mode === "manual"
-    ? { text: "Let it drive itself", act: { actions: [{ do: "mode", mode: "auto" }], label: "Let it drive itself", quiet: true } }
-    : { text: "Drive by hand", act: { actions: [{ do: "mode", mode: "manual" }], label: "Drive by hand", quiet: true } };
+  const next = mode === "manual" ? "auto" : "manual";
+  const text = t(`drive.${next}`);
+  return { text, act: { actions: [{ do: "mode", mode: next }], label: text, quiet: true } };
 }
 
 /** @param {World} world @param {Cell} cell @param {Decision | null} decision @param {boolean} past @returns {Told} */
 function ofFree(world, cell, decision, past) {
-  const on = decidedOn(decision, cell);
+  const option = optionTo(decision, cell);
   /** @type {Offer[]} */
   const offers = [];
-  if (decision && on && !on.taken) {
-    const { move } = on.option;
-    offers.push({ text: "What if it had gone here?", pick: { kind: "move", tick: decision.tick, move } });
-    offers.push(asking("Ask why not", decision, move));
+  if (decision && option && option.move !== decision.move) {
+    const { move } = option;
+    offers.push({ text: t("bubble.what_if_here"), pick: { kind: "move", tick: decision.tick, move } });
+    offers.push(asking(t("bubble.ask_why_not"), decision, move));
   }
-  for (const { kind, name } of TOOLS) {
+  for (const { kind } of TOOLS) {
     if (past || hindrance(world, kind, cell) !== null) continue;
-    const label = `Put a ${name.toLowerCase()} here`;
-    offers.push({ text: name, small: true, act: { actions: placing(kind, cell), label, quiet: true } });
+    const label = t("edit.put_here", { thing: nameOf({ kind }) });
+    offers.push({ text: nounOf({ kind }), small: true, act: { actions: placing(kind, cell), label, quiet: true } });
   }
   return {
     kind: "free",
-    title: "free road",
+    title: t("bubble.free"),
     note: "",
-    lines: [[placeWords(world, cell), metres(world, cell)].filter(Boolean).join(" · "), ...(on ? [on.text] : [])],
+    lines: [[placeWords(world, cell), metres(world, cell)].filter(Boolean).join(" · "), ...(option ? [optionLine(option)] : [])],
     moves: [],
     offers,
   };
@@ -143,17 +144,18 @@ function ofFree(world, cell, decision, past) {
 function ofDecision(tick, decision) {
   return {
     kind: "decision",
-    title: decision ? moveName(decision.move) : "decision",
-    note: `tick ${tick}`,
+    title: decision ? moveName(decision.move) : t("bubble.decision"),
+    note: t("bubble.tick", { tick }),
     lines: [decision?.narration ?? "…"],
     moves: rejected(decision),
-    offers: decision ? [asking("Ask why", decision)] : [],
+    offers: decision ? [asking(t("bubble.ask_why"), decision)] : [],
   };
 }
 
 /** @param {string} text @param {Decision} decision @param {Option["move"]} [not]  the move that was not made @returns {Offer} */
 function asking(text, { tick, move }, not) {
-  const label = not ? `Why not ${moveName(not)} at tick ${tick}?` : `Why ${moveName(move)} at tick ${tick}?`;
+  const label = t(not ? "ask.why_not" : "ask.why", { move: moveName(not ?? move), tick });
+  /** @type {Action} */
   const question = not ? { do: "ask", about: "why_not", tick, move: not } : { do: "ask", about: "why", tick };
   return { text, act: { actions: [question], label } };
 }
@@ -163,9 +165,22 @@ function rejected(decision) {
   return (decision?.options ?? []).filter(({ move, cell }) => cell && move !== decision?.move);
 }
 
+/** What the latest decision made of a thing: its narration, and each move that the thing ruled out. @param {Decision | null} decision @param {string} id */
+export function linesAbout(decision, id) {
+  if (decision === null) return [];
+  const ruled = (decision.options ?? []).filter(({ causes }) => causes?.includes(id));
+  if (ruled.length === 0 && !decision.causes?.includes(id)) return [];
+  return [...ruled.map(optionLine), ...(decision.narration ? [decision.narration] : [])];
+}
+
+/** The move that leads to a cell. @param {Decision | null} decision @param {Cell} cell */
+export function optionTo(decision, cell) {
+  return decision?.options?.find((each) => same(cell, each.cell)) ?? null;
+}
+
 /** @param {World} world @param {Cell} cell */
 function metres(world, cell) {
   const ego = egoOf(world);
   const cells = ego ? Math.max(Math.abs(cell[0] - ego.cell[0]), Math.abs(cell[1] - ego.cell[1])) : 0;
-  return cells === 0 ? "" : `${cells * 5} m`;
+  return cells === 0 ? "" : t("units.metres", { value: cells * 5 });
 }

@@ -47,7 +47,7 @@ export function drawPlan(pen, side, { world, centre, next, ways, pointed }, pale
     if (thing.kind === "av") continue;
     const to = next[thing.id];
     const moves = to && (to[0] !== thing.cell[0] || to[1] !== thing.cell[1]);
-    if (moves && near(to)) expected(pen, spot(thing.cell), spot(to), cell, palette.kinds[thing.kind] ?? palette.danger);
+    if (moves && near(to)) expected(pen, spot(to), cell, palette.kinds[thing.kind] ?? palette.danger);
   }
   for (const thing of world.things.values()) {
     if (near(thing.cell)) drawGlyph(pen, thing, ...spot(thing.cell), cell, palette);
@@ -113,12 +113,11 @@ function cross(pen, x, y, cell, palette) {
 /**
  * Where a mover is about to be.
  * @param {Pen} pen
- * @param {[number, number]} from
  * @param {[number, number]} to
  * @param {number} cell
  * @param {string} colour
  */
-function expected(pen, from, to, cell, colour) {
+function expected(pen, to, cell, colour) {
   pen.save();
   pen.strokeStyle = colour;
   pen.globalAlpha = 0.8;

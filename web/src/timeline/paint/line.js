@@ -1,12 +1,12 @@
 // @ts-check
 /**
- * A run as a line: a band with its waits and detours, marks above it, figures beneath it.
+ * A run as a line: a band with its waits and detours, symbols of events above it, figures beneath it.
  *
  * Many ticks may share a pixel: a bar then tells by its strength how many of them it stands for, and of
- * marks that share a place the loudest is drawn. In CSS pixels; no state, no network.
+ * events that share a place the most important is drawn. In CSS pixels; no state, no network.
  */
 
-/** @import { Kind, Mark } from "../runChart.js" */
+/** @import { Kind, TimelineEvent } from "../timelineState.js" */
 
 /**
  * @typedef {object} Line
@@ -15,8 +15,7 @@
  * @property {number} now
  * @property {number | null} at  the tick looked at
  * @property {number | null} over  the tick pointed at
- * @property {Mark[]} marks  by tick, loud and quiet
- * @property {(tick: number) => boolean} known
+ * @property {TimelineEvent[]} events  by tick
  */
 
 /**
@@ -34,11 +33,11 @@
 
 export const HEIGHT = 46;
 const EDGE = 7;
-const MARKS_Y = 9;
+const EVENTS_Y = 9;
 const BAND = { top: 18, height: 12 };
 const FIGURES_Y = 43;
 const SYMBOL = 11;
-/** What has a symbol, the loudest first. @type {Kind[]} */
+/** What has a symbol, the most important first. @type {Kind[]} */
 const SHOWN = ["crash", "stuck", "fork", "command", "success"];
 
 /** Where a tick is. @param {{width: number, span: number}} line @param {number} tick */
@@ -57,7 +56,7 @@ export function drawLine(pen, line, inks) {
   drawBand(pen, line, inks);
   drawSpans(pen, line, inks);
   drawFigures(pen, line, inks);
-  drawMarks(pen, line, inks);
+  drawEvents(pen, line, inks);
   if (line.over !== null) {
     pen.fillStyle = inks.text;
     pen.fillRect(Math.round(xOf(line, line.over)), BAND.top - 3, 1, BAND.height + 6);
@@ -77,7 +76,7 @@ function drawBand(pen, line, inks) {
   pen.fill();
   pen.fillStyle = inks.surface;
   let last = -Infinity;
-  for (const { kind, tick } of line.marks) {
+  for (const { kind, tick } of line.events) {
     const x = Math.round(xOf(line, tick));
     if (kind !== "episode" || tick === 0 || x - last < 4) continue;
     pen.fillRect(x - 1, BAND.top, 2, BAND.height);
@@ -88,7 +87,7 @@ function drawBand(pen, line, inks) {
 /** Waits as high bars, detours as low ones, near misses as dots. @param {CanvasRenderingContext2D} pen @param {Line} line @param {Inks} inks */
 function drawSpans(pen, line, inks) {
   const scale = (line.width - 2 * EDGE) / line.span;
-  for (const { kind, tick, ticks = 1 } of line.marks) {
+  for (const { kind, tick, ticks = 1 } of line.events) {
     if (kind !== "wait" && kind !== "detour") continue;
     const tall = kind === "wait";
     pen.fillStyle = tall ? inks.warn : inks.accent;
@@ -99,7 +98,7 @@ function drawSpans(pen, line, inks) {
   pen.globalAlpha = Math.max(0.35, Math.min(1, scale * 2));
   pen.fillStyle = inks.danger;
   let last = -Infinity;
-  for (const { kind, tick } of line.marks) {
+  for (const { kind, tick } of line.events) {
     const x = xOf(line, tick);
     if (kind !== "near_miss" || x - last < 3) continue;
     pen.beginPath();
@@ -125,12 +124,12 @@ function drawFigures(pen, line, inks) {
 }
 
 /** @param {CanvasRenderingContext2D} pen @param {Line} line @param {Inks} inks */
-function drawMarks(pen, line, inks) {
+function drawEvents(pen, line, inks) {
   const placed = /** @type {number[]} */ ([]);
   for (const sort of SHOWN) {
     // Where all went well again and again, a few ticks say so; what stands alone is always seen.
     const room = sort === "success" ? SYMBOL * 2.5 : SYMBOL;
-    for (const { kind, tick } of line.marks) {
+    for (const { kind, tick } of line.events) {
       const x = xOf(line, tick);
       if (kind !== sort || placed.some((there) => Math.abs(there - x) < room)) continue;
       placed.push(x);
@@ -142,7 +141,7 @@ function drawMarks(pen, line, inks) {
 /** @param {CanvasRenderingContext2D} pen @param {number} x @param {Line} line @param {() => void} draw */
 function drawAt(pen, x, line, draw) {
   pen.save();
-  pen.translate(Math.max(EDGE, Math.min(line.width - EDGE, x)), MARKS_Y);
+  pen.translate(Math.max(EDGE, Math.min(line.width - EDGE, x)), EVENTS_Y);
   draw();
   pen.restore();
 }

@@ -1,0 +1,54 @@
+"""Access to a route of the API: the API key, cross-site GETs, and the rate of changes.
+
+Pages, documentation and health checks are plain routes and open to all; they tell nothing of any session.
+Host and origin are checked before, for every path, by `service.http.middleware`.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from starlette.types import Scope
+
+from service.http.headers import first_header
+from service.http.middleware.cross_site import READING
+from service.problems import CrossSite, Unauthorized
+from service.security.cross_site import is_cross_site, same_site
+from service.security.guard import Guard, client_of
+
+_GETTING = frozenset(("GET", "HEAD"))
+
+
+def check_access(scope: Scope, guard: Guard) -> None:
+    """Raises `CrossSite`, `Unauthorized` or `RateLimited`; counts a change."""
+    method = scope["method"]
+    if method in _GETTING:
+        _check_cross_site_get(scope)
+    if not guard.key.admits(first_header(scope, b"authorization")):
+        raise Unauthorized
+    if method not in READING:
+        guard.count_change(client_of(scope))
+
+
+def _check_cross_site_get(scope: Scope) -> None:
+    """Refuses GETs of another site's page, which could not read the answer but have it made; many are costly.
+
+    Scripts send neither header.
+    """
+    if is_cross_site(first_header(scope, b"sec-fetch-site")) or not same_site(
+        first_header(scope, b"origin"), first_header(scope, b"host")
+    ):
+        raise CrossSite("Only this service's own page may ask this, or no page at all.")
+
+
+def document(method: str, guarded: bool, operation: dict[str, Any], add_problems: Any) -> None:
+    """Adds access control to the documentation of a call; `guarded` is whether its route checks access."""
+    slugs = ["foreign-host"]
+    if guarded:
+        slugs.append("key-needed")
+        operation["security"] = [{"key": []}, {}]
+    if method != "get" or guarded:
+        slugs.append("cross-site")
+    if method != "get":
+        slugs.append("too-many-changes")
+    add_problems(operation, *slugs)

@@ -1,0 +1,158 @@
+"""Metrics of one service for Prometheus: how late ticks are, how long commands and the store take, refusals.
+
+Nothing is counted by session or by client, so the number of lines stays what it is.
+`service.http.routes.metrics` is the route.
+"""
+
+from __future__ import annotations
+
+import inspect
+import time
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, Literal, cast
+
+from prometheus_client import CollectorRegistry, Counter, Gauge, Histogram, disable_created_metrics
+from prometheus_client.core import CounterMetricFamily, Metric
+
+from service.problems import KINDS
+from service.server_timing import PARTS, Part, told_to
+from service.sessions.manager import SessionManager
+from service.sessions.persistence.snapshot_scheduler import SNAPSHOT_RESULTS
+from service.store import Store
+
+LATENESS_S = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.25, 0.5, 1.0)
+COMMAND_S = (0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1.0, 2.5)
+STORE_S = (0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.5, 1.0, 5.0)
+"""Bounds of the buckets, in seconds."""
+
+Channel = Literal["rest", "socket"]
+CHANNELS: tuple[Channel, ...] = ("rest", "socket")
+
+_SLUGS = frozenset(kind.slug for kind in KINDS)
+
+disable_created_metrics()  # a second series for each, of no use here
+
+
+class CommandTimer:
+    """Times one command and its parts, from entering to leaving."""
+
+    __slots__ = ("_began", "_observe", "_parts")
+
+    def __init__(self, observe: Callable[[float], None], parts: Callable[[Part, float], None]) -> None:
+        self._observe = observe
+        self._parts = told_to(parts)
+
+    def __enter__(self) -> None:
+        self._began = time.perf_counter()
+        self._parts.__enter__()
+
+    def __exit__(self, *_: object) -> None:
+        self._parts.__exit__()
+        self._observe(time.perf_counter() - self._began)
+
+
+class Metrics:
+    """The metrics of one service."""
+
+    def __init__(self) -> None:
+        self.registry = registry = CollectorRegistry()
+        self._sessions = Gauge("roadtalk_sessions", "Live sessions", registry=registry)
+        self._sleeping = Gauge(
+            "roadtalk_sleeping_sessions",
+            "Sessions kept and not live, which wake when asked for",
+            registry=registry,
+        )
+        self._watchers = Gauge(
+            "roadtalk_watchers", "Subscribers: open streams, sockets and events alike", registry=registry
+        )
+        self.lateness = Histogram(
+            "roadtalk_tick_lateness_seconds",
+            "From a tick's deadline to its start",
+            buckets=LATENESS_S,
+            registry=registry,
+        )
+        commands = Histogram(
+            "roadtalk_command_seconds",
+            "From a command to its answer",
+            ("channel",),
+            buckets=COMMAND_S,
+            registry=registry,
+        )
+        parts = Histogram(
+            "roadtalk_command_part_seconds",
+            "Of it: the sentence read, done on a copy, kept",
+            ("channel", "part"),
+            buckets=COMMAND_S,
+            registry=registry,
+        )
+        # Looked up once: finding a child by its labels takes longer than counting.
+        self._commands = {channel: commands.labels(channel).observe for channel in CHANNELS}
+        self._parts = {channel: _observe_parts(parts, channel) for channel in CHANNELS}
+        self.store = Histogram(
+            "roadtalk_store_seconds",
+            "One call to the store, durable when it is done",
+            buckets=STORE_S,
+            registry=registry,
+        )
+        self._snapshots: Callable[[], Mapping[str, int]] = dict
+        registry.register(cast(Any, self))
+        refusals = Counter("roadtalk_refusals", "Problems answered over HTTP", ("kind",), registry=registry)
+        self._refusals = {slug: refusals.labels(slug) for slug in sorted(_SLUGS)}
+
+    def read_from(self, manager: SessionManager) -> None:
+        """Sets where the gauges and the counts of snapshots are read."""
+        self._sessions.set_function(lambda: manager.live_count)
+        self._sleeping.set_function(lambda: manager.evicted_count)
+        self._watchers.set_function(lambda: manager.subscriber_count)
+        self._snapshots = lambda: {fate: manager.snapshots.counts[fate] for fate in SNAPSHOT_RESULTS}
+
+    def command(self, channel: Channel) -> CommandTimer:
+        """Times a command that came by a channel, and its parts."""
+        return CommandTimer(self._commands[channel], self._parts[channel])
+
+    def count_refusal(self, slug: str) -> None:
+        """Counts a problem that is answered."""
+        self._refusals[slug].inc()
+
+    def collect(self) -> Iterator[Metric]:
+        """The counts of snapshots, which their keeper counts itself; called by the registry."""
+        family = CounterMetricFamily(
+            "roadtalk_snapshots", "Snapshots of sessions, by what became of them", labels=["fate"]
+        )
+        for fate, count in self._snapshots().items():
+            family.add_metric([fate], count)
+        yield family
+
+
+def _observe_parts(parts: Histogram, channel: Channel) -> Callable[[Part, float], None]:
+    observe = {part: parts.labels(channel, part).observe for part in PARTS}
+    return lambda part, seconds: observe[part](seconds)
+
+
+class _TimedStore:
+    """A store whose every call is timed; otherwise the store itself."""
+
+    def __init__(self, store: Store, histogram: Histogram) -> None:
+        self._store = store
+        self._histogram = histogram
+
+    def __getattr__(self, name: str) -> Any:
+        found = getattr(self._store, name)
+        if not inspect.iscoroutinefunction(found):
+            return found
+
+        async def call(*args: Any, **named: Any) -> Any:
+            began = time.perf_counter()
+            try:
+                return await found(*args, **named)
+            finally:
+                self._histogram.observe(time.perf_counter() - began)
+
+        # Found without this method from now on.
+        setattr(self, name, call)
+        return call
+
+
+def time_store(store: Store, histogram: Histogram) -> Store:
+    """The same store, with the time of each call observed."""
+    return cast(Store, _TimedStore(store, histogram))

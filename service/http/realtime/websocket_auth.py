@@ -1,0 +1,57 @@
+"""Authentication of a WebSocket: the API key in its headers, or the key or a ticket in its first message.
+
+Pages cannot set the headers of a WebSocket, and a key in its URL would be logged.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from json import JSONDecodeError
+from typing import Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from starlette.websockets import WebSocket
+
+from service.http import json
+from service.http.deps import context_of
+
+AUTH_WAIT_S = 5
+"""How long a WebSocket may wait with its first message."""
+
+REFUSED = 4401
+"""The close code for a WebSocket without a key or a good ticket."""
+
+
+class _Auth(BaseModel):
+    """The first message of a socket where a key is asked for."""
+
+    model_config = ConfigDict(extra="forbid", strict=True)
+
+    type: Literal["auth"]
+    key: str | None = Field(default=None, max_length=1_000)
+    ticket: str | None = Field(default=None, max_length=100)
+
+
+async def authenticate(socket: WebSocket) -> bool:
+    """Whether an accepted WebSocket may go on; if not, it is closed. Reads its first message if need be."""
+    guard = context_of(socket).guard
+    header = socket.headers.get("authorization")
+    if guard.key.admits(header):
+        return True
+    if header is None:
+        try:
+            received = await asyncio.wait_for(socket.receive(), AUTH_WAIT_S)
+        except TimeoutError:
+            received = {"type": "websocket.receive", "text": None}
+        if received["type"] == "websocket.disconnect":
+            return False
+        try:
+            auth = _Auth.model_validate(json.loads(received.get("text") or ""))
+        except (JSONDecodeError, ValidationError):
+            auth = _Auth(type="auth")
+        if auth.ticket is not None and guard.tickets.take(auth.ticket):
+            return True
+        if auth.key is not None and guard.key.right(auth.key):
+            return True
+    await socket.close(REFUSED, "a key or a ticket is needed")
+    return False

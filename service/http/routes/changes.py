@@ -1,0 +1,66 @@
+"""`/sessions/{id}/changes`: every change of the road that stands, with its tick."""
+
+from __future__ import annotations
+
+from itertools import groupby
+from typing import Annotated
+
+from fastapi import Query, Response
+from pydantic import Field
+
+from service import actions as contract
+from service.contract.parts import Answered
+from service.contract.requests import Tick
+from service.http.deps import Here, TheSession
+from service.http.errors import documented
+from service.http.responses import json_response
+from service.http.route import api_router
+from service.problems import Invalid, NotRestorable, NotSaved, UnknownSession
+
+router = api_router("time")
+
+MOST_CHANGES = 1_000
+
+
+class RoadChange(Answered):
+    """Something said or done that changed the road, and still stands."""
+
+    tick: Tick
+    sequence: int
+    text: str = Field(description="As it was said; of typed actions, what says the same.")
+    said: bool = Field(description="Whether it was said, rather than done by typed actions.")
+
+
+class RoadChanges(Answered):
+    """The newest changes that stand, oldest first."""
+
+    items: list[RoadChange]
+    more: bool = Field(description="Whether older ones are left out.")
+
+
+@router.get(
+    "/sessions/{session_id}/changes",
+    response_model=RoadChanges,
+    summary="What was said and stands",
+    responses=documented(UnknownSession, Invalid, NotRestorable, NotSaved),
+)
+async def list_changes(
+    session: TheSession, here: Here, limit: Annotated[int, Query(ge=1, le=MOST_CHANGES)] = 200
+) -> Response:
+    """Every change of the road that was not undone, with its tick: what makes this run what it is.
+
+    Where it differs from what it was, the run is another from that tick on.
+    """
+    entries = list(session.timeline.entries)
+    said = {entry.sequence: entry.text for entry in await here.manager.entries(session)}
+    groups = [list(group) for _, group in groupby(entries, key=lambda each: (each.sequence, each.tick))]
+    items = []
+    for group in groups[-limit:]:
+        sequence, text = group[0].sequence, said.get(group[0].sequence)
+        if text is None:
+            dumped = contract.dump(tuple(entry.action for entry in group))
+            told = here.interpreter.aliases.describe(contract.load(dumped), session.language)
+        else:
+            told = text
+        items.append({"tick": group[0].tick, "sequence": sequence, "text": told, "said": text is not None})
+    return json_response({"items": items, "more": len(groups) > limit})

@@ -1,0 +1,83 @@
+"""`/sessions/{id}/regret`: each decision against the optimum of its own moment."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Any
+
+from anyio import to_thread
+from fastapi import Query, Response
+from pydantic import Field
+
+from service.contract.parts import Answered
+from service.contract.requests import Tick
+from service.http.deps import TheSession
+from service.http.errors import documented
+from service.http.pagination import MAX_INTEGER
+from service.http.responses import json_response
+from service.http.route import api_router
+from service.http.ticks import check_tick
+from service.problems import Invalid, NotRestorable, UnknownSession
+from sim.oracle.regret import regret
+from sim.session.timeline import Timeline
+from sim.types import Move
+
+router = api_router("watching")
+
+MOST_JUDGED = 200
+"""Decisions that are judged at most in one answer, each by a search."""
+
+
+class JudgedDecision(Answered):
+    """A decision against the best that could have been done at its moment."""
+
+    tick: Tick
+    move: Move
+    blocked: int = Field(description="How many of the six moves would have ended badly or off the road.")
+    ticks: int | None = Field(description="Ticks lost; null where the goal is, or was, out of reach.")
+    cost: int | None = Field(description="Cost lost, by the configuration's charges; null as for `ticks`.")
+    lost: bool = Field(description="Whether the goal could be reached before the move, and not after it.")
+
+
+class Judged(Answered):
+    """Decisions in a row, each with its regret."""
+
+    first: Tick = Field(alias="from")
+    now: Tick = Field(description="The session's present tick.")
+    items: list[JudgedDecision] = Field(description="None for ticks at which a result stood.")
+    more: bool
+
+
+@router.get(
+    "/sessions/{session_id}/regret",
+    response_model=Judged,
+    summary="What decisions cost against the best",
+    responses=documented(UnknownSession, Invalid, NotRestorable),
+)
+async def read_regret(
+    session: TheSession,
+    first: Annotated[int, Query(alias="from", ge=0, le=MAX_INTEGER, description="First tick.")] = 0,
+    limit: Annotated[int, Query(ge=1, le=MOST_JUDGED)] = 60,
+) -> Response:
+    """Each decision against the optimum of its own moment, which is searched for here and now."""
+    way = session.timeline.copy()
+    check_tick(first, way.tick, "from")
+    stop = min(way.tick, first + limit)
+    items = await to_thread.run_sync(lambda: list(_judge(way, first, stop)))
+    return json_response({"from": first, "now": way.tick, "items": items, "more": stop < way.tick})
+
+
+def _judge(way: Timeline, first: int, stop: int) -> Iterator[dict[str, Any]]:
+    for run in way.between(first, stop):
+        decision = way.decided(run)
+        if decision is None:
+            continue
+        loss = regret(run, decision.move)
+        yield {
+            "tick": run.world.tick,
+            "move": decision.move,
+            "blocked": sum(option.reason.blocks for option in decision.options),
+            "ticks": loss.ticks,
+            "cost": loss.cost,
+            "lost": loss.lost,
+        }

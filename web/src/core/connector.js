@@ -1,0 +1,83 @@
+// @ts-check
+/** Follows the session that the page's address names: makes one where it names none, and keeps its stream open. */
+
+import { hashOf, placeInHash } from "./address.js";
+import { errorText } from "./http.js";
+import { turns } from "./latest.js";
+import { createSession, findSession, openLink } from "./sessions.js";
+import { Connection } from "./socket.js";
+import { t } from "./texts.js";
+
+/** @import { ClientMessage } from "./protocol.js" */
+/** @import { Event, State } from "./state.js" */
+/** @import { Store } from "./store.js" */
+
+export class Connector {
+  /** @type {Connection | null} */ #connection = null;
+  /** Where to go next: a session that was made for an earlier wish, and comes late, is not gone to. */
+  #going = turns();
+
+  /** @param {Store<State, Event>} store @param {(data: ArrayBuffer) => void} onPicture */
+  constructor(store, onPicture) {
+    this.store = store;
+    this.onPicture = onPicture;
+  }
+
+  /** Go where the address says. */
+  follow() {
+    const place = placeInHash(location.hash);
+    if (place === null) return void this.startSession();
+    if ("carried" in place) return void this.#openCarried(place.carried);
+    if (place.session === this.#connection?.session) return;
+    this.#going();
+    this.#leave(place.session);
+    this.#connection = new Connection(place.session, {
+      page: location,
+      find: findSession,
+      onMessage: this.store.dispatch,
+      onPicture: this.onPicture,
+      onPhase: (phase) => this.store.dispatch({ type: "phase", phase }),
+    });
+    void this.#connection.open();
+  }
+
+  /** Make a session, and go there. */
+  async startSession() {
+    const newest = this.#going();
+    try {
+      const { id } = await createSession();
+      if (newest()) location.hash = hashOf(id);
+    } catch (error) {
+      if (newest()) this.store.dispatch({ type: "trouble", text: errorText(error) });
+    }
+  }
+
+  /** Connect now rather than after the pause. */
+  reconnect() {
+    void this.#connection?.open();
+  }
+
+  /** @param {ClientMessage} message @returns {boolean} whether it was sent */
+  send(message) {
+    return this.#connection?.send(message) ?? false;
+  }
+
+  /** A session out of the address itself; it takes the link's place, so that going back does not make another. @param {string} link */
+  async #openCarried(link) {
+    const newest = this.#going();
+    this.#leave("");
+    try {
+      const { id } = await openLink(link);
+      if (newest()) location.replace(hashOf(id));
+    } catch (error) {
+      if (newest()) this.store.dispatch({ type: "trouble", text: t("page.link_not_opened", { reason: errorText(error) }) });
+    }
+  }
+
+  /** @param {string} id  of the session that comes instead */
+  #leave(id) {
+    this.#connection?.close();
+    this.#connection = null;
+    this.store.dispatch({ type: "session", id });
+  }
+}

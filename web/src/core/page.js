@@ -1,0 +1,78 @@
+// @ts-check
+/** What panels may ask for: to read the state, to dispatch events, to say and do things. */
+
+import { LANGUAGE } from "./texts.js";
+
+/** @import { Act } from "./commands.js" */
+/** @import { Connector } from "./connector.js" */
+/** @import { Action, ClientMessage } from "./protocol.js" */
+/** @import { Event, Highlight, Notice, State } from "./state.js" */
+/** @import { Store } from "./store.js" */
+/** @import { TimeTravel } from "../timeline/timeTravel.js" */
+/** @import { Views } from "../ui/views.js" */
+/** @import { Foresight } from "../why/forecast.js" */
+/** @import { Otherwise } from "../why/alternatives.js" */
+
+/**
+ * @typedef {object} Page
+ * @property {() => State} state  the present, whatever tick is looked at
+ * @property {(event: Event) => void} dispatch
+ * @property {Store<State, Event>["subscribe"]} subscribe
+ * @property {(text: string) => void} say  send a sentence
+ * @property {(text: string) => void} put  let a sentence stand in the box, to be read over and sent
+ * @property {(actions: Action[], label: string, quiet?: boolean) => string} act  send typed actions; quiet ones are
+ *   listed as talk only when they changed something or were refused. Answers the exchange's id
+ * @property {(message: ClientMessage) => void} send  what is neither said nor done
+ * @property {(highlight: Highlight | null) => void} highlight
+ * @property {(foresight: Foresight) => void} foresee  what is about to happen has become known
+ * @property {(views: Views, large?: string | null) => void} arrange  show (true), hide (false), enlarge
+ * @property {(notice: Notice | null) => void} tell  a passing line over the page, read aloud as well
+ * @property {(other: Otherwise) => void} pick  play what would have been beside what was
+ * @property {TimeTravel} looking  which tick is looked at, and the way to others
+ * @property {() => void} startSession
+ * @property {() => void} reconnect  now rather than after the pause
+ * @property {() => Act[]} acts  all that can be done by a key or from the palette
+ * @property {() => void} wake  something is to be drawn anew
+ * @property {(data: ArrayBuffer) => void} [picture]  a picture has come from the service
+ */
+
+/**
+ * @param {Store<State, Event>} store
+ * @param {Connector} connector
+ * @param {{looking: TimeTravel, acts: () => Act[], wake: () => void}} parts
+ * @returns {Page}
+ */
+export function createPage({ state, dispatch, subscribe }, connector, parts) {
+  let exchanges = 0;
+
+  /**
+   * @param {string} label
+   * @param {boolean} quiet
+   * @param {(id: string) => ClientMessage} message
+   */
+  function exchange(label, quiet, message) {
+    exchanges += 1;
+    const id = `c${exchanges}`;
+    dispatch({ type: "said", id, text: label, quiet });
+    if (!connector.send(message(id))) dispatch({ type: "unsent", id });
+    return id;
+  }
+
+  return {
+    state,
+    dispatch,
+    subscribe,
+    say: (text) => void exchange(text, false, (id) => ({ type: "command", id, text, language: LANGUAGE })),
+    put: (text) => dispatch({ type: "draft", text }),
+    act: (actions, label, quiet = false) => exchange(label, quiet, (id) => ({ type: "actions", id, actions })),
+    send: (message) => void connector.send(message),
+    highlight: (highlight) => dispatch({ type: "highlight", highlight }),
+    foresee: (foresight) => dispatch({ type: "foresight", foresight }),
+    arrange: (views, large) => dispatch({ type: "views", views, large }),
+    tell: (notice) => dispatch({ type: "notice", notice }),
+    pick: (other) => dispatch({ type: "comparison", other }),
+    startSession: () => void connector.startSession(),
+    reconnect: () => connector.reconnect(),
+    ...parts,
+  };
+}

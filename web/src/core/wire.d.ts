@@ -1,0 +1,1090 @@
+// Written by `make types-page` from the service's models; a change by hand is lost.
+
+/** Put `count` things of a kind on the road. */
+export interface Add {
+  do: "add";
+  kind: "pothole" | "vehicle" | "barrier" | "pedestrian" | "av";
+  count: number;
+  where?: Where | null;
+}
+
+/** Change a parameter by a factor, by a signed amount, or simply up or down. */
+export interface Adjust {
+  do: "adjust";
+  parameter: "weather" | "time_of_day" | "traffic" | "planner" | "sensor" | "dynamics" | "playback_speed" | "target_speed_kmh" | "step_seconds" | "spawn_probability" | "pothole_probability" | "courtesy" | "attentive" | "sensor_noise" | "detection_sensitivity" | "false_positive_rate" | "sensor_range_m" | "safety_buffer" | "columns" | "rows" | "seed";
+  factor?: number | null;
+  by?: number | null;
+  direction?: "up" | "down" | null;
+}
+
+/** What to do about a hazard ahead, how sure that is, and the physics behind it. */
+export interface Advice {
+  question: string;
+  text: string;
+  source: "typed" | "grammar" | "llm";
+  hazard: Kind;
+  distance_m: number;
+  speed_kmh: number;
+  weather: "clear" | "rain" | "fog" | "snow";
+  recommendation: Choice;
+  /** The chance of coming away unharmed by doing so. */
+  confidence: number;
+  /** 95 % interval */
+  interval: [number, number];
+  options: AdviceOption[];
+  physics: AdvicePhysics;
+  parameters: AdviceQuantity[];
+  samples: number;
+  seed: number;
+}
+
+/** What one choice leads to. */
+export interface AdviceOption {
+  option: Choice;
+  /** Of never reaching the hazard, or too slowly to be harmed. */
+  chance: number;
+  /** 95 % interval */
+  interval: [number, number];
+  /** With every quantity in the middle of its range. */
+  ending: Ending;
+  /** The distance in which it avoids the hazard. */
+  needs_m: number;
+  /** Speed at the hazard; 0: not reached. */
+  meets_kmh: number;
+  /** Mean speed at which harm is done; 0 counts where none is. */
+  harm_kmh: number;
+}
+
+/** The physics, with every quantity in the middle of its range. */
+export interface AdvicePhysics {
+  speed_ms: number;
+  /** Until the hazard is reached if nothing is done. */
+  time_s: number;
+  reaction_s: number;
+  friction: number;
+  deceleration_ms2: number;
+  reaction_m: number;
+  braking_m: number;
+  /** Reaction and braking: v·t + v²/(2·μ·g). */
+  stopping_m: number;
+  /** Enough to stop in 95 % of cases. */
+  stopping_most_m: number;
+  /** How far to move aside. */
+  offset_m: number;
+  lateral_ms2: number;
+  /** To move that far aside: sqrt(2·y/a). */
+  steering_s: number;
+  /** Driven meanwhile, reaction included. */
+  steering_m: number;
+  /** Up to this speed the hazard can be driven over. */
+  unharmed_kmh: number;
+}
+
+/** A number that the advice rests on, and where it is from. */
+export interface AdviceQuantity {
+  name: string;
+  law: "lognormal" | "normal" | "fixed";
+  /** Median, or mean of a normal quantity. */
+  middle: number;
+  /** Standard deviation; of the logarithm, where lognormal. */
+  spread: number;
+  unit: string;
+  source: string;
+}
+
+/** A hazard ahead, as a sentence or in figures. */
+export interface AdviceQuestion {
+  /** As a sentence; then without hazard, distance and speed. */
+  text?: string | null;
+  hazard?: "pothole" | "vehicle" | "barrier" | "pedestrian" | "av" | null;
+  /** From 0.1 to 1,000. */
+  distance_m?: number | null;
+  /** From 1 to 300. */
+  speed_kmh?: number | null;
+  /** Default: clear. */
+  weather?: "clear" | "rain" | "fog" | "snow" | null;
+  /** In which language; `GET /language` names them. */
+  language?: "en" | "de";
+}
+
+/** What to do about a hazard at a distance, at a speed. */
+export interface Advise {
+  do: "advise";
+  hazard: "pothole" | "vehicle" | "barrier" | "pedestrian" | "av";
+  distance_m: number;
+  speed_kmh: number;
+}
+
+/** The answer to a question: facts first, then words made from nothing else. */
+export interface Answer {
+  question: string;
+  about: string;
+  /** Ticks since the session began. */
+  tick: number;
+  text: string;
+  [key: string]: unknown;
+}
+
+/** A question; which keys belong to which `about` is the contract's table. */
+export interface Ask {
+  do: "ask";
+  about: "why" | "why_not" | "what_if" | "next" | "scene" | "status" | "metrics" | "confidence" | "maintenance" | "help";
+  move?: Move | null;
+  tick?: number | null;
+  change?: Action[] | null;
+  kind?: "pothole" | "vehicle" | "barrier" | "pedestrian" | "av" | null;
+  metric?: "crashes" | "successes" | "success_rate" | "steps" | "moves" | "distance" | null;
+}
+
+/** A move that could not be made, and why. */
+export interface BlockedMove {
+  move: Move;
+  reason: string;
+  causes: string[];
+}
+
+/** A decision in few words, as the stream tells it. */
+export interface BriefDecision {
+  /** Ticks since the session began. */
+  tick: number;
+  planner: string;
+  move: Move;
+  reason: string;
+  causes: string[];
+  weight: 0 | 1 | 2;
+  blocked: BlockedMove[];
+}
+
+/** One figure that differs. */
+export interface Change {
+  path: string;
+  before: unknown;
+  after: unknown;
+}
+
+/** The choices, the one of least effort first. */
+export type Choice = "keep" | "brake" | "steer";
+
+/** One reading of an ambiguous sentence. */
+export interface ChoiceModel {
+  text: string;
+  actions: Action[];
+}
+
+/** What was done. */
+export interface CommandResult {
+  /** What was said; null for typed actions. */
+  text: string | null;
+  actions: Action[];
+  changes: Change[];
+  /** What was done, in a sentence or two. */
+  reply: string;
+  /** The answer, if something was asked. */
+  answer: { [key: string]: unknown } | null;
+  /** What understood it: the grammar, or a language model, which interprets. */
+  source: "grammar" | "llm" | "typed";
+  sequence: number;
+  corrections: Correction[];
+  dry_run: boolean;
+}
+
+/** What a patch of the configuration did. */
+export interface ConfigChanged {
+  changes: Change[];
+  /** What was done, in a sentence or two. */
+  reply: string;
+  sequence: number;
+}
+
+/** A word that was read as another. */
+export interface Correction {
+  from: string;
+  to: string;
+}
+
+/** The real run from a tick on, and the other. */
+export interface Counterfactual {
+  /** Ticks since the session began. */
+  at_tick: number;
+  /** The move that was made, where another is asked about. */
+  instead_of: Move | null;
+  /** What differs, in a sentence or two. */
+  text: string;
+  /** Actions said after that tick, left out of both. */
+  said_since: number;
+  real: Side;
+  changed: Side;
+}
+
+/** What a crash was with. Met in one cell (`hit`), passing through one another (`swap`), or cut off on a diagonal (`cross`). */
+export interface CrashCause {
+  kind: Kind;
+  how: "hit" | "swap" | "cross";
+  ids: string[];
+  /** [column, row], row 0 at the goal */
+  cell: [number, number];
+}
+
+/** What was decided in the world of a tick; it leads to the next. */
+export interface Decision {
+  /** Ticks since the session began. */
+  tick: number;
+  planner: string;
+  move: Move;
+  /** What a person driving asked for. */
+  asked: Move | null;
+  options: Option[];
+  narration: string;
+  /** How much there is to say: 0 nothing was in the way, 1 a way round, 2 a wait or worse. */
+  weight: 0 | 1 | 2;
+}
+
+/** Decisions, oldest first. Ticks at which a result stood have none. */
+export interface DecisionPage {
+  items: Decision[];
+  /** Send as `after` for what follows. */
+  after: number;
+  more: boolean;
+}
+
+/** One move by a person, taken at the next tick that has none yet. */
+export interface Drive {
+  do: "drive";
+  move: Move;
+  ego?: string | null;
+}
+
+/** How a run ends, if nothing more is said. */
+export interface End {
+  /** `running` where it is not told to its end. */
+  outcome: Outcome;
+  /** Ticks since the session began. */
+  tick: number;
+  /** Ticks on the road, without those waited for it. */
+  driven: number;
+  waited: number;
+  /** Whether a person drives, who asked for nothing. */
+  by_hand: boolean;
+  cause: CrashCause | null;
+  digest: string;
+  /** The end in a few words. */
+  text: string;
+}
+
+/** The outcome of a choice with every quantity at its median or mean. */
+export type Ending = "stops" | "clears" | "crosses" | "hits";
+
+/** Many episodes, compared. */
+export interface Evaluate {
+  do: "evaluate";
+  runs?: number | null;
+  planners?: ("rules" | "priority" | "astar" | "dijkstra" | "bfs" | "exact" | "dwa" | "rl" | "cooperative")[] | null;
+  scenario?: ScenarioParts | null;
+}
+
+/** Lines of the log, oldest first. */
+export interface EventPage {
+  items: LogEvent[];
+  /** Send as `after` for what follows. */
+  after: number;
+  more: boolean;
+  /** Lines before this number are no longer kept. */
+  first_kept: number;
+}
+
+/** What is expected at a tick: what the vehicle is about to do, and where the movers will be. */
+export interface Expected {
+  /** Ticks since the session began. */
+  tick: number;
+  /** The decision taken at it; null where a result stands. */
+  decision: Decision | null;
+  /** Whether it is sure: false beyond the first tick where others react to the vehicle. */
+  exact: boolean;
+  ahead: ExpectedTick[];
+}
+
+/** Where movers are expected to be at a tick to come. */
+export interface ExpectedTick {
+  /** Ticks since the session began. */
+  tick: number;
+  /** Their cells, by id. */
+  movers: { [key: string]: [number, number] };
+}
+
+/** What is wrong with one field. */
+export interface FieldProblemModel {
+  field: string;
+  message: string;
+}
+
+/** The world in which a planner fares worst. */
+export interface FindWorst {
+  do: "find_worst";
+  runs?: number | null;
+  planner?: "rules" | "priority" | "astar" | "dijkstra" | "bfs" | "exact" | "dwa" | "rl" | "cooperative" | null;
+}
+
+/** A taught phrase means nothing any more. */
+export interface Forget {
+  do: "forget";
+  phrase: string;
+}
+
+/** A pothole or a barrier. */
+export interface Hazard {
+  id: string;
+  kind: "pothole" | "barrier";
+  /** [column, row], row 0 at the goal */
+  cell: [number, number];
+}
+
+/** How the service does. */
+export interface Health {
+  status: "ok";
+  version: string;
+  sessions: number;
+  watchers: number;
+  tick_lateness: Lateness;
+}
+
+/** Hide a view. */
+export interface Hide {
+  do: "hide";
+  view: "road" | "schematic" | "occupancy" | "plan" | "log" | "potholes" | "sensors" | "path" | "metrics";
+}
+
+/** One kind of thing that can be said. */
+export interface IntentGuide {
+  /** The action's `do`; for a question also what it is about. */
+  intent: string;
+  /** Whether this version does it. */
+  available: boolean;
+  why_not: string | null;
+  examples: Saying[];
+}
+
+/** Decisions in a row, each with its regret. */
+export interface Judged {
+  /** Ticks since the session began. */
+  from: number;
+  /** The session's present tick. */
+  now: number;
+  /** None for ticks at which a result stood. */
+  items: JudgedDecision[];
+  more: boolean;
+}
+
+/** A decision against the best that could have been done at its moment. */
+export interface JudgedDecision {
+  /** Ticks since the session began. */
+  tick: number;
+  move: Move;
+  /** How many of the six moves would have ended badly or off the road. */
+  blocked: number;
+  /** Ticks lost; null where the goal is, or was, out of reach. */
+  ticks: number | null;
+  /** Cost lost, by the configuration's charges; null as for `ticks`. */
+  cost: number | null;
+  /** Whether the goal could be reached before the move, and not after it. */
+  lost: boolean;
+}
+
+/** What a thing on the road is. */
+export type Kind = "pothole" | "barrier" | "vehicle" | "pedestrian" | "av";
+
+/** What can be said. */
+export interface LanguageGuide {
+  language: string;
+  languages: string[];
+  prefix: string | null;
+  /** Empty when a prefix was given. */
+  intents: IntentGuide[];
+  /** Empty when a prefix was given. */
+  taught: TaughtPhrase[];
+  /** Whole sentences that begin with the prefix. */
+  completions: string[];
+  /** With a prefix and a session; none for an empty prefix. */
+  preview: Preview | null;
+}
+
+/** How long after their time the latest ticks began. */
+export interface Lateness {
+  ticks: number;
+  p50_ms: number;
+  p99_ms: number;
+  max_ms: number;
+}
+
+/** A session at a tick as a piece of a URL. */
+export interface Link {
+  /** `#/r/...` carries the session, `#/s/...` names it. */
+  link: string;
+  /** Ticks since the session began. */
+  tick: number;
+  /** Whether all is in the link, so that it needs no session kept. */
+  carries: boolean;
+}
+
+/** Go on from what was saved under a name. */
+export interface Load {
+  do: "load";
+  name: string;
+}
+
+/** One line of the log. */
+export interface LogEvent {
+  number: number;
+  /** Ticks since the session began. */
+  tick: number;
+  type: string;
+  text: string;
+  ids: string[];
+  cell: [number, number] | null;
+}
+
+/** Figures over the session's episodes. */
+export interface Metrics {
+  /** Episodes that have ended. */
+  episodes: number;
+  successes: number;
+  crashes: number;
+  stuck: number;
+  success_rate: number | null;
+  steps: number;
+  moves: MoveCounts;
+  distance_m: number;
+  last_episode_ticks: number | null;
+}
+
+/** Who drives the first autonomous vehicle. */
+export type Mode = "auto" | "manual";
+
+/** A world, with the decision that led to it. */
+export interface Moment {
+  state: State;
+  decision: Decision | null;
+}
+
+/** Moments with a name, of all sessions, those named last first. */
+export interface MomentPage {
+  items: SessionMoment[];
+  /** Send as `after` for what follows. */
+  after: string | null;
+  more: boolean;
+}
+
+/** Several ticks in a row. */
+export interface Moments {
+  items: Moment[];
+  /** The session's present tick. */
+  now: number;
+}
+
+/** What an autonomous vehicle may do in one tick. */
+export type Move = "forward" | "left" | "right" | "forward_left" | "forward_right" | "stay";
+
+/** How often each sort of move was made. */
+export interface MoveCounts {
+  forward: number;
+  lateral: number;
+  diagonal: number;
+  stay: number;
+}
+
+/** An obstacle vehicle or a pedestrian. */
+export interface Mover {
+  id: string;
+  kind: "vehicle" | "pedestrian";
+  /** [column, row], row 0 at the goal */
+  cell: [number, number];
+  heading: "left" | "right";
+  /** Held by a pothole. */
+  disabled: boolean;
+}
+
+/** How another session goes on from a tick of this one. */
+export interface NewFork {
+  /** Default: now. */
+  at_tick?: number | null;
+  /** Done there first, together or the fork is not made. */
+  actions?: Action[] | null;
+  name?: string | null;
+  /** Default: as this session is. */
+  paused?: boolean | null;
+}
+
+/** How a session begins. Everything may be left out; without a seed one is drawn and told. */
+export interface NewSession {
+  name?: string | null;
+  /** A sentence that describes a road. */
+  scenario?: string | null;
+  config?: {
+    columns?: number;
+    visible_rows?: number;
+    rows?: number;
+    cell_m?: number;
+    step_seconds?: number;
+    spawn_probability?: number;
+    pothole_probability?: number;
+    potholes?: number | null;
+    vehicles?: number | null;
+    barriers?: number;
+    pedestrians?: number;
+    courtesy?: number;
+    attentive?: number;
+    collision?: "swept" | "cell";
+    repetition?: boolean;
+    reset_delay_s?: number;
+    road?: "highway" | "city" | "rural" | null;
+    layout?: "walls" | "narrows" | "dead_ends" | "crossing" | "maze" | null;
+    traffic?: "none" | "light" | "normal" | "heavy" | null;
+    planner?: string;
+    preferences?: ("avoid_potholes" | "smooth_ride" | "fastest" | "cautious")[];
+    safety_buffer?: number;
+    sensor?: "perfect";
+    dynamics?: "grid";
+    behaviour?: "sideways";
+    rules?: number;
+    solvable?: boolean;
+    seed?: number;
+  } | null;
+  seed?: number | null;
+  planner?: string | null;
+  /** Default: running, or paused when replayed from a recording. */
+  paused?: boolean | null;
+  /** Replay this; alone but for name and paused. */
+  recording?: Recording | null;
+  /** Open this; alone but for name and paused. See `link`. */
+  link?: string | null;
+}
+
+/** Nothing to be said. */
+export type NoFields = { [key: string]: unknown };
+
+/** One move as the planner saw it. */
+export interface Option {
+  move: Move;
+  cell: [number, number] | null;
+  verdict: "free" | "blocked" | "off_road";
+  cost: number | null;
+  reason: string;
+  causes: string[];
+  /** What spoke for or against it, in a few words. */
+  text: string;
+}
+
+/** What is otherwise, and from when: a move or actions, one of the two. */
+export interface Otherwise {
+  /** Default: now; of a move, the latest decision. */
+  at_tick?: number | null;
+  /** Driven whatever it meets; then the planner goes on. */
+  move?: "forward" | "left" | "right" | "forward_left" | "forward_right" | "stay" | null;
+  /** Done there, together or not at all. */
+  actions?: Action[] | null;
+  /** How many ticks of each are told at most. */
+  ticks?: number;
+}
+
+/** How an episode stands. */
+export type Outcome = "running" | "success" | "crash" | "stuck";
+
+/** Where a fork was taken; the session it was taken from may be deleted since. */
+export interface Parent {
+  id: string;
+  /** Ticks since the session began. */
+  tick: number;
+}
+
+/** What a sentence means. */
+export interface Parsed {
+  text: string;
+  actions: Action[];
+  source: "grammar" | "llm";
+  corrections: Correction[];
+}
+
+/** Stop the clock. */
+export interface Pause {
+  do: "pause";
+}
+
+/** What one tick changed: what moved, or the whole state where a road begins. */
+export interface PlayedTick {
+  /** Ticks since the session began. */
+  tick: number;
+  episode: number;
+  status: Outcome;
+  vehicles?: { [key: string]: [number, number] } | null;
+  moved?: { [key: string]: [number, number] } | null;
+  turned?: { [key: string]: "left" | "right" } | null;
+  state?: State | null;
+  decision: BriefDecision | null;
+  cause: CrashCause | null;
+}
+
+/** How the ego should weigh one way of driving against another. */
+export interface Prefer {
+  do: "prefer";
+  preference: "avoid_potholes" | "smooth_ride" | "fastest" | "cautious" | "balanced";
+}
+
+/** What a sentence would do if it were sent as it stands. */
+export interface Preview {
+  standing: "does" | "asks" | "ambiguous" | "not_understood" | "refused";
+  actions: Action[];
+  /** Empty also where finding out would take long. */
+  changes: Change[];
+  /** What it would be refused or asked about with. */
+  detail: string | null;
+  unparsed: string[];
+}
+
+/** An error, as in RFC 9457. */
+export interface ProblemDocument {
+  type: string;
+  title: string;
+  status: number;
+  detail: string;
+  errors: FieldProblemModel[];
+  /** Why a sentence was refused. */
+  reason?: "not_understood" | "negation" | "empty" | "impossible" | null;
+  /** Whose question it is. */
+  source?: "grammar" | "llm" | null;
+  unparsed?: string[] | null;
+  understood?: string[] | null;
+  suggestions?: string[] | null;
+  choices?: ChoiceModel[] | null;
+  /** Where the session stands, if it was changed meanwhile. */
+  sequence?: number | null;
+}
+
+/** A question, and nothing but one. */
+export interface Question {
+  question: string;
+  /** In which language; `GET /language` names them. */
+  language?: "en" | "de";
+}
+
+/** The store answers. */
+export interface Ready {
+  status: "ready";
+}
+
+/** Start or stop recording. */
+export interface Record {
+  do: "record";
+  on: boolean;
+}
+
+/** One accepted change of a recording. */
+export interface RecordedEntry {
+  sequence: number;
+  /** Ticks since the session began. */
+  tick: number;
+  text: string | null;
+  actions: Action[];
+  /** What the world after it must be; not said by older recordings. */
+  digest?: string | null;
+}
+
+/** A session as one small file. */
+export interface Recording {
+  format: "roadtalk-recording";
+  version: 1;
+  /** Of which version; recordings from before there were several name none. */
+  rules?: number | null;
+  name?: string | null;
+  /** Any part of a road's configuration; what is left out is at its default. */
+  config: {
+    columns?: number;
+    visible_rows?: number;
+    rows?: number;
+    cell_m?: number;
+    step_seconds?: number;
+    spawn_probability?: number;
+    pothole_probability?: number;
+    potholes?: number | null;
+    vehicles?: number | null;
+    barriers?: number;
+    pedestrians?: number;
+    courtesy?: number;
+    attentive?: number;
+    collision?: "swept" | "cell";
+    repetition?: boolean;
+    reset_delay_s?: number;
+    road?: "highway" | "city" | "rural" | null;
+    layout?: "walls" | "narrows" | "dead_ends" | "crossing" | "maze" | null;
+    traffic?: "none" | "light" | "normal" | "heavy" | null;
+    planner?: string;
+    preferences?: ("avoid_potholes" | "smooth_ride" | "fastest" | "cautious")[];
+    safety_buffer?: number;
+    sensor?: "perfect";
+    dynamics?: "grid";
+    behaviour?: "sideways";
+    rules?: number;
+    solvable?: boolean;
+    seed?: number;
+  };
+  entries: RecordedEntry[];
+  /** Where it ends. */
+  tick: number;
+  /** What the world at its end must be. */
+  digest: string;
+}
+
+/** Say again what was undone last. */
+export interface Redo {
+  do: "redo";
+}
+
+/** Take `count` things of a kind (or `"all"`) off the road. */
+export interface Remove {
+  do: "remove";
+  kind: "pothole" | "vehicle" | "barrier" | "pedestrian" | "av" | "everything";
+  count: number | "all";
+  where?: Where | null;
+}
+
+/** The present episode from its start, on the road it started with. */
+export interface Reset {
+  do: "reset";
+}
+
+/** Start the clock. */
+export interface Resume {
+  do: "resume";
+}
+
+/** Go back some ticks. */
+export interface Rewind {
+  do: "rewind";
+  ticks: number;
+}
+
+/** Where to go back to. */
+export interface RewindTo {
+  /** Ticks since the session began. */
+  tick: number;
+}
+
+/** Something said or done that changed the road, and still stands. */
+export interface RoadChange {
+  /** Ticks since the session began. */
+  tick: number;
+  sequence: number;
+  /** As it was said; of typed actions, what says the same. */
+  text: string;
+  /** Whether it was said, rather than done by typed actions. */
+  said: boolean;
+}
+
+/** The newest changes that stand, oldest first. */
+export interface RoadChanges {
+  items: RoadChange[];
+  /** Whether older ones are left out. */
+  more: boolean;
+}
+
+/** Something said to a session. */
+export interface Said {
+  /** At most 500 characters, unless the service is set otherwise. */
+  text: string;
+  /** Say what would be done, and do nothing. */
+  dry_run?: boolean;
+  /** In which language; `GET /language` names them. */
+  language?: "en" | "de";
+}
+
+/** Keep the session under a name. */
+export interface Save {
+  do: "save";
+  name: string;
+}
+
+/** A moment of a session that was given a name. */
+export interface SavedMoment {
+  name: string;
+  /** The change that named it. */
+  sequence: number;
+  /** Ticks since the session began. */
+  tick: number;
+}
+
+/** Moments with a name, by name. */
+export interface SavedMoments {
+  items: SavedMoment[];
+}
+
+/** A sentence and what it means. */
+export interface Saying {
+  text: string;
+  actions: Action[];
+}
+
+/** A fresh world; what is not named is at its default. */
+export interface Scenario {
+  do: "scenario";
+  weather?: "clear" | "rain" | "fog" | "snow" | null;
+  time_of_day?: "day" | "dusk" | "night" | "dawn" | null;
+  road?: "highway" | "city" | "rural" | null;
+  layout?: "walls" | "narrows" | "dead_ends" | "crossing" | "maze" | null;
+  traffic?: "none" | "light" | "normal" | "heavy" | null;
+  potholes?: number | null;
+  vehicles?: number | null;
+  barriers?: number | null;
+  pedestrians?: number | null;
+  avs?: number | null;
+  planner?: "rules" | "priority" | "astar" | "dijkstra" | "bfs" | "exact" | "dwa" | "rl" | "cooperative" | null;
+  sensor?: "perfect" | "camera" | "lidar" | "radar" | "fusion" | null;
+}
+
+/** The keys of `scenario`, as conditions of an evaluation. */
+export interface ScenarioParts {
+  weather?: "clear" | "rain" | "fog" | "snow" | null;
+  time_of_day?: "day" | "dusk" | "night" | "dawn" | null;
+  road?: "highway" | "city" | "rural" | null;
+  layout?: "walls" | "narrows" | "dead_ends" | "crossing" | "maze" | null;
+  traffic?: "none" | "light" | "normal" | "heavy" | null;
+  potholes?: number | null;
+  vehicles?: number | null;
+  barriers?: number | null;
+  pedestrians?: number | null;
+  avs?: number | null;
+  planner?: "rules" | "priority" | "astar" | "dijkstra" | "bfs" | "exact" | "dwa" | "rl" | "cooperative" | null;
+  sensor?: "perfect" | "camera" | "lidar" | "radar" | "fusion" | null;
+}
+
+/** A session as it stands. */
+export interface Session {
+  id: string;
+  name: string | null;
+  created_at: string;
+  paused: boolean;
+  /** How fast the clock plays it; `max` is as fast as possible. No world knows of it. */
+  playback_speed: number | "max";
+  mode: Mode;
+  /** Ticks since the session began. */
+  tick: number;
+  episode: number;
+  status: Outcome;
+  sequence: number;
+  seed: number;
+  config: { [key: string]: unknown };
+  /** The version of the rules that it runs under. */
+  rules: number;
+  /** What to tell whoever opens it, where these are not the rules of today. */
+  rules_note: string | null;
+  /** What to say for a road like this one; null where nothing does. */
+  sentence: string | null;
+  /** Of a fork, or a session that a link opened; else null. */
+  parent: Parent | null;
+  links: { [key: string]: string };
+}
+
+/** A moment with a name, and the session it is in. */
+export interface SessionMoment {
+  name: string;
+  /** The change that named it. */
+  sequence: number;
+  /** Ticks since the session began. */
+  tick: number;
+  session: string;
+  session_name: string | null;
+  links: { [key: string]: string };
+}
+
+/** Sessions, newest first. */
+export interface SessionPage {
+  items: SessionSummary[];
+  /** Send as `after` for what follows. */
+  after: string | null;
+  more: boolean;
+}
+
+/** A session in a list. One that is not live is brought back when it is asked for. */
+export interface SessionSummary {
+  id: string;
+  name: string | null;
+  created_at: string;
+  seed: number;
+  live: boolean;
+  /** Where it stands, or stood when last stored. */
+  tick: number;
+  /** Of a fork. */
+  parent: Parent | null;
+  links: { [key: string]: string };
+}
+
+/** Give a parameter a value. */
+export interface Set {
+  do: "set";
+  parameter: "weather" | "time_of_day" | "traffic" | "planner" | "sensor" | "dynamics" | "playback_speed" | "target_speed_kmh" | "step_seconds" | "spawn_probability" | "pothole_probability" | "courtesy" | "attentive" | "sensor_noise" | "detection_sensitivity" | "false_positive_rate" | "sensor_range_m" | "safety_buffer" | "columns" | "rows" | "seed";
+  value: number | string;
+}
+
+/** Add or remove until there are exactly `count` things of a kind. */
+export interface SetCount {
+  do: "set_count";
+  kind: "pothole" | "vehicle" | "barrier" | "pedestrian" | "av";
+  count: number;
+}
+
+/** Who drives: a person or the planner. */
+export interface SetMode {
+  do: "mode";
+  mode: Mode;
+  ego?: string | null;
+}
+
+/** Show a view. */
+export interface Show {
+  do: "show";
+  view: "road" | "schematic" | "occupancy" | "plan" | "log" | "potholes" | "sensors" | "path" | "metrics";
+}
+
+/** One of the two runs. */
+export interface Side {
+  /** Where it begins. */
+  state: State;
+  ticks: PlayedTick[];
+  end: End;
+}
+
+/** The world at a tick. */
+export interface State {
+  session: string;
+  /** Ticks since the session began. */
+  tick: number;
+  /** Simulated seconds since the session began. */
+  time_s: number;
+  episode: number;
+  episode_tick: number;
+  status: Outcome;
+  cause: CrashCause | null;
+  columns: number;
+  rows: number;
+  visible_rows: number;
+  step_seconds: number;
+  paused: boolean;
+  /** How fast the clock plays it; `max` is as fast as possible. No world knows of it. */
+  playback_speed: number | "max";
+  mode: Mode;
+  planner: string;
+  vehicles: Vehicle[];
+  movers: Mover[];
+  hazards: Hazard[];
+  metrics: Metrics;
+  /** Equal exactly when two worlds are. */
+  digest: string;
+  /** Changes the session has accepted. */
+  sequence: number;
+  /** How many changes can be taken back, one after the other. */
+  undo: number;
+  /** How many that were taken back can be made again. */
+  redo: number;
+}
+
+/** Run some ticks at once, and stay paused after them. */
+export interface Step {
+  do: "step";
+  ticks: number;
+}
+
+/** Ticks that were run. */
+export interface StepResult {
+  ticks: number;
+  decisions: Decision[];
+  state: State;
+}
+
+/** How many ticks to run. */
+export interface StepTicks {
+  ticks?: number;
+}
+
+/** A phrase that was taught, and what it means. */
+export interface TaughtPhrase {
+  phrase: string;
+  meaning: Action[];
+  /** The sentence that says the same. */
+  sentence: string;
+}
+
+/** From now on, a phrase means these actions. */
+export interface Teach {
+  do: "teach";
+  phrase: string;
+  meaning: Action[];
+}
+
+/** A sentence to be understood. */
+export interface Text {
+  text: string;
+  /** In which language; `GET /language` names them. */
+  language?: "en" | "de";
+}
+
+/** Good for one socket. */
+export interface Ticket {
+  /** To be sent as the first message of a socket. */
+  ticket: string;
+  /** Seconds within which it must be used. */
+  good_for_s: number;
+}
+
+/** A tick that matters. */
+export interface TimelineMark {
+  /** Ticks since the session began. */
+  tick: number;
+  /** `near_miss`: something that moves came into the cell that the vehicle had just left, and would have hit it had it stayed. `episode`: one begins. */
+  kind: "crash" | "success" | "stuck" | "near_miss" | "episode";
+  ids: string[];
+  cell: [number, number] | null;
+}
+
+/** A stretch of a run. */
+export interface TimelinePage {
+  /** Ticks since the session began. */
+  from: number;
+  /** The session's present tick. */
+  now: number;
+  /** A letter for each tick from `from` on: F forward, L left, R right, l forward left, r forward right, s stay, - where the result of an episode stood. */
+  moves: string;
+  marks: TimelineMark[];
+  more: boolean;
+}
+
+/** Actions of the language contract, no language involved; done together or not at all. */
+export interface TypedActions {
+  actions: Action[];
+  /** Say what would be done, and do nothing. */
+  dry_run?: boolean;
+}
+
+/** Take back the latest change, as if it had never been said. */
+export interface Undo {
+  do: "undo";
+}
+
+/** An autonomous vehicle. */
+export interface Vehicle {
+  id: string;
+  kind: "av";
+  /** [column, row], row 0 at the goal */
+  cell: [number, number];
+}
+
+/** A place, by any of its parts; parts combine ("15 m ahead in the left lane"). */
+export interface Where {
+  lane?: "left" | "middle" | "right" | number | null;
+  row?: number | null;
+  cell?: [number, number] | null;
+  side?: "ahead" | "behind" | "left" | "right" | null;
+  distance_m?: number | null;
+  cells?: number | null;
+  nearest?: true | null;
+  id?: string | null;
+}
+
+/** One action of the language contract. */
+export type Action = Add | Remove | SetCount | Scenario | Reset | SetMode | Drive | Set | Adjust | Prefer | Pause | Resume | Undo | Redo | Step | Rewind | Show | Hide | Ask | Evaluate | FindWorst | Advise | Save | Load | Record | Teach | Forget;

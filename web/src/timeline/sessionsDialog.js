@@ -1,0 +1,133 @@
+// @ts-check
+/** The dialog of the sessions that the service keeps: gone to, deleted. */
+
+import { html, nothing, repeat } from "../../vendor/lit-html.js";
+import { hashOf } from "../core/address.js";
+import { ask, askJson, errorText } from "../core/http.js";
+import { turns } from "../core/latest.js";
+import { SESSIONS_PATH, sessionPath } from "../core/protocol.js";
+import { dateText, t } from "../core/texts.js";
+import { dialogSlot, makeDialog } from "../ui/dialog.js";
+
+/** @import { Page } from "../main.js" */
+/** @import { SessionPage, SessionSummary } from "../core/wire.js" */
+
+const PAGE_SESSIONS = 20;
+
+/**
+ * @typedef {object} Shown
+ * @property {SessionSummary[]} sessions
+ * @property {string | null} after  where the next page begins
+ * @property {boolean} more
+ * @property {{text: string, bad: boolean}} note
+ * @property {{id: string, busy: boolean} | null} deleting  the session that is about to be deleted, if that is confirmed
+ */
+
+/** @type {Shown} */
+const NOTHING = { sessions: [], after: null, more: false, note: { text: "", bad: false }, deleting: null };
+
+/** @param {Page} page @returns {() => void} opens it */
+export function createSessionsDialog(page) {
+  const dialog = makeDialog(t("sessions.title"));
+  const body = dialogSlot(dialog);
+  let shown = NOTHING;
+  const asking = turns();
+  const does = {
+    close: () => dialog.close(),
+    more: () => void next(),
+    fresh() {
+      dialog.close();
+      page.startSession();
+    },
+    confirm(/** @type {string | null} */ id) {
+      show({ deleting: id === null ? null : { id, busy: false } });
+      focus(id === null ? "[data-do=fresh]" : "[data-do=keep]");
+    },
+    remove: (/** @type {SessionSummary} */ session) => void remove(session),
+  };
+
+  /** @param {Partial<Shown>} change */
+  function show(change) {
+    shown = { ...shown, ...change };
+    body(content(shown, page.state().session, does));
+  }
+
+  /** @param {string} selector */
+  const focus = (selector) => /** @type {HTMLElement | null} */ (dialog.querySelector(selector))?.focus();
+
+  async function next() {
+    const newest = asking();
+    try {
+      const from = shown.after === null ? "" : `&after=${shown.after}`;
+      /** @type {SessionPage} */
+      const { items, after, more } = await askJson(`${SESSIONS_PATH}?limit=${PAGE_SESSIONS}${from}`);
+      if (newest()) show({ sessions: [...shown.sessions, ...items], after, more }); // else opened anew, or asked for twice
+    } catch (error) {
+      if (newest()) show({ note: { text: errorText(error), bad: true } });
+    }
+  }
+
+  /** @param {SessionSummary} session */
+  async function remove(session) {
+    const name = nameOf(session);
+    show({ deleting: { id: session.id, busy: true } }); // once is enough
+    try {
+      await ask(sessionPath(session.id), { method: "DELETE" });
+      const sessions = shown.sessions.filter(({ id }) => id !== session.id);
+      show({ sessions, deleting: null, note: { text: t("sessions.deleted", { name }), bad: false } });
+      focus("[data-do=fresh]");
+    } catch (error) {
+      const text = t("sessions.not_deleted", { name, reason: errorText(error) });
+      show({ deleting: { id: session.id, busy: false }, note: { text, bad: true } });
+    }
+  }
+
+  return () => {
+    show(NOTHING);
+    dialog.showModal();
+    void next();
+  };
+}
+
+/** @param {SessionSummary} session */
+function nameOf({ id, name }) {
+  return name ?? t("sessions.session", { id: id.slice(0, 6) });
+}
+
+/**
+ * @typedef {object} Does
+ * @property {() => void} close
+ * @property {() => void} more
+ * @property {() => void} fresh
+ * @property {(id: string | null) => void} confirm
+ * @property {(session: SessionSummary) => void} remove
+ */
+
+/** @param {Shown} shown @param {string | null} here @param {Does} does */
+function content({ sessions, more, note, deleting }, here, does) {
+  return html`<p class="dialog-note" role="status" data-tone=${note.bad ? "bad" : "plain"}>${note.text}</p>
+    <ul class="rows">
+      ${repeat(sessions, ({ id }) => id, (session) => row(session, session.id === here, deleting?.id === session.id ? deleting : null, does))}
+    </ul>
+    <div class="form-end">
+      ${more ? html`<button class="button small" type="button" @click=${does.more}>${t("sessions.more")}</button>` : nothing}
+      <button class="button" type="button" data-do="fresh" @click=${does.fresh}>${t("session.new")}</button>
+    </div>`;
+}
+
+/** @param {SessionSummary} session @param {boolean} here @param {{busy: boolean} | null} deleting @param {Does} does */
+function row(session, here, deleting, does) {
+  const { id, tick, seed, created_at: created } = session;
+  const name = nameOf(session);
+  const when = dateText(new Date(created));
+  return html`<li class="row" data-session=${id}>
+    <a class="row-name" href=${hashOf(id)} aria-current=${here ? "true" : nothing} @click=${does.close}>${name}${here ? html`<span class="row-here">${t("sessions.here")}</span>` : nothing}</a>
+    <span class="row-note">${t("sessions.about", { tick, seed, when })}</span>
+    <span class="row-do">${
+      deleting
+        ? html`<button class="button small" type="button" data-do="keep" @click=${() => does.confirm(null)}>${t("sessions.keep")}</button>
+            <button class="button small danger" type="button" aria-label=${t("sessions.delete_sure_named", { name })} ?disabled=${deleting.busy} @click=${() => does.remove(session)}>${t("sessions.delete_sure")}</button>`
+        : html`<button class="button small" type="button" aria-label=${t("sessions.delete_named", { name })} @click=${() => does.confirm(id)}>${t("sessions.delete")}</button>`
+    }</span>
+  </li>`;
+}

@@ -1,0 +1,68 @@
+// @ts-check
+/** Pointer and keys on the timeline: dragged, pointed at, walked along. */
+
+import { nowOf } from "./timelineState.js";
+import { tickAt } from "./paint/line.js";
+
+/** @import { Page } from "../main.js" */
+
+const LEAP = 10;
+
+/**
+ * Listeners of the slider.
+ * @param {Page} page
+ * @param {() => {width: number, span: number}} line
+ * @param {(tick: number | null) => void} point  a tick is pointed at, or none any more
+ */
+export function sliderInput(page, line, point) {
+  let dragging = false;
+
+  /** @param {PointerEvent} event */
+  function move(event) {
+    const slider = /** @type {HTMLElement} */ (event.currentTarget);
+    const tick = tickAt(line(), event.clientX - slider.getBoundingClientRect().left);
+    const reached = Math.max(0, Math.min(nowOf(page.state().timeline), tick));
+    if (dragging) void page.looking.at(reached);
+    point(reached);
+  }
+
+  return {
+    move,
+
+    /** @param {PointerEvent} event */
+    down(event) {
+      if (event.button !== 0) return;
+      dragging = true;
+      /** @type {HTMLElement} */ (event.currentTarget).setPointerCapture(event.pointerId);
+      move(event);
+    },
+
+    up() {
+      dragging = false;
+    },
+
+    leave: () => point(null),
+
+    /** @param {KeyboardEvent} event */
+    key(event) {
+      if (event.ctrlKey || event.metaKey || event.altKey) return;
+      const leap = event.shiftKey ? LEAP : 1;
+      const { looking } = page;
+      const ways = /** @type {Record<string, () => unknown>} */ ({
+        ArrowLeft: () => looking.step(-leap),
+        ArrowDown: () => looking.step(-leap),
+        ArrowRight: () => looking.step(leap),
+        ArrowUp: () => looking.step(leap),
+        PageDown: () => looking.step(-LEAP),
+        PageUp: () => looking.step(LEAP),
+        Home: () => looking.at(0),
+        End: () => looking.live(),
+        Escape: () => looking.live(),
+      });
+      if (!Object.hasOwn(ways, event.key)) return;
+      void ways[event.key]();
+      event.preventDefault();
+      event.stopPropagation();
+    },
+  };
+}
