@@ -47,7 +47,6 @@ def play(
     Example: roadtalk play --potholes 12
     """
     room = _size(size)
-    _choose_language(language)
     if planner is not None and not planner_names.known(planner):
         _refuse(f"There is no planner called {planner}. There are: {', '.join(planner_names.names())}.")
     given: dict[str, object] = {"seed": secrets.randbits(32) if seed is None else seed}
@@ -60,6 +59,7 @@ def play(
         _refuse_road(error)
 
     environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
+    _choose_language(language)
     from service.window import loop
     from service.window.loading import LoadError, Loading
 

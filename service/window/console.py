@@ -149,7 +149,7 @@ def _draw_reply(area: pygame.Surface, console: Console, corner: tuple[int, int])
         x = _words(area, text("console", "try"), 4, 7, theme.TEXT_QUIET) + 10
         _draw_offers(area, console, tuple(table("console", "first")), x, 2, corner, wrap_x=4)
         return
-    said = "" if exchange.said is None else f"“{exchange.said}”"
+    said = "" if exchange.said is None else text("console", "said", text=exchange.said)
     y = 2
     if said:
         _words(area, truncate(said, look.SMALL_PX, width - 8), 4, y, theme.TEXT_QUIET, look.SMALL_PX)
@@ -243,7 +243,7 @@ def _draw_bar(picture: pygame.Surface, console: Console, panels: Panels) -> None
             picture.fill(look.ACCENT, (x, spot.bottom - 2, room, 2))
         console.spots.append((spot, ("toggle", name)))
         x = spot.right + 14
-    label = render_text("help", look.SMALL_PX, theme.TEXT_QUIET)
+    label = render_text(text("console", "help"), look.SMALL_PX, theme.TEXT_QUIET)
     cap = look.key_cap("?")
     spot = pygame.Rect(width - label.get_width() - cap.get_width() - 6, y, 0, BAR_PX)
     spot.width = width - spot.x

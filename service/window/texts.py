@@ -7,6 +7,7 @@ from typing import Any
 
 from service.resources import DEFAULT_LANGUAGE, prompts_folder
 from service.yaml_files import read_yaml
+from sim.render.labels import set_labels
 
 FILE = "window.yaml"
 
@@ -23,6 +24,7 @@ def choose_language(code: str) -> None:
     if code not in languages():
         raise ValueError(code)
     _chosen[0] = code
+    set_labels(table("drawn"))
 
 
 def language() -> str:
