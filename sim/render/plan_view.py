@@ -221,7 +221,7 @@ def _cross(picture: pygame.Surface, box: pygame.Rect) -> None:
 def _list(picture: pygame.Surface, decision: Decision, room: pygame.Rect, row_px: int) -> int:
     """Lists all moves, the most preferred first. Returns the y coordinate below the last."""
     y, text_px = room.top, row_px - 3
-    names = max(text_width(name, text_px) for name in theme.MOVES.values()) + row_px + 12
+    names = max(text_width(label(name), text_px) for name in theme.MOVES.values()) + row_px + 12
     for option in decision.options:
         if y + row_px > room.bottom:
             break
@@ -256,7 +256,7 @@ def reason_of(option: Option, decision: Decision) -> str:
         if egos and option.reason.startswith("ego"):
             return f"{egos[0]} {words}"
         if movers and option.reason.startswith(("mover", "disabled")):
-            return f"{label(movers[0].replace('vehicle', 'car'))} {words}"
+            return f"{movers[0].replace('vehicle', label('car'))} {words}"
         return words
     if option.move is decision.move:
         return label("taken" if decision.asked is None else "as asked")
