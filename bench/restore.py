@@ -26,8 +26,9 @@ from service import actions as contract
 from service.narration import Narrator
 from service.problems import ProblemError
 from service.sessions.manager import SessionManager
-from service.sessions.scheduler.clock import WheelClock
-from service.sessions.session import Session, SessionServices
+from service.sessions.scheduler.wheel_clock import WheelClock
+from service.sessions.services import SessionServices
+from service.sessions.session import Session
 from service.sessions.utterance import Utterance
 from service.settings import Settings
 from service.store import SqlStore

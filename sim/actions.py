@@ -1,7 +1,7 @@
 """What may be done to a world: the actions that a session's log is made of.
 
 Plain dataclasses, one per `do` of the language contract, so that the rules need no validation
-library; the service checks incoming JSON against these same classes (`service/actions.py` adds
+library; the service checks incoming JSON against these same classes (`service.actions` adds
 the actions that change no world: asking, pausing, showing). `None` means "not said".
 """
 

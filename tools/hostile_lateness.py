@@ -13,7 +13,8 @@ import tempfile
 import time
 
 from service.app import create_app
-from service.sessions.scheduler.clock import Lateness, WheelClock
+from service.sessions.scheduler.clock import Lateness
+from service.sessions.scheduler.wheel_clock import WheelClock
 from service.sessions.session import Session
 from service.sessions.utterance import Utterance
 from service.settings import Settings

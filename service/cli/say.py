@@ -20,8 +20,7 @@ from service.cli.terminal import (
     service_at,
     session_of,
 )
-from service.client import Ambiguous, NotUnderstood, Refused
-from service.client.sync_client import Session
+from service.client import Ambiguous, NotUnderstood, Refused, Session
 
 FROM_INPUT = "-"
 

@@ -11,8 +11,7 @@ from typing import Annotated, Any, NoReturn
 import typer
 from rich.console import Console
 
-from service.client import Client, RoadtalkError
-from service.client.sync_client import DEFAULT_URL, Session
+from service.client import DEFAULT_URL, Client, RoadtalkError, Session
 
 PIPED_COLUMNS = 160
 """Width of tables that are not shown on a screen, so that ids stay whole."""

@@ -1,30 +1,42 @@
-"""The client for programs with an event loop: the same calls, awaited."""
+"""`AsyncClient`: a service over HTTP, and the streams of its sessions."""
 
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncGenerator, AsyncIterator, Mapping
+from collections.abc import AsyncGenerator, AsyncIterator
 from contextlib import aclosing
 from types import TracebackType
-from typing import Any, Literal, TypeVar
+from typing import TypeVar
 
 import httpx
 from websockets.asyncio.client import connect
 
-from service.client import endpoints as calls
-from service.client import media, results, runs, unbound
-from service.client.endpoints import Call, Json
+from service.client import endpoints
+from service.client.async_session import AsyncSession
+from service.client.call import (
+    DEFAULT_URL,
+    LOST,
+    TIMEOUT_S,
+    Call,
+    Json,
+    auth_headers,
+    check_url,
+    read_answer,
+    read_problem,
+    unreachable,
+)
 from service.client.media import Picture
-from service.client.messages import FAILURES, MAX_MESSAGE_BYTES, Gone, Message, Watching
-from service.client.reading import Page
-from service.client.sse import Events, Following
-from service.client.sync_client import DEFAULT_URL, PATIENCE_S, TIMEOUT_S
+from service.client.messages import Gone, Message
+from service.client.recording import Recording
+from service.client.sse import EventParser, EventStreamReader
+from service.client.stream_reader import FAILURES, MAX_MESSAGE_BYTES, StreamReader
+from service.contract import answers
 
 T = TypeVar("T")
 
 
 class AsyncClient:
-    """A service, over HTTP. Use it in an `async with`, or `aclose` it.
+    """A service, over HTTP. Close it with `aclose`, or use it in `async with`.
 
     A call that changes something carries an `Idempotency-Key` and is tried once more when the
     connection is lost. Raises what `service.client.errors` lists.
@@ -38,8 +50,8 @@ class AsyncClient:
         timeout_s: float = TIMEOUT_S,
         transport: httpx.AsyncBaseTransport | None = None,
     ) -> None:
-        self.url = calls.checked_url(url)
-        self._headers = calls.headers(api_key)
+        self.url = check_url(url)
+        self._headers = auth_headers(api_key)
         self._timeout_s = timeout_s
         self._http = httpx.AsyncClient(
             base_url=self.url, headers=self._headers, timeout=timeout_s, transport=transport
@@ -54,20 +66,20 @@ class AsyncClient:
         await self.aclose()
 
     async def aclose(self) -> None:
-        """Let go of the connections."""
+        """Closes the connections."""
         await self._http.aclose()
 
-    async def health(self) -> results.Health:
+    async def health(self) -> answers.Health:
         """Is it alive, and what does it hold."""
-        return await self._do(calls.health())
+        return await self._send(endpoints.read_health())
 
-    async def ready(self) -> results.Ready:
+    async def ready(self) -> answers.Ready:
         """Does its store answer. Raises `Unavailable` where it does not."""
-        return await self._do(calls.ready())
+        return await self._send(endpoints.read_readiness())
 
-    async def parse(self, text: str, *, language: str = "en") -> results.Parsed:
+    async def parse(self, text: str, *, language: str = "en") -> answers.Parsed:
         """What a sentence means; nothing is done."""
-        return await self._do(calls.parse(text, language))
+        return await self._send(endpoints.parse_text(text, language))
 
     async def advice(
         self,
@@ -78,19 +90,19 @@ class AsyncClient:
         speed_kmh: float | None = None,
         weather: str | None = None,
         language: str = "en",
-    ) -> unbound.Advice:
+    ) -> answers.Advice:
         """What to do about a hazard ahead: `advice("pothole 2m ahead, speed 40 km/h")`, or in figures."""
-        return await self._do(calls.advice(text, hazard, distance_m, speed_kmh, weather, language))
+        return await self._send(endpoints.ask_advice(text, hazard, distance_m, speed_kmh, weather, language))
 
     async def guide(
         self, prefix: str | None = None, *, session: str | None = None, language: str | None = None
-    ) -> unbound.Guide:
+    ) -> answers.LanguageGuide:
         """What can be said; with `prefix`, how a sentence that was begun could go on, there or anywhere."""
-        return await self._do(calls.guide(prefix, session, language))
+        return await self._send(endpoints.read_language(prefix, session, language))
 
-    async def ticket(self) -> results.Ticket:
+    async def ticket(self) -> answers.Ticket:
         """Lets one socket in that cannot send the key, such as a page's."""
-        return await self._do(calls.ticket())
+        return await self._send(endpoints.create_ticket())
 
     async def create(
         self,
@@ -102,56 +114,58 @@ class AsyncClient:
         planner: str | None = None,
         paused: bool | None = None,
         language: str | None = None,
-        recording: results.Recording | Json | None = None,
-        link: results.Link | str | None = None,
+        recording: Recording | Json | None = None,
+        link: answers.Link | str | None = None,
     ) -> AsyncSession:
         """A new session, from a sentence, from figures, from a recording or from a link."""
-        call = calls.create(name, scenario, config, seed, planner, paused, recording, link, language)
-        return await self._do(call.then(lambda info: AsyncSession(self, info.id)))
+        call = endpoints.create_session(
+            name, scenario, config, seed, planner, paused, recording, link, language
+        )
+        return await self._send(call.then(lambda info: AsyncSession(self, info.id)))
 
-    async def list(self, *, after: str | None = None, limit: int = 50) -> Page[results.SessionSummary]:
+    async def list(self, *, after: str | None = None, limit: int = 50) -> answers.SessionPage:
         """Sessions, newest first, a page of them."""
-        return await self._do(calls.listed(after, limit))
+        return await self._send(endpoints.list_sessions(after, limit))
 
-    async def saved(self, *, after: str | None = None, limit: int = 50) -> Page[results.SessionMoment]:
+    async def saved(self, *, after: str | None = None, limit: int = 50) -> answers.MomentPage:
         """Moments that were given a name, of all sessions, those named last first, a page of them."""
-        return await self._do(calls.all_saved(after, limit))
+        return await self._send(endpoints.list_all_bookmarks(after, limit))
 
     def session(self, session_id: str) -> AsyncSession:
         """The session of this id; nothing is asked before it is used."""
         return AsyncSession(self, session_id)
 
-    async def _do(self, call: Call[T]) -> T:
+    async def _send(self, call: Call[T]) -> T:
         second = False
         try:
             response = await self._http.request(**call.request())
-        except calls.LOST as lost:
+        except LOST as lost:
             second = True
             try:
                 response = await self._http.request(**call.request())
             except httpx.TransportError as error:
-                raise calls.unreachable(self.url, error) from lost
+                raise unreachable(self.url, error) from lost
         except httpx.TransportError as error:
-            raise calls.unreachable(self.url, error) from error
-        return calls.answered(call, response, self._do, second=second)
+            raise unreachable(self.url, error) from error
+        return read_answer(call, response, self._send, second=second)
 
     async def _watch(self, session: str, after: str | None, patience_s: float) -> AsyncIterator[Message]:
-        watching = Watching(self.url, session, after, patience_s)
-        async with aclosing(self._received(watching)) as received:
+        watching = StreamReader(self.url, session, after, patience_s)
+        async with aclosing(self._receive(watching)) as received:
             async for data in received:
-                message = watching.take(data)
+                message = watching.read(data)
                 if message is not None:
                     yield message
 
     async def _pictures(self, session: str, patience_s: float, wanted: Json) -> AsyncIterator[Picture]:
-        watching = Watching(self.url, session, None, patience_s, wanted)
-        async with aclosing(self._received(watching)) as received:
+        watching = StreamReader(self.url, session, None, patience_s, wanted)
+        async with aclosing(self._receive(watching)) as received:
             async for data in received:
-                picture = watching.seen(data)
+                picture = watching.read_picture(data)
                 if picture is not None:
                     yield picture
 
-    async def _received(self, watching: Watching) -> AsyncGenerator[str | bytes, None]:
+    async def _receive(self, watching: StreamReader) -> AsyncGenerator[str | bytes, None]:
         while True:
             try:
                 async with connect(
@@ -160,213 +174,33 @@ class AsyncClient:
                     open_timeout=self._timeout_s,
                     max_size=MAX_MESSAGE_BYTES,
                 ) as socket:
-                    watching.opened()
+                    watching.on_connected()
                     if watching.greeting is not None:
                         await socket.send(watching.greeting)
                     while True:
                         yield await socket.recv()
             except FAILURES as error:
-                delay_s = watching.lost(error)
+                delay_s = watching.retry_delay_s(error)
                 if delay_s is None:
                     return
                 await asyncio.sleep(delay_s)
 
     async def _follow(self, session: str, after: str | None, patience_s: float) -> AsyncIterator[Message]:
-        following = Following(self.url, session, after, patience_s)
+        following = EventStreamReader(self.url, session, after, patience_s)
         while True:
             ended: Exception = httpx.RemoteProtocolError("the stream ended")
             try:
                 async with self._http.stream(**following.request(self._timeout_s)) as response:
                     if not response.is_success:
                         await response.aread()
-                        raise calls.problem(response)
-                    following.answered(response)
-                    events = Events()
+                        raise read_problem(response)
+                    following.check(response)
+                    events = EventParser()
                     async for part in response.aiter_bytes():
-                        for message in events.messages(part, following):
+                        for message in events.feed(part, following):
                             yield message
                             if isinstance(message, Gone):
                                 return
             except httpx.TransportError as error:
                 ended = error
-            await asyncio.sleep(following.lost(ended) or 0)
-
-
-class AsyncSession:
-    """One session of a service."""
-
-    def __init__(self, client: AsyncClient, session_id: str) -> None:
-        self.id = session_id
-        self._client = client
-
-    def __repr__(self) -> str:
-        return f"AsyncSession({self.id!r})"
-
-    async def info(self) -> results.SessionInfo:
-        """The session as it stands."""
-        return await self._client._do(calls.look(self.id))
-
-    async def say(
-        self, text: str, *, dry_run: bool = False, language: str | None = None
-    ) -> results.CommandResult:
-        """Say something; done as a whole or not at all. Raises `NotUnderstood`, `Ambiguous`."""
-        return await self._client._do(calls.say(self.id, text, dry_run, language))
-
-    async def act(self, *actions: Mapping[str, Any], dry_run: bool = False) -> results.CommandResult:
-        """Do typed actions, no language involved: `act({"do": "pause"})`."""
-        return await self._client._do(calls.act(self.id, actions, dry_run))
-
-    async def configure(self, **parts: Any) -> results.ConfigChanged:
-        """Other settings, all or nothing: `configure(traffic="heavy")`; None asks for the default."""
-        return await self._client._do(calls.configure(self.id, parts))
-
-    async def ask(self, question: str, *, language: str | None = None) -> results.Answer:
-        """Ask something; nothing is changed."""
-        return await self._client._do(calls.ask(self.id, question, language))
-
-    async def pause(self) -> results.CommandResult:
-        """The clock stands still."""
-        return await self.act({"do": "pause"})
-
-    async def resume(self) -> results.CommandResult:
-        """The clock goes on."""
-        return await self.act({"do": "resume"})
-
-    async def speed(self, speed: float | Literal["max"]) -> results.CommandResult:
-        """How fast the clock plays it, 0.25 to 10, or `"max"` for as fast as possible."""
-        return await self.act({"do": "set", "parameter": "playback_speed", "value": speed})
-
-    async def save(self, name: str) -> results.CommandResult:
-        """Give this moment a name."""
-        return await self.act({"do": "save", "name": name})
-
-    async def load(self, name: str) -> results.CommandResult:
-        """Go back to a moment that was given a name."""
-        return await self.act({"do": "load", "name": name})
-
-    async def saved(self) -> results.SavedMoments:
-        """The moments that were given a name."""
-        return await self._client._do(calls.saved(self.id))
-
-    async def link(self, tick: int | None = None) -> results.Link:
-        """This session at a tick as a piece of a URL; `Client.create(link=...)` opens it."""
-        return await self._client._do(calls.link(self.id, tick))
-
-    async def step(self, ticks: int = 1) -> results.StepResult:
-        """Pause and run some ticks as fast as can be."""
-        return await self._client._do(calls.step(self.id, ticks))
-
-    async def fork(
-        self,
-        *actions: Mapping[str, Any],
-        at_tick: int | None = None,
-        name: str | None = None,
-        paused: bool | None = None,
-    ) -> AsyncSession:
-        """Another session, the same up to a tick, where these actions are done; this one stays."""
-        call = calls.fork(self.id, at_tick, actions, name, paused)
-        return await self._client._do(call.then(lambda info: AsyncSession(self._client, info.id)))
-
-    async def rewind(self, tick: int) -> results.CommandResult:
-        """Go back to a past tick and on from there; one undo brings all back."""
-        return await self._client._do(calls.rewind(self.id, tick))
-
-    async def state(self, tick: int | None = None) -> results.State:
-        """The world now, or at a past tick."""
-        return await self._client._do(calls.state(self.id, tick))
-
-    async def decisions(self, *, after: int | None = None, limit: int = 20) -> Page[results.Decision]:
-        """What was decided and why: the newest, or those after a tick."""
-        return await self._client._do(calls.decisions(self.id, after, limit))
-
-    async def decision(self, tick: int) -> results.Decision:
-        """The decision taken in the world of a tick."""
-        return await self._client._do(calls.decision(self.id, tick))
-
-    async def events(self, *, after: int | None = None, limit: int = 100) -> Page[results.LogEvent]:
-        """The log: the newest lines, or those after a number."""
-        return await self._client._do(calls.events(self.id, after, limit))
-
-    async def timeline(self, first: int = 0, *, limit: int = 500) -> runs.Timeline:
-        """A stretch of the run at a glance: how it moved at each tick, and where something happened."""
-        return await self._client._do(calls.timeline(self.id, first, limit))
-
-    async def changes(self, *, limit: int = 200) -> runs.RoadChanges:
-        """What was said or done to the road and still stands, with its tick."""
-        return await self._client._do(calls.changes(self.id, limit))
-
-    async def moments(self, first: int = 0, *, limit: int = 16) -> runs.Moments:
-        """Worlds in a row, each with the decision that led to it."""
-        return await self._client._do(calls.moments(self.id, first, limit))
-
-    async def forecast(self, ticks: int = 1, *, at_tick: int | None = None) -> runs.Expected:
-        """What the vehicle is about to do, and where movers are expected to be."""
-        return await self._client._do(calls.forecast(self.id, ticks, at_tick))
-
-    async def regret(self, first: int = 0, *, limit: int = 60) -> runs.Judged:
-        """Each decision against the best that could have been done at its moment."""
-        return await self._client._do(calls.regret(self.id, first, limit))
-
-    async def counterfactual(
-        self,
-        *actions: Mapping[str, Any],
-        move: str | None = None,
-        at_tick: int | None = None,
-        ticks: int | None = None,
-    ) -> runs.Counterfactual:
-        """What would have been, had these actions been done or another `move` been made; nothing is."""
-        return await self._client._do(calls.counterfactual(self.id, actions, move, at_tick, ticks))
-
-    async def recording(self) -> results.Recording:
-        """The whole session as one small file."""
-        return await self._client._do(calls.recording(self.id))
-
-    async def frame(
-        self, *, view: Literal["road", "schematic"] = "road", form: Literal["png", "jpeg", "webp"] = "png"
-    ) -> media.Frame:
-        """A picture of the road as it is now."""
-        return await self._client._do(calls.frame(self.id, view, form))
-
-    async def film(
-        self,
-        first: int | None = None,
-        last: int | None = None,
-        *,
-        form: Literal["gif", "mp4"] = "gif",
-        fps: int = 10,
-        view: Literal["road", "schematic"] = "road",
-        side: int = 480,
-    ) -> media.Film:
-        """A stretch of ticks as a moving picture; not said, the latest 20."""
-        call = calls.film(self.id, first, last, format=form, fps=fps, view=view, side=side)
-        return await self._client._do(call)
-
-    def watch(self, *, after: str | None = None, patience_s: float = PATIENCE_S) -> AsyncIterator[Message]:
-        """Messages as they come, until the session is deleted.
-
-        A lost connection is opened again for up to `patience_s`. What was missed follows, where it is
-        still kept; otherwise the next message is a `Hello` with `resumed`. `after` is the `event`
-        of a message (in its `raw`), to go on from.
-        """
-        return self._client._watch(self.id, after, patience_s)
-
-    def follow(self, *, after: str | None = None, patience_s: float = PATIENCE_S) -> AsyncIterator[Message]:
-        """The same as `watch`, by server-sent events: where no socket passes, or only reading is wanted."""
-        return self._client._follow(self.id, after, patience_s)
-
-    def pictures(
-        self,
-        *,
-        form: Literal["jpeg", "webp"] = "jpeg",
-        view: Literal["road", "schematic"] = "road",
-        fps: int = 30,
-        side: int = 480,
-        patience_s: float = PATIENCE_S,
-    ) -> AsyncIterator[Picture]:
-        """Pictures as they are drawn, at most `fps` a second; none while nothing moves."""
-        wanted = {"frames": form, "view": view, "fps": fps, "side": side}
-        return self._client._pictures(self.id, patience_s, wanted)
-
-    async def delete(self) -> None:
-        """End it and forget it."""
-        await self._client._do(calls.delete(self.id))
+            await asyncio.sleep(following.retry_delay_s(ended) or 0)

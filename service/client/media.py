@@ -6,8 +6,8 @@ import struct
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from service.client import notebook_html as html
 from service.client.errors import UnexpectedAnswer
+from service.contract import notebook_html as html
 
 _HEADER = struct.Struct(">2sBBfQ")
 """What stands before a picture of the stream: `RT`, version, form, phase, tick."""

@@ -1,77 +1,103 @@
-"""The documented shape of an advice: what to do about a hazard ahead, and every number behind it."""
+"""An advice: what to do about a hazard ahead, and every number behind it."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Annotated, Literal
 
 from pydantic import Field
 
-from service.contract.parts import Answered
+from service.contract import notebook_html as html
+from service.contract.model import Answered, DocumentedAs, KindName, Model
 from sim.actions import Weather
 from sim.hazard_advice import Choice, Ending
-from sim.types import Kind
 
 Share = Annotated[float, Field(ge=0, le=1)]
-Interval = Annotated[list[Share], Field(min_length=2, max_length=2, description="95 % interval")]
+Interval = Annotated[tuple[Share, Share], Field(description="95 % interval")]
+ChoiceName = Annotated[str, DocumentedAs(Choice)]
 
 
-class AdviceOption(Answered):
+@dataclass(frozen=True, slots=True)
+class AdviceOption(Model):
     """What one choice leads to."""
 
-    option: Choice
-    chance: Share = Field(description="Of never reaching the hazard, or too slowly to be harmed.")
+    option: ChoiceName
+    chance: Share
+    """Probability of never reaching the hazard, or too slowly to be harmed."""
     interval: Interval
-    ending: Ending = Field(description="With every quantity in the middle of its range.")
-    needs_m: float = Field(description="The distance in which it avoids the hazard.")
-    meets_kmh: float = Field(description="Speed at the hazard; 0: not reached.")
-    harm_kmh: float = Field(description="Mean speed at which harm is done; 0 counts where none is.")
+    ending: Annotated[str, DocumentedAs(Ending)]
+    """With every quantity in the middle of its range."""
+    needs_m: float
+    """The distance in which it avoids the hazard."""
+    meets_kmh: float
+    """Speed at the hazard; 0: not reached."""
+    harm_kmh: float
+    """Mean speed at which harm is done; 0 counts where none is."""
 
 
-class AdvicePhysics(Answered):
+@dataclass(frozen=True, slots=True)
+class AdvicePhysics(Model):
     """The physics, with every quantity in the middle of its range."""
 
     speed_ms: float
-    time_s: float = Field(description="Until the hazard is reached if nothing is done.")
+    time_s: float
+    """Until the hazard is reached if nothing is done."""
     reaction_s: float
     friction: float
     deceleration_ms2: float
     reaction_m: float
     braking_m: float
-    stopping_m: float = Field(description="Reaction and braking: v·t + v²/(2·μ·g).")
-    stopping_most_m: float = Field(description="Enough to stop in 95 % of cases.")
-    offset_m: float = Field(description="How far to move aside.")
+    stopping_m: float
+    """Reaction and braking: v·t + v²/(2·μ·g)."""
+    stopping_most_m: float
+    """Enough to stop in 95 % of cases."""
+    offset_m: float
+    """How far to move aside."""
     lateral_ms2: float
-    steering_s: float = Field(description="To move that far aside: sqrt(2·y/a).")
-    steering_m: float = Field(description="Driven meanwhile, reaction included.")
-    unharmed_kmh: float = Field(description="Up to this speed the hazard can be driven over.")
+    steering_s: float
+    """To move that far aside: sqrt(2·y/a)."""
+    steering_m: float
+    """Driven meanwhile, reaction included."""
+    unharmed_kmh: float
+    """Up to this speed the hazard can be driven over."""
 
 
-class AdviceQuantity(Answered):
-    """A number that the advice rests on, and where it is from."""
+@dataclass(frozen=True, slots=True)
+class AdviceQuantity(Model):
+    """A number that the advice rests on, and its source."""
 
     name: str
-    law: Literal["lognormal", "normal", "fixed"]
-    middle: float = Field(description="Median, or mean of a normal quantity.")
-    spread: float = Field(description="Standard deviation; of the logarithm, where lognormal.")
+    law: Annotated[str, DocumentedAs(Literal["lognormal", "normal", "fixed"])]
+    middle: float
+    """Median, or mean of a normal quantity."""
+    spread: float
+    """Standard deviation; of the logarithm, where lognormal."""
     unit: str
     source: str
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Advice(Answered):
     """What to do about a hazard ahead, how sure that is, and the physics behind it."""
 
     question: str
     text: str
-    source: Literal["typed", "grammar", "llm"]
-    hazard: Kind
+    source: Annotated[str, DocumentedAs(Literal["typed", "grammar", "llm"])]
+    hazard: KindName
     distance_m: float
     speed_kmh: float
-    weather: Weather
-    recommendation: Choice
-    confidence: Share = Field(description="The chance of coming away unharmed by doing so.")
+    weather: Annotated[str, DocumentedAs(Weather)]
+    recommendation: ChoiceName
+    confidence: Share
+    """Probability of coming away unharmed by doing so."""
     interval: Interval
-    options: list[AdviceOption]
+    options: tuple[AdviceOption, ...]
     physics: AdvicePhysics
-    parameters: list[AdviceQuantity]
+    parameters: tuple[AdviceQuantity, ...]
     samples: int
     seed: int
+
+    def _repr_html_(self) -> str:
+        """The advice and every choice, for notebooks."""
+        rows = [(each.option, f"{each.chance:.0%}", each.ending) for each in self.options]
+        return html.table(self.text, ("choice", "unharmed", "in the middle of the range"), rows)

@@ -1,6 +1,6 @@
 """What callers send. Unknown keys and values of another type are refused.
 
-The language contract's actions are `service.actions`; what is answered is in `schemas`.
+The language contract's actions are `service.actions`; what is answered is in `answers`.
 """
 
 from __future__ import annotations
@@ -12,11 +12,11 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSche
 from pydantic.warnings import UnsupportedFieldAttributeWarning
 
 from service.actions import Action, load
+from service.contract.model import Tick
 from service.contract.text import Letters, Name, check_letters
 from service.http.config_schema import CONFIG_SCHEMA
 from sim.actions import PlaceableKind, Weather
 
-Tick = Annotated[int, Field(ge=0, le=2**53 - 1, description="Ticks since the session began.")]
 ConfigParts = Annotated[dict[str, Any], WithJsonSchema(CONFIG_SCHEMA)]
 
 

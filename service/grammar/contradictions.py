@@ -1,4 +1,4 @@
-"""Parts of one utterance that cannot both hold: "make it sunny and rainy", "five potholes, no potholes".
+"""Finds parts of an utterance that cannot both hold: "make it sunny and rainy", "five cones, no cones".
 
 What is said in order ("pause, then resume") is done in order, and so is all between which time passes. Two
 values for one setting without that are asked about; where something is left out that another part
@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
+from service.actions.table import verbs_where
 from service.grammar.clauses import Clause
 from service.grammar.lattice import Lattice
 from service.grammar.noun_phrases import Amount
@@ -19,7 +20,7 @@ from service.grammar.noun_phrases import Amount
 _IN_ORDER = "then"
 """Separator that says that one comes after the other."""
 
-_PASSING = frozenset(("step", "rewind", "evaluate", "find_worst", "save", "load", "ask"))
+_PASSING = verbs_where(lambda traits: traits.separates_settings)
 """Actions after which a setting may well be another: time has passed, or something was told or kept."""
 
 _AND = "and"

@@ -1,6 +1,6 @@
-"""Sentences that a language makes of itself: one for every action with every word it can hold.
+"""Generates sentences from a language: one for every action with every word it can hold.
 
-What help while typing is found in, and what the guide of all that can be said is made of.
+Completion searches them, and the guide to the language lists them.
 """
 
 from __future__ import annotations
@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any, get_args
 
-from service.actions import MetricName, ViewName, load
+from service.actions import QUESTIONS, MetricName, ViewName, load
 from service.grammar.sentences import Sentences, Unsayable
 from sim.actions import (
     Layout,
@@ -127,7 +127,7 @@ def _settings() -> Iterator[dict[str, Any]]:
 
 
 def _questions() -> Iterator[dict[str, Any]]:
-    for about in ("why", "next", "scene", "status", "metrics", "confidence", "maintenance", "help"):
+    for about in (about for about, traits in QUESTIONS.items() if not traits.must):
         yield {"do": "ask", "about": about}
     for move in Move:
         yield {"do": "ask", "about": "why_not", "move": move}

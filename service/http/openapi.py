@@ -13,10 +13,12 @@ from typing import Any
 from fastapi import FastAPI
 from fastapi.routing import APIRoute
 
+from service.contract.problem import ProblemDocument
 from service.http import access_control, openapi_links
 from service.http.conditional import etag, idempotency
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.route import ApiRoute, GuardedRoute
+from service.http.route_policy import policy_of
 from service.problems import KINDS, MEDIA_TYPE
 
 _PROBLEM = {"$ref": "#/components/schemas/ProblemDocument"}
@@ -31,6 +33,7 @@ def install(app: FastAPI) -> None:
 
     def openapi() -> dict[str, Any]:
         if not made:
+            ProblemDocument.model_rebuild()  # once, rather than for each of the hundreds that are documented
             document = generate()
             _correct(document, [each for each in app.routes if isinstance(each, APIRoute)], languages)
             made.append(document)
@@ -58,7 +61,9 @@ def _operations(
     document: dict[str, Any], routes: Sequence[APIRoute]
 ) -> Iterator[tuple[APIRoute, str, dict[str, Any]]]:
     """Each documented operation with its route."""
-    by_call = {(route.path_format, method.lower()): route for route in routes for method in route.methods}
+    by_call = {
+        (route.path_format, method.lower()): route for route in routes for method in route.methods or ()
+    }
     for path, item in document["paths"].items():
         for method, operation in item.items():
             yield by_call[path, method], method, operation
@@ -66,12 +71,12 @@ def _operations(
 
 def _document_route(route: APIRoute, method: str, operation: dict[str, Any]) -> None:
     """Adds what holds for every call alike."""
-    is_api, guarded = isinstance(route, ApiRoute), isinstance(route, GuardedRoute)
-    if is_api:
+    guarded = isinstance(route, GuardedRoute)
+    policy = policy_of(route.endpoint)
+    if isinstance(route, ApiRoute):
         _add_problems(operation, "invalid")  # parameters in the URL
-    idempotency.document(method, guarded and route.policy.idempotency_key, operation, _add_problems)
-    tagged = guarded and route.policy.entity_tag
-    etag.document(method, route.path_format, tagged, operation, _add_problems)
+    idempotency.document(method, policy.idempotency_key, operation, _add_problems)
+    etag.document(method, route.path_format, policy.entity_tag, operation, _add_problems)
     access_control.document(method, guarded, operation, _add_problems)
 
 
@@ -91,7 +96,7 @@ def _name_languages(document: dict[str, Any], languages: Sequence[str]) -> None:
 def _add_problems(operation: dict[str, Any], *slugs: str) -> None:
     """Adds problems that a call can answer beside its own."""
     kinds = {kind.slug: kind for kind in KINDS}
-    for status, new in documented(*(kinds[slug] for slug in slugs)).items():
+    for status, new in problem_responses(*(kinds[slug] for slug in slugs)).items():
         new["content"][MEDIA_TYPE]["schema"] = _PROBLEM
         del new["model"]
         entry = operation["responses"].setdefault(str(status), new)

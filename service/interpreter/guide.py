@@ -12,6 +12,7 @@ from functools import cached_property, partial
 from anyio import from_thread, to_thread
 
 from service.actions import Action, Ask
+from service.actions.table import sets_playback_speed
 from service.grammar import Language as Grammar
 from service.grammar.completion import Completer
 from service.grammar.corpus import sentences
@@ -23,7 +24,6 @@ from service.sessions.scheduler.playback_speed import (
     PlaybackSpeed,
     PlaybackSpeedError,
     change_playback_speed,
-    sets_playback_speed,
 )
 from service.sessions.session import Session
 from sim.actions import Adjust, Set

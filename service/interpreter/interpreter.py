@@ -13,10 +13,11 @@ from typing import Literal
 from anyio import to_thread
 
 from service import actions as contract
-from service.actions import Action, Advise, Ask, Forget, Hide, Pause, Redo, Resume, Show, Step, Teach, Undo
+from service.actions import Action, Forget, Teach
+from service.actions.table import ModelUse, traits_of
 from service.grammar.parse_types import Ambiguous as AmbiguousParse
 from service.grammar.parse_types import Correction, Parse, Refused, Understood
-from service.grammar.references import heard
+from service.grammar.references import parse_in_topic
 from service.grammar.sentences import Unsayable
 from service.grammar.topic import ALONE, Topic
 from service.interpreter.aliases import Aliases
@@ -32,19 +33,9 @@ from service.sessions.narrator_protocol import NarratorProtocol
 from service.sessions.preconditions import NO_PRECONDITIONS, Preconditions
 from service.sessions.session import Session
 from service.sessions.utterance import Outcome, Utterance
-from sim.actions import Add, Adjust, Drive, Prefer, Remove, Scenario, Set, SetCount, SetMode
+from sim.actions import Scenario
 from sim.config import Config
 from sim.session.config_to_actions import UndescribableError, config_to_actions
-
-HARMLESS = (Ask, Advise, Show, Hide)
-"""Actions that change no session: an interpretation that is only these needs no confirmation."""
-
-UNASKED = (
-    *(*HARMLESS, Add, Remove, SetCount, Set, Adjust, Prefer, SetMode, Drive),
-    *(Pause, Resume, Step, Undo, Redo),
-)
-"""What may be done unconfirmed of what a model made out, where the settings allow that at all: all of it
-stays in the session and can be taken back or done again. Never names, phrases, or time itself."""
 
 MAX_SUGGESTIONS = 3
 
@@ -110,7 +101,7 @@ class Interpreter:
             return None
 
     async def preview(self, text: str, session: Session, code: str | None = None) -> Preview | None:
-        """What a sentence would do now; None for one that is empty, or too long to be heard."""
+        """What a sentence would do now; None for one that is empty, or too long to be read."""
         if not text.strip() or len(text) > self._most_chars:
             return None
         code = code or session.language
@@ -119,8 +110,8 @@ class Interpreter:
     async def _read(self, text: str, session: Session | None, code: str) -> Parse:
         parse, topic = self.languages[code].parse, self.topic(session, code)
         if len(text) <= MAX_INLINE_CHARS:
-            return heard(parse, text, topic)
-        return await to_thread.run_sync(heard, parse, text, topic)
+            return parse_in_topic(parse, text, topic)
+        return await to_thread.run_sync(parse_in_topic, parse, text, topic)
 
     async def interpret(
         self, text: str, session: Session | None = None, code: str | None = None, field: str = "text"
@@ -155,7 +146,7 @@ class Interpreter:
     ) -> ParsedCommand:
         """What a question means. Raises also `NotAQuestion` where something else was said."""
         found = await self.interpret(text, session, code, "question")
-        if not all(isinstance(action, Ask | Advise) for action in found.actions):
+        if not all(traits_of(action).is_question for action in found.actions):
             raise NotAQuestion(refusals(found.language).said("no_question"))
         return found
 
@@ -168,7 +159,7 @@ class Interpreter:
         preconditions: Preconditions = NO_PRECONDITIONS,
     ) -> Outcome:
         """Do an utterance, all or nothing; a taught phrase is kept with its owner. Raises a problem."""
-        if not any(isinstance(action, Teach | Forget) for action in utterance.actions):
+        if not any(traits_of(action).changes_aliases for action in utterance.actions):
             outcome = await session.change(utterance, dry_run=dry_run, preconditions=preconditions)
             # An answer that is kept is kept as it was made: in our own words.
             return outcome if preconditions.answer else await self._rephrase_answer(outcome, session)
@@ -245,8 +236,8 @@ class Interpreter:
                 told = words.model(failure.reason, failure.parts)
             refusal.detail = f"{refusal.detail} {told}".strip()
             raise refusal
-        at_once = HARMLESS if self._confirm else UNASKED
-        if all(isinstance(action, at_once) for action in reading.actions):
+        at_once = {ModelUse.ALWAYS} if self._confirm else {ModelUse.ALWAYS, ModelUse.UNCONFIRMED}
+        if all(traits_of(action).model in at_once for action in reading.actions):
             return ParsedCommand(text, reading.actions, source="llm", language=code)
         try:
             said = self.languages[code].sentence(reading.actions)

@@ -10,7 +10,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from service.actions import Action, Advise, Ask, Forget, Teach
+from service.actions import Action
+from service.actions.table import traits_of
 from service.grammar.parse_types import Ambiguous, Parse, Refused, Understood
 from service.problems import ProblemError
 from service.resources import DEFAULT_LANGUAGE
@@ -52,14 +53,14 @@ def preview(parse: Parse, session: Session, language: str = DEFAULT_LANGUAGE) ->
 
 
 def _try(actions: tuple[Action, ...], session: Session, language: str) -> Preview:
-    doing = tuple(action for action in actions if not isinstance(action, Ask | Advise))
+    doing = tuple(action for action in actions if not traits_of(action).is_question)
     if not doing:
         return Preview("asks", actions)
     transaction = Transaction(
         session.timeline, session.paused, session.undo_stack, session.playback_speed, language
     )
     long = transaction.needs_external_planner(doing) or transaction.estimate_ticks(doing) > MAX_TICKS
-    if isinstance(doing[0], Teach | Forget) or long:
+    if traits_of(doing[0]).changes_aliases or long:
         return Preview("does", actions)
     try:
         return Preview("does", actions, merge_changes(transaction.perform(session.sequence + 1, doing)))

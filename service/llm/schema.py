@@ -1,8 +1,8 @@
 """The actions a model may cause, and their description for a prompt, generated from the contract.
 
 The notation is that of TypeScript's types, a tenth of the length of JSON Schema and as well understood.
-Which actions are offered is a list of what may be, so that an action new to the contract is out of a
-model's reach until someone has thought about it here.
+Which actions are offered is said in the table of actions, where the default is none: an action new to the
+contract is out of a model's reach until its row says otherwise.
 """
 
 from __future__ import annotations
@@ -12,18 +12,13 @@ from functools import cache
 from typing import Any, Final, get_args
 
 from service.actions import ACTIONS
+from service.actions.table import ModelUse, verbs_where
 from sim.actions import TimeOfDay, Traffic, Weather
 from sim.planner_names import ALIASES, BUILT_IN, PROMISED
 from sim.sensor_names import SensorName
 
-MAY: Final = frozenset(
-    (
-        *("add", "remove", "set_count", "scenario", "set", "adjust", "prefer"),
-        *("reset", "mode", "drive", "pause", "resume", "step", "rewind", "undo", "redo"),
-        *("show", "hide", "ask", "evaluate", "find_worst", "advise", "record"),
-    )
-)
-"""What a model may cause. Not what is kept under a name, and not what words mean from now on."""
+MAY: Final = verbs_where(lambda traits: traits.model is not ModelUse.NEVER)
+"""What a model may cause, as the table of actions says."""
 
 Json = dict[str, Any]
 _ACTION = "Action"

@@ -16,7 +16,7 @@ from service.sessions.facts import (
     merge_changes,
 )
 from service.sessions.scheduler.playback_speed import MAX, PlaybackSpeed, PlaybackSpeedSet
-from sim.actions import Add, Adjust, Drive, Prefer, Remove, Reset, Scenario, Set, SetCount, SetMode
+from sim.actions import Add, Adjust, Drive, Prefer, Remove, Scenario, Set, SetCount, SetMode
 from sim.events import EventType
 from sim.plan import traits_of
 from sim.session.edits import Applied, Change
@@ -101,8 +101,6 @@ class Replies:
                 )
             case Scenario():
                 return self._scenario(applied.state)
-            case Reset():
-                return self._say("reset")
             case SetMode(mode=mode):
                 changed = any(change.path == "mode" for change in applied.changes)
                 return self._say(f"mode_{mode}" if changed else "mode_already")
@@ -113,6 +111,8 @@ class Replies:
             case Drive(move=move):
                 key = "drive" if applied.state.mode is Mode.MANUAL else "drive_then_auto"
                 said = self._say(key, move=self._sayings.move(move, "do"))
+            case action:  # actions without parameters
+                return self._say(action.do)
         started = any(event.type is EventType.EPISODE_STARTED for event in applied.events)
         return f"{self._say('road_first')} {said}" if started else said
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from service.actions import Ask
+from service.actions.table import imagined_actions
 from service.contract.encode.forecast import what_if_json
 from service.narration.naming import Naming
 from service.narration.question_handler import Json, not_so, plain
@@ -10,14 +11,12 @@ from service.narration.replies import value_of
 from service.narration.sayings import Sayings
 from service.refusals import refusals
 from service.sessions.facts import Asked
-from service.sessions.scheduler.playback_speed import sets_playback_speed
 from sim.actions import (
     Add,
     Adjust,
     Drive,
     Prefer,
     Remove,
-    Reset,
     Scenario,
     Set,
     SetCount,
@@ -33,8 +32,6 @@ from sim.session.errors import EditError
 from sim.session.settings import AS_IT_IS
 from sim.state import SimState
 from sim.types import Kind, Outcome
-
-WORLD_ACTIONS = (Add, Remove, SetCount, Scenario, Reset, SetMode, Drive, Set, Adjust, Prefer)
 
 NAMED = 3
 """Things taken away are named up to so many; more are counted."""
@@ -52,11 +49,7 @@ class WhatIfs:
         """See `Answerer.answer`. What cannot be done is answered too, and nothing is run for it."""
         ask, timeline = asked.ask, asked.timeline
         change = ask.change or ()
-        actions = [
-            action
-            for action in change
-            if isinstance(action, WORLD_ACTIONS) and not sets_playback_speed(action)
-        ]
+        actions = imagined_actions(change)
         if not actions:
             return plain(self._sayings, ask, timeline.state, self._say("only_road"))
         try:
@@ -226,8 +219,6 @@ class Conditions:
                 return self._say("exactly", count=count, things=self._sayings.things(kind, count))
             case Scenario():
                 return self._road(applied.state)
-            case Reset():
-                return self._say("reset")
             case SetMode(mode=mode):
                 return self._say("mode", mode)
             case Drive(move=move):
@@ -236,6 +227,8 @@ class Conditions:
                 return self._sayings.say("whatif", "prefer", wish)
             case Set(parameter=parameter) | Adjust(parameter=parameter):
                 return self._setting(parameter, applied.state)
+            case _:  # actions without parameters
+                return self._say(action.do)
 
     def _removed(self, applied: Applied, action: Remove, before: SimState) -> str:
         things = applied.removed

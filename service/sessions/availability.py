@@ -1,49 +1,19 @@
-"""What this version does of all that can be said. The rest is understood and refused in words.
+"""Availability: what this version does of all that can be said. The rest is understood and refused in words.
 
-The gate stands here and not in the language, so that typed calls, recordings and speech are told
-the same. What a scenario may name is the world's rule.
+The check stands here and not in the grammar, so that typed calls, recordings and speech get the same
+refusals. What a scenario may name is decided by `sim.session.scenario`.
 """
 
 from __future__ import annotations
 
 from service.actions import Action, Ask, Hide, Show
+from service.actions.table import WhatIf, sets_playback_speed, traits_of
 from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE
-from service.sessions.scheduler.playback_speed import sets_playback_speed
 from sim.actions import Add, Adjust, Drive, Remove, Reset, Scenario, Set, SetCount, SetMode
 from sim.session.scenario import find_unavailable
 from sim.session.settings import is_available
 from sim.types import Kind
-
-_OFFERED = frozenset(
-    (
-        "add",
-        "remove",
-        "set_count",
-        "scenario",
-        "reset",
-        "mode",
-        "drive",
-        "set",
-        "adjust",
-        "prefer",
-        "show",
-        "hide",
-        "pause",
-        "resume",
-        "step",
-        "undo",
-        "redo",
-        "rewind",
-        "save",
-        "load",
-        "teach",
-        "forget",
-        "advise",
-    )
-)
-_NO_WORLD = frozenset(("show", "hide", "evaluate", "find_worst", "advise", "save", "record"))
-"""Actions that leave the road as it is, whether this version has them or not."""
 
 _WITH_UNITS = {"target_speed_kmh": ("target speed", " km/h"), "sensor_range_m": ("sensor range", " m")}
 """Parameters whose spelling ends in their unit, in words."""
@@ -56,7 +26,7 @@ def refusal_of(action: Action, language: str = DEFAULT_LANGUAGE) -> str | None:
         return next(
             (said for each in action.change or () if (said := _refuse_imagined(each, language))), None
         )
-    if action.do not in _OFFERED:
+    if not traits_of(action).offered:
         return words.session(action.do)
     match action:
         case Add(kind=Kind.AV) | Remove(kind=Kind.AV) | SetCount(kind=Kind.AV):
@@ -78,7 +48,10 @@ def refusal_of(action: Action, language: str = DEFAULT_LANGUAGE) -> str | None:
 
 
 def _refuse_imagined(action: Action, language: str) -> str | None:
-    """Why nobody can be asked what if to an action; what touches no world may be, and makes no difference."""
-    if action.do in ("undo", "redo", "rewind", "load"):
-        return refusals(language).session("what_if_back")
-    return None if action.do in _NO_WORLD else refusal_of(action, language)
+    """Why an action cannot be part of a what-if question, as a sentence; None if it can."""
+    match traits_of(action).what_if:
+        case WhatIf.REFUSED:
+            return refusals(language).session("what_if_back")
+        case WhatIf.NO_EFFECT:
+            return None
+    return refusal_of(action, language)

@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-from service.actions import Action, Load, Pause, Redo, Resume, Rewind, Undo
+from service.actions import Action
+from service.actions.table import traits_of
 from service.problems import ProblemError
 from service.sessions.availability import refusal_of
 from service.sessions.facts import merge_changes
 from service.sessions.transaction import Transaction
-from sim.actions import Add, Remove, SetCount, SetMode
 from sim.session.edits import Applied
-
-TRIED = (Add, Remove, SetCount, SetMode, Undo, Redo, Pause, Resume, Rewind, Load)
-"""Actions that are tried on a copy at once, to know whether they are possible."""
 
 
 def is_possible(transaction: Transaction, sequence: int, actions: tuple[Action, ...]) -> bool:
     """Whether these would be done on a draft, and change something; long work is taken to be possible."""
-    if any(not isinstance(action, TRIED) for action in actions):
+    if not all(traits_of(action).tried for action in actions):
         return all(refusal_of(action) is None for action in actions)
     if transaction.needs_external_planner(actions):
         return all(transaction.can_undo_or_redo(action) for action in actions)

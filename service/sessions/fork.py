@@ -15,8 +15,7 @@ from itertools import groupby
 
 from service import actions as contract
 from service.actions import Action
-from service.sessions.scheduler.playback_speed import sets_playback_speed
-from service.sessions.transaction import WORLD_ACTIONS
+from service.actions.table import is_world_action
 from service.sessions.undo_stack import UndoStack
 from service.store import Branch, EntryRecord
 from service.store.fork_log import encode_standing
@@ -62,9 +61,7 @@ def fork_point(session_id: str, mixed: Collection[int], timeline: Timeline, tick
 
 def is_partly_of_world(actions: Sequence[Action]) -> bool:
     """Whether such a change is in the log of the road with part of its actions only."""
-    changing = sum(
-        isinstance(action, WORLD_ACTIONS) and not sets_playback_speed(action) for action in actions
-    )
+    changing = sum(is_world_action(action) for action in actions)
     return 0 < changing < len(actions)
 
 

@@ -8,40 +8,38 @@ from __future__ import annotations
 
 import asyncio
 import secrets
-from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict
 from datetime import UTC, datetime
 from functools import partial
 
 import structlog
 from anyio import to_thread
 
-from service import actions as contract
 from service.actions import Action
 from service.problems import (
     FieldProblem,
     Invalid,
     NotRestorable,
     NotSaved,
-    RecordingMismatch,
     TooManySessions,
     UnknownSession,
 )
 from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE
 from service.sessions.bookmarks import attach_names
-from service.sessions.fork import fork_point
-from service.sessions.persistence.replay import ReplayError, replay, replay_one
+from service.sessions.build_fork import build_fork
+from service.sessions.persistence.recording import Recording, replay_recording
+from service.sessions.persistence.replay import ReplayError
 from service.sessions.persistence.restore import restore
 from service.sessions.persistence.snapshot_scheduler import SnapshotScheduler
 from service.sessions.preconditions import NO_PRECONDITIONS, Preconditions
 from service.sessions.scheduler.eviction import Evictor, IdleTimes
-from service.sessions.scheduler.offload import REPLAY_S, STEPS_S, with_time_limit
-from service.sessions.scheduler.playback_speed import NORMAL
-from service.sessions.session import CHANGES_NOTHING, Session, SessionServices
-from service.sessions.transaction import Transaction, check_step_ticks
+from service.sessions.scheduler.offload import REPLAY_S, with_time_limit
+from service.sessions.services import SessionServices
+from service.sessions.session import Session
+from service.sessions.transaction import check_step_ticks
 from service.store import BookmarkRecord, EntryRecord, SessionRecord, StoredResponse, StoreError
-from sim.actions import Set
 from sim.config import Config, ConfigError
 from sim.rules.versions import NewerRulesError
 from sim.session.timeline import Timeline
@@ -55,15 +53,6 @@ SNAPSHOT_TIMEOUT_S = 0.15
 """How long snapshots are kept at a stop."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Recording:
-    """What a recording says beside its configuration."""
-
-    entries: Sequence[EntryRecord]
-    tick: int
-    digest: str
-
-
 class SessionManager:
     """The sessions of one service."""
 
@@ -75,6 +64,11 @@ class SessionManager:
         self._stored_count = 0
         self.idle_times = IdleTimes()
         self.snapshots = SnapshotScheduler(services.store, services.settings)
+
+    @property
+    def live_sessions(self) -> Mapping[str, Session]:
+        """The live sessions by id."""
+        return self._live
 
     @property
     def live_count(self) -> int:
@@ -127,25 +121,13 @@ class SessionManager:
             timeline = await asyncio.to_thread(Timeline, config) if config.solvable else Timeline(config)
             session = Session(record, timeline, self._services)
             if recorded is not None:
-                await self._replay(session, recorded)
+                await replay_recording(session, recorded, self._services)
             session.paused = paused
-            kept = () if answer is None else (answer(session),)
-            entries = recorded.entries if recorded else ()
-            try:
-                session.record = await self._services.store.create(
-                    record, attach_names(entries, session.undo_stack.bookmarks.values()), *kept
-                )
-            except StoreError as error:
-                _LOG.error("a session was not saved", error=str(error))
-                raise NotSaved from error
+            await self._store(session, recorded.entries if recorded else (), answer)
         finally:
             self._creating -= 1
-        self._live[session.id] = session
-        self._stored_count += 1
         self.snapshots.add(session)
-        session.set_paused(paused)
-        session.reachability.start_road(session.run)
-        await session.reachability.wait_until_idle()
+        await self._start(session)
         return session
 
     async def fork(
@@ -172,66 +154,37 @@ class SessionManager:
         self._check_capacity()
         self._creating += 1
         try:
-            speed, begins = parent.playback_speed, parent.paused if paused is None else paused
-            mixed, timeline = parent.partial_changes.copy(), parent.timeline.copy()
-            way = await to_thread.run_sync(fork_point, parent.id, mixed, timeline, tick)
-            record = SessionRecord(
-                id=secrets.token_urlsafe(16),
-                name=name,
-                created_at=datetime.now(UTC),
-                config=parent.record.config,
-                paused=begins,
-                tick=tick,
-                branch=way.branch,
-                language=parent.language,
-            )
-            session = Session(record, way.timeline, self._services)
-            session.start_from(way)
-            session.partial_changes = {each["sequence"] for each in way.branch.instead}
-            said = [] if speed == NORMAL else [(Set(parameter="playback_speed", value=speed),)]
-            entries: list[EntryRecord] = []
-            if all(isinstance(action, CHANGES_NOTHING) for action in actions):
-                transaction = Transaction(
-                    session.timeline,
-                    session.paused,
-                    session.undo_stack,
-                    session.playback_speed,
-                    session.language,
-                )
-                transaction.perform(
-                    session.sequence + 1, actions
-                )  # possible, and nothing to be kept, as ever
-                actions = ()
-            for each in (*said, *((actions,) if actions else ())):
-                entries.append(
-                    EntryRecord(
-                        sequence=session.sequence + 1,
-                        tick=session.timeline.tick,
-                        text=None,
-                        actions=contract.dump(each),
-                    )
-                )
-                again = partial(replay_one, session, session.narrator, entries[-1])
-                await to_thread.run_sync(with_time_limit(STEPS_S, again))
-            session.record = replace(record, tick=session.timeline.tick)
-            session.paused = session.paused if paused is None else paused
-            kept = () if answer is None else (answer(session),)
-            try:
-                session.record = await self._services.store.create(
-                    session.record, attach_names(entries, session.undo_stack.bookmarks.values()), *kept
-                )
-            except StoreError as error:
-                _LOG.error("a fork was not saved", error=str(error))
-                raise NotSaved from error
+            session, entries = await build_fork(parent, tick, actions, name, paused, self._services)
+            await self._store(session, entries, answer)
         finally:
             self._creating -= 1
+        self.snapshots.add_fork(session)
+        await self._start(session)
+        return session
+
+    async def _store(
+        self,
+        session: Session,
+        entries: Sequence[EntryRecord],
+        answer: Callable[[Session], StoredResponse] | None,
+    ) -> None:
+        """Store a new session, with the response to the request that asked for it. Raises `NotSaved`."""
+        kept = () if answer is None else (answer(session),)
+        try:
+            session.record = await self._services.store.create(
+                session.record, attach_names(entries, session.undo_stack.bookmarks.values()), *kept
+            )
+        except StoreError as error:
+            _LOG.error("a session was not saved", error=str(error))
+            raise NotSaved from error
+
+    async def _start(self, session: Session) -> None:
+        """Make a stored session live, and wait until it is known whether its vehicle can arrive."""
         self._live[session.id] = session
         self._stored_count += 1
-        self.snapshots.add_fork(session)
         session.set_paused(session.paused)
         session.reachability.start_road(session.run)
         await session.reachability.wait_until_idle()
-        return session
 
     async def get(self, session_id: str) -> Session:
         """The session with this id, brought back if need be. Raises `UnknownSession`."""
@@ -366,32 +319,6 @@ class SessionManager:
         self.snapshots.add(session)
         session.reachability.start_road(session.run)
         return session
-
-    async def _replay(self, session: Session, recorded: Recording) -> None:
-        try:
-            narrator, most = session.narrator, self._services.settings.max_recording_ticks
-            again = partial(replay, session, narrator, recorded.entries, recorded.tick, most=most)
-            await to_thread.run_sync(with_time_limit(REPLAY_S, again))
-        except ReplayError as error:
-            at = error.position
-            field = f"recording.entries.{at}" if at < len(recorded.entries) else "recording.tick"
-            if error.differs:
-                raise RecordingMismatch(
-                    f"{error} It was changed, or made by other rules.",
-                    errors=[FieldProblem(f"{field}.digest", str(error))],
-                ) from error
-            raise Invalid(
-                "The recording cannot be replayed.", errors=[FieldProblem(field, str(error))]
-            ) from error
-        if session.timeline.tick != recorded.tick:
-            ends = session.timeline.tick
-            raise RecordingMismatch(f"Replayed, it ends at tick {ends}, not at {recorded.tick}.")
-        digest = session.run.world.digest()
-        if digest != recorded.digest:
-            raise RecordingMismatch(
-                f"Replayed, it ends in {digest}, not in {recorded.digest}: "
-                "it was changed, or made by other rules."
-            )
 
     def _check_capacity(self) -> None:
         most = self._services.settings.max_sessions

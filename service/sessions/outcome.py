@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from service import actions as contract
+from service.actions import QUESTIONS
 from service.sessions.facts import Answerable, Asked, Fact, merge_changes, question_timelines
 from service.sessions.narrator_protocol import NarratorProtocol
 from service.sessions.transaction import Transaction
@@ -14,9 +15,6 @@ from service.sessions.utterance import Outcome, ReachabilityNotice, Utterance
 from service.store import EntryRecord
 from sim.plan import traits_of
 from sim.state import SimState
-
-SLOW_QUESTIONS = frozenset(("what_if", "why_not", "confidence"))
-"""Questions for which whole episodes are run, with whatever planner."""
 
 
 def make_outcome(
@@ -97,4 +95,4 @@ def is_slow_to_answer(planner: str, facts: tuple[Fact, ...]) -> bool:
         return False
     earlier = {timeline.config.planner for timeline in question_timelines(facts)}
     slow = any(not traits_of(each).quick for each in {planner, *earlier})
-    return slow or bool(SLOW_QUESTIONS & asked)
+    return slow or any(QUESTIONS[about].runs_episodes for about in asked)

@@ -10,14 +10,15 @@ from __future__ import annotations
 import asyncio
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from contextlib import asynccontextmanager
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
 import structlog
 from anyio import to_thread
 
-from service.actions import Action, Advise, Ask, Hide, Show
+from service.actions import Action
+from service.actions.table import traits_of
 from service.contract.encode.state import SessionStatus
 from service.problems import NotSaved, UnknownName, UnknownSession
 from service.server_timing import part as timed
@@ -28,13 +29,11 @@ from service.sessions.facts import Fact, merge_views, parts_with_events, questio
 from service.sessions.fork import ForkPoint, is_partly_of_world
 from service.sessions.log import EventLog, LogEvent
 from service.sessions.messages import changed_message, tick_message
-from service.sessions.narrator_protocol import NarratorProtocol
 from service.sessions.outcome import is_slow_to_answer, make_entry, make_outcome
 from service.sessions.persistence.log_position import LogPosition
 from service.sessions.preconditions import NO_PRECONDITIONS, Preconditions
 from service.sessions.reachability import ReachabilityMonitor
 from service.sessions.scheduler.background_task import BackgroundTask
-from service.sessions.scheduler.clock import Clock
 from service.sessions.scheduler.external_planner import ExternalPlanner
 from service.sessions.scheduler.offload import (
     QUESTION_S,
@@ -51,13 +50,13 @@ from service.sessions.scheduler.playback_speed import (
     ticks_of_turn,
 )
 from service.sessions.scheduler.tick_batch import TickBatch
+from service.sessions.services import SessionServices
 from service.sessions.state_cache import StateCache
 from service.sessions.subscribers import Subscribers
 from service.sessions.transaction import Transaction, check_step_ticks
 from service.sessions.undo_stack import UndoStack
 from service.sessions.utterance import Outcome, ReachabilityNotice, Utterance
-from service.settings import Settings
-from service.store import SessionRecord, Store, StoreError
+from service.store import SessionRecord, StoreError
 from sim.actions import SetMode
 from sim.events import Event
 from sim.explain.summary import long_to_tell
@@ -69,24 +68,11 @@ from sim.types import Mode
 
 _LOG = structlog.get_logger(__name__)
 
-CHANGES_NOTHING = Ask | Advise | Show | Hide
-"""Actions that leave the session as it is, and are not kept when nothing else is said with them."""
-
 THREAD_TICKS = 200
 """Work of more ticks than this is done beside the event loop."""
 
 MAX_STREAMED_TICKS = 8
 """Steps of up to so many ticks are shown to watchers tick by tick."""
-
-
-@dataclass(frozen=True, slots=True)
-class SessionServices:
-    """What a session needs around it."""
-
-    store: Store
-    clock: Clock
-    narrator: NarratorProtocol
-    settings: Settings
 
 
 class Session:
@@ -257,9 +243,10 @@ class Session:
 
     def is_possible(self, actions: tuple[Action, ...]) -> bool:
         """Whether these would be done, and change something; long work is taken to be possible."""
-        return is_possible(self._begin_transaction(), self.sequence, actions)
+        return is_possible(self.begin_transaction(), self.sequence, actions)
 
-    def _begin_transaction(self, language: str | None = None) -> Transaction:
+    def begin_transaction(self, language: str | None = None) -> Transaction:
+        """A copy to try actions on; `language`: the one in which they are refused (the session's)."""
         language = language or self.language
         return Transaction(self.timeline, self.paused, self.undo_stack, self.playback_speed, language)
 
@@ -303,7 +290,7 @@ class Session:
                 utterance = utterance(self.timeline)
             self._changing = True
             try:
-                transaction = self._begin_transaction(utterance.language)
+                transaction = self.begin_transaction(utterance.language)
                 with timed("apply"):
                     facts = await self._perform(transaction, utterance)
                 seen = await self.reachability.after_change(transaction.timeline.state, facts)
@@ -312,7 +299,7 @@ class Session:
                 )
                 if dry_run:
                     return await self._make_outcome(utterance, facts, self.sequence, event, transaction)
-                if all(isinstance(action, CHANGES_NOTHING) for action in utterance.actions):
+                if not any(traits_of(action).changes_session for action in utterance.actions):
                     outcome = await self._make_outcome(utterance, facts, self.sequence)
                     self.conversation.record(outcome, passing=True)
                     if views := merge_views(facts):

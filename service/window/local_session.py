@@ -19,8 +19,8 @@ from service.interpreter.aliases import Aliases
 from service.interpreter.interpreter import Interpreter
 from service.problems import NotAvailable, ProblemError
 from service.sessions.manager import SessionManager
-from service.sessions.scheduler.clock import WheelClock
-from service.sessions.session import SessionServices
+from service.sessions.scheduler.wheel_clock import WheelClock
+from service.sessions.services import SessionServices
 from service.sessions.utterance import Utterance
 from service.settings import Settings
 from service.store.memory import MemoryStore

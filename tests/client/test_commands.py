@@ -120,13 +120,21 @@ def test_the_lines_of_a_watcher() -> None:
     assert list(lines(Message(type="later"))) == []
     assert not isinstance(Message(type="later"), Hello)
     state = type("State", (), {"tick": 9})()
-    assert list(lines(Standing(type="state", missed=(3, 8), state=state))) == [
+    assert list(lines(Standing(type="state", missed=(3, 8), state=state, event="e-1"))) == [
         "     9  ! ticks 3 to 8 were missed"
     ]
     found = LogEvent(5, 9, "no_way", "There is no way through.", (), None)
-    told = {"type": "changed", "sequence": 1, "changes": (), "state": state, "events": (found,)}
-    assert list(lines(Changed(**told, text=None, reply=found.text))) == ["     9  * There is no way through."]
-    said = Changed(**told, text="add a wall", reply="Added. There is no way through.")
+    told = {
+        "type": "changed",
+        "sequence": 1,
+        "changes": (),
+        "state": state,
+        "event": "e-1",
+    }
+    assert list(lines(Changed(**told, events=(found,), text=None, reply=found.text))) == [
+        "     9  * There is no way through."
+    ]
+    said = Changed(**told, events=(), text="add a wall", reply="Added. There is no way through.")
     assert list(lines(said)) == ["     9  > add a wall: Added. There is no way through."]
     assert LogEvent(1, 2, "crash", "text", (), None).tick == 2
 

@@ -17,6 +17,7 @@ INFO: dict[str, Any] = {
     "name": None,
     "created_at": "2026-11-21T09:00:00+00:00",
     "paused": True,
+    "playback_speed": 1,
     "mode": "auto",
     "tick": 0,
     "episode": 1,
@@ -24,7 +25,10 @@ INFO: dict[str, Any] = {
     "sequence": 0,
     "seed": 1,
     "config": {},
+    "rules": 2,
+    "rules_note": None,
     "sentence": None,
+    "parent": None,
     "links": {},
 }
 

@@ -9,7 +9,7 @@ import pytest
 from websockets.sync.client import connect
 
 from service.client import AsyncClient, Client, Hello, NotAllowed
-from service.client.endpoints import KEY_VARIABLE
+from service.client.call import KEY_VARIABLE
 from tests.support.service_process import ServiceProcess
 
 KEY = "open-sesame"

@@ -23,7 +23,7 @@ from service.client import (
     UnexpectedAnswer,
     UnknownSession,
 )
-from service.client.sse import Events, Following
+from service.client.sse import EventParser, EventStreamReader
 from tests.support.service_process import ServiceProcess
 
 
@@ -103,19 +103,19 @@ def test_what_cannot_be_followed(client: Client) -> None:
 
 
 def test_events_are_cut_where_they_end() -> None:
-    following = Following("http://service", "a/b", "e-1", 30)
+    following = EventStreamReader("http://service", "a/b", "e-1", 30)
     assert following.request(9)["headers"]["Last-Event-ID"] == "e-1"
     assert following.request(9)["url"].endswith("/a%2Fb/events/stream")
     said = {"type": "later", "event": "e-2", "text": "two\u2028lines"}
     whole = f"retry: 1000\n\nid: e-2\nevent: later\ndata: {json.dumps(said, ensure_ascii=False)}\n\n".encode()
     stops = b'event: stopping\ndata: {"type":"stopping","code":1012}\n\n: still here\n\n'
-    events = Events()
+    events = EventParser()
     parts = [bytes((byte,)) for byte in whole + stops]
-    messages = [message for part in parts for message in events.messages(part, following)]
+    messages = [message for part in parts for message in events.feed(part, following)]
     assert [message.raw for message in messages] == [said]
     assert following.request(9)["headers"]["Last-Event-ID"] == "e-2"
     with pytest.raises(UnexpectedAnswer):
-        list(events.messages(b"data: {\n\n", following))
+        list(events.feed(b"data: {\n\n", following))
 
 
 def test_pictures_come_while_something_moves(client: Client) -> None:

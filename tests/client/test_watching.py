@@ -1,4 +1,4 @@
-"""Watching: messages as dataclasses, a service that is killed meanwhile, and how a stream ends."""
+"""StreamReader: messages as dataclasses, a service that is killed meanwhile, and how a stream ends."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from service.client import (
     Tick,
     UnknownSession,
 )
-from service.client.messages import Watching
+from service.client.stream_reader import StreamReader
 from tests.support.service_process import ServiceProcess
 
 
@@ -94,62 +94,62 @@ def closed(code: int) -> ConnectionClosedError:
     return ConnectionClosedError(Close(code, ""), None)
 
 
-def watching(patience_s: float = 30) -> Watching:
+def watching(patience_s: float = 30) -> StreamReader:
     """One that has heard of change 7."""
-    made = Watching("http://service", "s", None, patience_s)
-    made.opened()
-    message = made.take(json.dumps({"type": "later", "sequence": 7}))
+    made = StreamReader("http://service", "s", None, patience_s)
+    made.on_connected()
+    message = made.read(json.dumps({"type": "later", "sequence": 7}))
     assert message is not None
     return made
 
 
 def test_it_goes_on_from_the_last_message_seen() -> None:
-    begun = Watching("http://service:80", "a/b", None, 30)
+    begun = StreamReader("http://service:80", "a/b", None, 30)
     assert begun.address == "ws://service:80/api/v1/sessions/a%2Fb/stream"
     with pytest.raises(RoadtalkError):
-        begun.lost(OSError("nobody there"))
-    begun = Watching("https://service", "s", "a-5", 30)
+        begun.retry_delay_s(OSError("nobody there"))
+    begun = StreamReader("https://service", "s", "a-5", 30)
     assert begun.address == "wss://service/api/v1/sessions/s/stream?after=a-5"
-    begun.take('{"type": "later", "sequence": 9, "event": "a-6"}')
+    begun.read('{"type": "later", "sequence": 9, "event": "a-6"}')
     assert begun.address.endswith("?after=a-6")
-    begun.take('{"type": "later", "sequence": 10}')
+    begun.read('{"type": "later", "sequence": 10}')
     assert begun.address.endswith("?after=a-6")
 
 
 @pytest.mark.parametrize("code", [1001, 1006, 1011, 1012, 1013])
 def test_what_is_tried_again_waits_longer_each_time(code: int) -> None:
     lost = watching()
-    delays = [lost.lost(closed(code)) for _ in range(7)]
+    delays = [lost.retry_delay_s(closed(code)) for _ in range(7)]
     assert delays == [0.1, 0.2, 0.4, 0.8, 1.6, 2.0, 2.0]
-    lost.take('{"type": "later"}')
-    assert lost.lost(closed(code)) == 0.1
+    lost.read('{"type": "later"}')
+    assert lost.retry_delay_s(closed(code)) == 0.1
 
 
 def test_patience_begins_anew_with_every_connection() -> None:
     lost = watching(patience_s=-1)
     with pytest.raises(NotReachable):
-        lost.lost(closed(1012))
+        lost.retry_delay_s(closed(1012))
     patient = watching()
-    assert patient.lost(closed(1012)) == 0.1
-    patient.opened()
+    assert patient.retry_delay_s(closed(1012)) == 0.1
+    patient.on_connected()
     assert patient._lost_since is None
-    assert patient.lost(closed(1012)) == 0.2  # quicker only once a message came
+    assert patient.retry_delay_s(closed(1012)) == 0.2  # quicker only once a message came
 
 
 def test_what_is_over_is_over() -> None:
-    assert watching().lost(closed(1000)) is None
+    assert watching().retry_delay_s(closed(1000)) is None
     with pytest.raises(NotAllowed, match="key"):
-        watching().lost(closed(4401))
+        watching().retry_delay_s(closed(4401))
     for code in (1008, 1009, 4404):
         with pytest.raises(RoadtalkError):
-            watching().lost(closed(code))
+            watching().retry_delay_s(closed(code))
     impatient = watching(patience_s=-1)
     with pytest.raises(RoadtalkError):
-        impatient.lost(closed(1012))
+        impatient.retry_delay_s(closed(1012))
 
 
 def test_rubbish_is_told_and_pictures_passed_over() -> None:
-    assert watching().take(b"\x00picture") is None
+    assert watching().read(b"\x00picture") is None
     for data in ("{", "[]", '{"kind": 1}', '{"type": "tick"}'):
         with pytest.raises(RoadtalkError):
-            watching().take(data)
+            watching().read(data)

@@ -8,10 +8,10 @@ from typing import Any
 
 import pytest
 
-from service.client import AsyncClient, BlockedMove, runs
+from service.client import AsyncClient, BlockedMove, Counterfactual
 from service.client import endpoints as calls
-from service.client.endpoints import Call
-from service.client.sse import Following
+from service.client.call import Call
+from service.client.sse import EventStreamReader
 from tests.contract.document import document
 
 Json = dict[str, Any]
@@ -58,7 +58,7 @@ def test_every_call_of_the_document_is_there_and_no_other() -> None:
     known = {template(call) for call in CALLS.values()}
     assert known | set(ELSEWHERE) == set(OPERATIONS)
     assert not known & set(ELSEWHERE)
-    following = Following("http://service", "SESSION", None, 1)
+    following = EventStreamReader("http://service", "SESSION", None, 1)
     assert following.request(1)["url"] == "/api/v1/sessions/SESSION/events/stream"
 
 
@@ -77,7 +77,7 @@ def test_every_parameter_and_field_can_be_said_and_no_other(name: str) -> None:
         schema = DOCUMENT["components"]["schemas"][schema["$ref"].rsplit("/", 1)[1]]
     assert call.body is not None
     fields = set(schema.get("properties", ()))
-    if name == "configure":  # whatever is given
+    if name == "patch_config":  # whatever is given
         assert set(call.body) <= fields
     else:
         assert set(call.body) == fields
@@ -127,7 +127,7 @@ async def test_what_would_have_been(inside: AsyncClient) -> None:
     session = await inside.create(seed=13, config={"potholes": 4}, paused=True)
     moves = [each.move for each in (await session.step(3)).decisions]
     beside = await session.counterfactual(move="stay", at_tick=1, ticks=5)
-    assert isinstance(beside, runs.Counterfactual)
+    assert isinstance(beside, Counterfactual)
     assert (beside.at_tick, beside.instead_of) == (1, moves[1])
     assert [each.tick for each in beside.real.ticks] == [2, 3, 4, 5, 6]
     first = beside.changed.ticks[0].decision

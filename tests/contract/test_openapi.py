@@ -12,14 +12,10 @@ import httpx
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from pydantic import TypeAdapter
+from jsonschema import Draft202012Validator
 
 from service import problems
-from service.contract import advice as schemas_advice
-from service.contract import answers as schemas
-from service.contract import counterfactual as schemas_counterfactual
 from service.contract import requests as bodies
-from service.http.routes import changes, forecast, moments, regret, timeline, ws_tickets
 from tests.contract.document import Json, asked, document, operations
 
 APP = asked()
@@ -64,38 +60,14 @@ ROUTES = {
     "GET /metrics",
     "POST /api/v1/tickets",
 }
-MODELS: dict[str, type] = {
-    "create_session": schemas.Session,
-    "list_sessions": schemas.SessionPage,
-    "read_session": schemas.Session,
-    "patch_config": schemas.ConfigChanged,
-    "run_command": schemas.CommandResult,
-    "run_actions": schemas.CommandResult,
-    "step_session": schemas.StepResult,
-    "ask_question": schemas.Answer,
-    "parse_text": schemas.Parsed,
-    "ask_advice": schemas_advice.Advice,
-    "read_language": schemas.LanguageGuide,
-    "read_state": schemas.State,
-    "list_decisions": schemas.DecisionPage,
-    "read_decision": schemas.Decision,
-    "list_events": schemas.EventPage,
-    "read_recording": bodies.Recording,
-    "fork_session": schemas.Session,
-    "rewind_session": schemas.CommandResult,
-    "list_bookmarks": schemas.SavedMoments,
-    "list_all_bookmarks": schemas.MomentPage,
-    "run_counterfactual": schemas_counterfactual.Counterfactual,
-    "read_link": schemas.Link,
-    "read_forecast": forecast.Expected,
-    "read_regret": regret.Judged,
-    "read_timeline": timeline.TimelinePage,
-    "list_changes": changes.RoadChanges,
-    "list_moments": moments.Moments,
-    "read_health": schemas.Health,
-    "read_readiness": schemas.Ready,
-    "create_ticket": ws_tickets.Ticket,
-}
+
+
+def validator(schema: Json) -> Draft202012Validator:
+    """Checks values against a schema of the document."""
+    return Draft202012Validator({**schema, "components": DOCUMENT["components"]})
+
+
+PROBLEM = validator({"$ref": "#/components/schemas/ProblemDocument"})
 
 
 @pytest.fixture
@@ -123,7 +95,6 @@ def test_it_is_the_whole_interface_and_nothing_else() -> None:
     assert {f"{p.values[1].upper()} {p.values[0]}" for p in OPERATIONS} == ROUTES
     operation_ids = [p.values[2]["operationId"] for p in OPERATIONS]
     assert len(set(operation_ids)) == len(operation_ids)
-    assert all(re.fullmatch(r"[a-z]+(_[a-z]+)+", each) for each in operation_ids), "a verb and a thing"
 
 
 @pytest.mark.parametrize(("path", "method", "operation"), OPERATIONS)
@@ -165,7 +136,7 @@ def test_every_status_says_what_comes_with_it(path: str, method: str, operation:
             known = {kind.slug: kind for kind in problems.KINDS}
             for slug, example in examples.items():
                 assert example["value"]["status"] == known[slug].status == int(status)
-                schemas.ProblemDocument.model_validate(example["value"])
+                PROBLEM.validate(example["value"])
 
 
 def request_examples() -> Iterator[Any]:
@@ -200,15 +171,13 @@ async def test_answers_have_the_documented_shape(
     answer = await client.request(method, path.format(session_id=identity, tick=2), json=body)
     assert str(answer.status_code) in operation["responses"]
     assert answer.is_success
-    if operation["operationId"] in MODELS:
-        TypeAdapter(MODELS[operation["operationId"]]).validate_json(answer.content)
-    else:
-        assert operation["operationId"] in (
-            "delete_session",
-            "read_frame",
-            "read_video",
-            "read_metrics",
-        )
+    documented = operation["responses"][str(answer.status_code)].get("content", {})
+    if answer.content:
+        assert answer.headers["content-type"].partition(";")[0] in documented
+    if "application/json" in documented:
+        schema = documented["application/json"]["schema"]
+        assert "$ref" in schema
+        validator(schema).validate(answer.json())
 
 
 @pytest.mark.parametrize("path", POSTS)
@@ -336,9 +305,9 @@ def assert_in_contract(path: str, answer: httpx.Response) -> None:
     assert str(answer.status_code) in responses, (answer.status_code, answer.text)
     if not answer.is_success:
         assert answer.headers["content-type"] == "application/problem+json"
-        document = schemas.ProblemDocument.model_validate_json(answer.content)
-        assert document.detail
-        assert document.status == answer.status_code
+        PROBLEM.validate(answer.json())
+        assert answer.json()["detail"]
+        assert answer.json()["status"] == answer.status_code
 
 
 async def post(path: str, content: bytes) -> None:

@@ -14,7 +14,7 @@ from service import problems
 from service.app import create_app
 from service.http.metrics import Metrics, time_store
 from service.server_timing import PARTS
-from service.sessions.scheduler.clock import WheelClock
+from service.sessions.scheduler.wheel_clock import WheelClock
 from service.settings import Settings
 from service.store import MemoryStore
 from tests.support.fakes import FewSentences, HandClock

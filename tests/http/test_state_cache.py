@@ -10,7 +10,7 @@ from tests.support.service import Service
 
 async def both(service: Service, path: str, **headers: str) -> tuple[httpx.Response, httpx.Response]:
     """The state by the short way, and by the long one, which is taken where a tick is named."""
-    live = service.app.state.context.manager._live.get(path.rpartition("/")[2])
+    live = service.app.state.context.manager.live_sessions.get(path.rpartition("/")[2])
     tick = 0 if live is None else live.timeline.tick
     short = await service.client.get(f"{path}/state", headers=headers)
     long = await service.client.get(f"{path}/state?tick={tick}", headers=headers)

@@ -8,7 +8,7 @@ import pytest
 from pydantic import Discriminator, TypeAdapter, ValidationError
 
 from service.contract import requests as bodies
-from service.http.realtime.websocket import Message
+from service.contract.stream_requests import StreamRequest
 from service.http.validation import field_problems
 from tests.support.service import Service
 
@@ -19,9 +19,9 @@ ADD = {"do": "add", "kind": "pothole", "count": 1}
 
 def told(kind: Any, sent: Any) -> dict[str, str]:
     with pytest.raises(ValidationError) as refused:
-        TypeAdapter(Annotated[Message, Discriminator("type")] if kind is Message else kind).validate_python(
-            sent
-        )
+        TypeAdapter(
+            Annotated[StreamRequest, Discriminator("type")] if kind is StreamRequest else kind
+        ).validate_python(sent)
     return {each.field: each.message for each in field_problems(refused.value.errors(), sent, kind)}
 
 
@@ -43,10 +43,10 @@ def told(kind: Any, sent: Any) -> dict[str, str]:
             SLIP + "cell",
         ),
         (bodies.TypedActions, {"actions": [{"do": "pause", "kind": 1}]}, "actions.0.kind", UNKNOWN),
-        (Message, {"type": "command", "id": "1", "txt": "x"}, "txt", SLIP + "text"),
-        (Message, {"type": "ping", "text": "x"}, "text", UNKNOWN),
+        (StreamRequest, {"type": "command", "id": "1", "txt": "x"}, "txt", SLIP + "text"),
+        (StreamRequest, {"type": "ping", "text": "x"}, "text", UNKNOWN),
         (
-            Message,
+            StreamRequest,
             {"type": "subscribe", "frames": "jpg"},
             "frames",
             "must be 'jpeg' or 'webp'; did you mean jpeg",

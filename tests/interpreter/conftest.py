@@ -93,7 +93,7 @@ class Talk:
     def topic(self) -> Topic:
         """What a sentence said now may refer to."""
         context = self.app.state.context
-        return context.interpreter.topic(context.manager._live[self.id])  # type: ignore[no-any-return]
+        return context.interpreter.topic(context.manager.live_sessions[self.id])  # type: ignore[no-any-return]
 
 
 Opening = Callable[..., Awaitable[Talk]]

@@ -76,12 +76,12 @@ class Inside:
         return self.app.state.context.manager
 
     def _live(self, path: str) -> Session | None:
-        found: Session | None = self._manager._live.get(path.rpartition("/")[2])
+        found: Session | None = self._manager.live_sessions.get(path.rpartition("/")[2])
         return found
 
     async def _quiet(self) -> None:
         """Whatever is done beside the loop is done."""
-        for session in list(self._manager._live.values()):
+        for session in list(self._manager.live_sessions.values()):
             await until(lambda session=session: not session.busy)  # type: ignore[misc]
             await session.reachability.wait_until_idle()
             session._narration.finish()

@@ -12,7 +12,8 @@ from service.narration import Narrator
 from service.sessions.manager import SessionManager
 from service.sessions.persistence.replay import replay
 from service.sessions.scheduler.background_task import BackgroundTask
-from service.sessions.session import Session, SessionServices
+from service.sessions.services import SessionServices
+from service.sessions.session import Session
 from service.sessions.utterance import Utterance
 from service.settings import Settings
 from service.store import MemoryStore

@@ -10,7 +10,8 @@ from service import actions as contract
 from service.narration import Narrator
 from service.sessions.manager import SessionManager
 from service.sessions.persistence.replay import replay
-from service.sessions.session import Session, SessionServices
+from service.sessions.services import SessionServices
+from service.sessions.session import Session
 from service.sessions.utterance import Outcome, Utterance
 from service.settings import Settings
 from service.store import MemoryStore

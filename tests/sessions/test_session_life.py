@@ -13,7 +13,7 @@ from service.problems import (
     TooManySessions,
     UnknownSession,
 )
-from service.sessions.manager import Recording
+from service.sessions.persistence.recording import Recording
 from service.sessions.utterance import Utterance
 from service.store import EntryRecord
 from tests.support.sessions import (

@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 
 from service import actions as contract
 from service.problems import NothingToUndo, ProblemError, UnknownName, UnknownSession
-from service.sessions.manager import Recording
-from service.sessions.persistence.recording import recording_json
+from service.sessions.persistence.recording import Recording, recording_json
 from service.sessions.session import Session
 from service.store import EntryRecord, SqlStore
 from tests.support.fork_talk import TALK, talked

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from service import actions as contract
 from service.narration import Narrator
-from service.sessions.manager import Recording, SessionManager
-from service.sessions.persistence.recording import recording_json
-from service.sessions.session import Session, SessionServices
+from service.sessions.manager import SessionManager
+from service.sessions.persistence.recording import Recording, recording_json
+from service.sessions.services import SessionServices
+from service.sessions.session import Session
 from service.sessions.utterance import Utterance
 from service.settings import Settings
 from service.store import EntryRecord, MemoryStore

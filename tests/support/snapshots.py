@@ -5,6 +5,7 @@ from __future__ import annotations
 from copy import deepcopy
 from typing import Any
 
+import orjson
 from hypothesis import strategies as st
 
 from service.grammar.topic import Phrases
@@ -20,12 +21,12 @@ AFTERWARDS = ([UNDO], [UNDO], [REDO], [ADD], [load("a")], [UNDO, ADD], [rewind(2
 
 def all_of(session: Session) -> dict[str, Any]:
     """Whatever a user could see of it, now or later."""
-    footing = session.log_position
+    position = session.log_position
     steps = (*session.undo_stack.done, *session.undo_stack.undone)
     jumps = [(each.jump.before, each.jump.after) for each in steps if each.jump is not None]
     return {
         **whole(session),
-        "paused": (session.paused, footing.paused, footing.tick, footing.digest),
+        "paused": (session.paused, position.paused, position.tick, position.digest),
         "ground": (
             session.undo_stack.base_entries,
             session.undo_stack.base_steps,
@@ -38,7 +39,7 @@ def all_of(session: Session) -> dict[str, Any]:
         ],
         "jumps": [(one.state, other.state, [*one.entries], [*other.entries]) for one, other in jumps],
         "standing": session.status,
-        "state": session.state(),
+        "state": orjson.loads(session.state_body()),
         "talk": session.conversation.to_json(),
         "first line": session.log.first_number,
     }

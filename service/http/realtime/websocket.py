@@ -18,17 +18,15 @@ from __future__ import annotations
 import asyncio
 from contextlib import suppress
 from json import JSONDecodeError
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Any
 
 import structlog
 from fastapi import APIRouter
-from pydantic import ConfigDict, Discriminator, Field, TypeAdapter, ValidationError
+from pydantic import ConfigDict, TypeAdapter, ValidationError
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from service.actions import Action
 from service.contract.encode.json import encoded
-from service.contract.requests import MAX_ACTIONS, Sent, Strictly
-from service.contract.text import Letters
+from service.contract.stream_requests import Actions, Command, Ping, StreamRequest, Subscribe, Unsubscribe
 from service.http import json
 from service.http.deps import Context, context_of
 from service.http.outcome_json import result_json
@@ -51,56 +49,9 @@ _LOG = structlog.get_logger(__name__)
 _QUERY = frozenset(("after",))
 _CODES = {404: 4404, 422: 1008}
 
+_MESSAGE: TypeAdapter[StreamRequest] = TypeAdapter(StreamRequest, config=ConfigDict(defer_build=True))
+
 router = APIRouter(prefix=PREFIX)
-
-Id = Annotated[str, Field(max_length=100, description="Chosen by the client, given back with the answer.")]
-
-
-class Command(Sent):
-    """Something said."""
-
-    type: Literal["command"]
-    id: Id
-    text: Letters
-    dry_run: bool = False
-    language: str | None = Field(None, max_length=16)
-
-
-class Actions(Sent):
-    """Typed actions."""
-
-    type: Literal["actions"]
-    id: Id
-    actions: Strictly[list[Action]] = Field(min_length=1, max_length=MAX_ACTIONS)
-    dry_run: bool = False
-
-
-class Ping(Sent):
-    """Is anyone there."""
-
-    type: Literal["ping"]
-
-
-class Subscribe(Sent):
-    """Show me pictures as well; a second one takes the place of the first."""
-
-    type: Literal["subscribe"]
-    frames: frame_stream.Form
-    view: frame_stream.View = "road"
-    fps: int = Field(30, ge=1, le=60)
-    side: int = Field(480, ge=64, le=1080)
-
-
-class Unsubscribe(Sent):
-    """No more pictures."""
-
-    type: Literal["unsubscribe"]
-
-
-Message: TypeAlias = Command | Actions | Ping | Subscribe | Unsubscribe
-_MESSAGE: TypeAdapter[Message] = TypeAdapter(
-    Annotated[Message, Discriminator("type")], config=ConfigDict(defer_build=True)
-)
 
 
 @router.websocket("/sessions/{session_id}/stream")
@@ -156,7 +107,7 @@ class _Screen:
     async def _show(self, asked: Subscribe) -> None:
         wanted = frame_stream.Wanted(asked.view, asked.frames, asked.side)
         with suppress(WebSocketDisconnect, RuntimeError):  # the client has gone; the reader hears of it
-            await self._context.reels.pass_on(
+            await self._context.reels.stream_to(
                 self._session, wanted, asked.fps, self._context.drawing, self._socket.send_bytes
             )
 
@@ -202,7 +153,7 @@ async def _read(socket: WebSocket, context: Context, session: Session, screen: _
         await socket.close(1008, "too many malformed messages")
 
 
-def _message(text: str | None) -> Message:
+def _message(text: str | None) -> StreamRequest:
     """What was sent. Raises `Malformed` or `Invalid`."""
     if text is None:
         raise Malformed("Messages are text, not binary.")
@@ -213,14 +164,14 @@ def _message(text: str | None) -> Message:
     try:
         return _MESSAGE.validate_python(values)
     except ValidationError as error:
-        problems = field_problems(error.errors(), values, Message)
+        problems = field_problems(error.errors(), values, StreamRequest)
         if not problems[0].field:
             raise Invalid(f"The message {problems[0].message}.", errors=problems) from error
         raise invalid(problems) from error
 
 
 async def _answer(
-    socket: WebSocket, context: Context, session: Session, message: Message, screen: _Screen
+    socket: WebSocket, context: Context, session: Session, message: StreamRequest, screen: _Screen
 ) -> bytes:
     """The answer to one message, under its id."""
     match message:

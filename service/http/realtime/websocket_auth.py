@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import asyncio
 from json import JSONDecodeError
-from typing import Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import ValidationError
 from starlette.websockets import WebSocket
 
+from service.contract.stream_requests import Auth
 from service.http import json
 from service.http.deps import context_of
 
@@ -20,16 +20,6 @@ AUTH_WAIT_S = 5
 
 REFUSED = 4401
 """The close code for a WebSocket without a key or a good ticket."""
-
-
-class _Auth(BaseModel):
-    """The first message of a socket where a key is asked for."""
-
-    model_config = ConfigDict(extra="forbid", strict=True)
-
-    type: Literal["auth"]
-    key: str | None = Field(default=None, max_length=1_000)
-    ticket: str | None = Field(default=None, max_length=100)
 
 
 async def authenticate(socket: WebSocket) -> bool:
@@ -46,12 +36,12 @@ async def authenticate(socket: WebSocket) -> bool:
         if received["type"] == "websocket.disconnect":
             return False
         try:
-            auth = _Auth.model_validate(json.loads(received.get("text") or ""))
+            auth = Auth.model_validate(json.loads(received.get("text") or ""))
         except (JSONDecodeError, ValidationError):
-            auth = _Auth(type="auth")
+            auth = Auth(type="auth")
         if auth.ticket is not None and guard.tickets.take(auth.ticket):
             return True
-        if auth.key is not None and guard.key.right(auth.key):
+        if auth.key is not None and guard.key.matches(auth.key):
             return True
     await socket.close(REFUSED, "a key or a ticket is needed")
     return False

@@ -6,13 +6,11 @@ from itertools import groupby
 from typing import Annotated
 
 from fastapi import Query, Response
-from pydantic import Field
 
 from service import actions as contract
-from service.contract.parts import Answered
-from service.contract.requests import Tick
+from service.contract.timeline import RoadChanges
 from service.http.deps import Here, TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.responses import json_response
 from service.http.route import api_router
 from service.problems import Invalid, NotRestorable, NotSaved, UnknownSession
@@ -22,27 +20,11 @@ router = api_router("time")
 MOST_CHANGES = 1_000
 
 
-class RoadChange(Answered):
-    """Something said or done that changed the road, and still stands."""
-
-    tick: Tick
-    sequence: int
-    text: str = Field(description="As it was said; of typed actions, what says the same.")
-    said: bool = Field(description="Whether it was said, rather than done by typed actions.")
-
-
-class RoadChanges(Answered):
-    """The newest changes that stand, oldest first."""
-
-    items: list[RoadChange]
-    more: bool = Field(description="Whether older ones are left out.")
-
-
 @router.get(
     "/sessions/{session_id}/changes",
     response_model=RoadChanges,
     summary="What was said and stands",
-    responses=documented(UnknownSession, Invalid, NotRestorable, NotSaved),
+    responses=problem_responses(UnknownSession, Invalid, NotRestorable, NotSaved),
 )
 async def list_changes(
     session: TheSession, here: Here, limit: Annotated[int, Query(ge=1, le=MOST_CHANGES)] = 200

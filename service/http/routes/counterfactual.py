@@ -6,18 +6,20 @@ that was not made, driven whatever it meets, or a change of the road. A fork doe
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, cast
 
 from fastapi import Body, Response
 from pydantic import Field
 
 from service.actions import Action
+from service.actions.table import is_world_action
 from service.contract.counterfactual import Counterfactual
 from service.contract.encode.counterfactual import beside_json
-from service.contract.requests import MAX_ACTIONS, Sent, Strictly, Tick
+from service.contract.model import Tick
+from service.contract.requests import MAX_ACTIONS, Sent, Strictly
 from service.http.content_type import JSON_ONLY
 from service.http.deps import TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.responses import etag, json_response
 from service.http.route import api_router
 from service.http.validation import invalid
@@ -35,20 +37,7 @@ from service.problems import (
 from service.refusals import refusals
 from service.sessions.availability import refusal_of
 from service.sessions.scheduler.offload import QUESTION_S, run_in_thread, uses_external_planner
-from service.sessions.scheduler.playback_speed import sets_playback_speed
-from sim.actions import (
-    Add,
-    Adjust,
-    Drive,
-    Prefer,
-    Remove,
-    Reset,
-    Scenario,
-    Set,
-    SetCount,
-    SetMode,
-    WorldAction,
-)
+from sim.actions import WorldAction
 from sim.explain import QuestionError
 from sim.explain.side_by_side import compare_change, compare_move
 from sim.session.errors import EditError
@@ -59,7 +48,6 @@ router = api_router("time")
 MAX_TICKS = 500
 """Ticks of each run that are told at most; how it ends is told of the whole."""
 
-_WORLD_ACTIONS = (Add, Remove, SetCount, Scenario, Reset, SetMode, Drive, Set, Adjust, Prefer)
 _EXAMPLES: dict[str, Any] = {
     "move": {
         "summary": "Another move than the one made",
@@ -90,7 +78,7 @@ class Otherwise(Sent):
     response_model=Counterfactual,
     summary="Watch what would have been",
     dependencies=[JSON_ONLY],
-    responses=documented(
+    responses=problem_responses(
         Malformed,
         UnknownSession,
         ContentTooLarge,
@@ -144,7 +132,7 @@ def _world_actions(actions: list[Action], language: str) -> list[WorldAction]:
         sentence = refusal_of(action, language)
         if sentence is not None:
             raise NotAvailable(sentence, errors=[FieldProblem(f"actions.{position}", sentence)])
-        if not isinstance(action, _WORLD_ACTIONS) or sets_playback_speed(action):
+        if not is_world_action(action):
             raise invalid([FieldProblem(f"actions.{position}", "changes nothing on the road")])
-        changing.append(action)
+        changing.append(cast(WorldAction, action))
     return changing

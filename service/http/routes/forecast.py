@@ -5,12 +5,10 @@ from __future__ import annotations
 from typing import Annotated
 
 from fastapi import Query, Response
-from pydantic import Field
 
-from service.contract.parts import Answered, CellPair, Decision
-from service.contract.requests import Tick
+from service.contract.forecast import Expected
 from service.http.deps import TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.pagination import MAX_INTEGER
 from service.http.responses import json_response
 from service.http.route import api_router
@@ -29,29 +27,11 @@ MOST_AHEAD = 16
 """Ticks that are forecast at most."""
 
 
-class ExpectedTick(Answered):
-    """Where movers are expected to be at a tick to come."""
-
-    tick: Tick
-    movers: dict[str, CellPair] = Field(description="Their cells, by id.")
-
-
-class Expected(Answered):
-    """What is expected at a tick: what the vehicle is about to do, and where the movers will be."""
-
-    tick: Tick
-    decision: Decision | None = Field(description="The decision taken at it; null where a result stands.")
-    exact: bool = Field(
-        description="Whether it is sure: false beyond the first tick where others react to the vehicle."
-    )
-    ahead: list[ExpectedTick]
-
-
 @router.get(
     "/sessions/{session_id}/forecast",
     response_model=Expected,
     summary="What is about to happen",
-    responses=documented(UnknownSession, Invalid, NotRestorable),
+    responses=problem_responses(UnknownSession, Invalid, NotRestorable),
 )
 async def read_forecast(
     session: TheSession,

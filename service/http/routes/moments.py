@@ -7,13 +7,11 @@ from typing import Annotated, Any
 
 from anyio import to_thread
 from fastapi import Query, Response
-from pydantic import Field
 
 from service.contract.encode.state import SessionStatus, state_json
-from service.contract.parts import Answered, Decision, State
-from service.contract.requests import Tick
+from service.contract.timeline import Moments
 from service.http.deps import TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.pagination import MAX_INTEGER
 from service.http.responses import json_response
 from service.http.route import api_router
@@ -30,25 +28,11 @@ MOST_MOMENTS = 64
 """Worlds in a page."""
 
 
-class Moment(Answered):
-    """A world, with the decision that led to it."""
-
-    state: State
-    decision: Decision | None
-
-
-class Moments(Answered):
-    """Several ticks in a row."""
-
-    items: list[Moment]
-    now: Tick = Field(description="The session's present tick.")
-
-
 @router.get(
     "/sessions/{session_id}/moments",
     response_model=Moments,
     summary="Several ticks in full",
-    responses=documented(UnknownSession, Invalid, NotRestorable),
+    responses=problem_responses(UnknownSession, Invalid, NotRestorable),
 )
 async def list_moments(
     session: TheSession,

@@ -7,12 +7,10 @@ from typing import Annotated, Any
 
 from anyio import to_thread
 from fastapi import Query, Response
-from pydantic import Field
 
-from service.contract.parts import Answered
-from service.contract.requests import Tick
+from service.contract.forecast import Judged
 from service.http.deps import TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.pagination import MAX_INTEGER
 from service.http.responses import json_response
 from service.http.route import api_router
@@ -20,7 +18,6 @@ from service.http.ticks import check_tick
 from service.problems import Invalid, NotRestorable, UnknownSession
 from sim.oracle.regret import regret
 from sim.session.timeline import Timeline
-from sim.types import Move
 
 router = api_router("watching")
 
@@ -28,31 +25,11 @@ MOST_JUDGED = 200
 """Decisions that are judged at most in one answer, each by a search."""
 
 
-class JudgedDecision(Answered):
-    """A decision against the best that could have been done at its moment."""
-
-    tick: Tick
-    move: Move
-    blocked: int = Field(description="How many of the six moves would have ended badly or off the road.")
-    ticks: int | None = Field(description="Ticks lost; null where the goal is, or was, out of reach.")
-    cost: int | None = Field(description="Cost lost, by the configuration's charges; null as for `ticks`.")
-    lost: bool = Field(description="Whether the goal could be reached before the move, and not after it.")
-
-
-class Judged(Answered):
-    """Decisions in a row, each with its regret."""
-
-    first: Tick = Field(alias="from")
-    now: Tick = Field(description="The session's present tick.")
-    items: list[JudgedDecision] = Field(description="None for ticks at which a result stood.")
-    more: bool
-
-
 @router.get(
     "/sessions/{session_id}/regret",
     response_model=Judged,
     summary="What decisions cost against the best",
-    responses=documented(UnknownSession, Invalid, NotRestorable),
+    responses=problem_responses(UnknownSession, Invalid, NotRestorable),
 )
 async def read_regret(
     session: TheSession,

@@ -6,16 +6,14 @@ In pages, replayed beside the event loop. What was undone is no part of the run 
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from anyio import to_thread
 from fastapi import Query, Response
-from pydantic import Field
 
-from service.contract.parts import Answered, CellPair
-from service.contract.requests import Tick
+from service.contract.timeline import TimelinePage
 from service.http.deps import TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.pagination import MAX_INTEGER
 from service.http.responses import json_response
 from service.http.route import api_router
@@ -43,36 +41,11 @@ _NO_MOVE = "-"
 """The letter of a tick at which the result of an episode stood."""
 
 
-class TimelineMark(Answered):
-    """A tick that matters."""
-
-    tick: Tick
-    kind: Literal["crash", "success", "stuck", "near_miss", "episode"] = Field(
-        description="`near_miss`: something that moves came into the cell that the vehicle had just left, "
-        "and would have hit it had it stayed. `episode`: one begins."
-    )
-    ids: list[str]
-    cell: CellPair | None
-
-
-class TimelinePage(Answered):
-    """A stretch of a run."""
-
-    first: Tick = Field(alias="from")
-    now: Tick = Field(description="The session's present tick.")
-    moves: str = Field(
-        description="A letter for each tick from `from` on: F forward, L left, R right, l forward left, "
-        "r forward right, s stay, - where the result of an episode stood."
-    )
-    marks: list[TimelineMark]
-    more: bool
-
-
 @router.get(
     "/sessions/{session_id}/timeline",
     response_model=TimelinePage,
     summary="A stretch of the run at a glance",
-    responses=documented(UnknownSession, Invalid, NotRestorable),
+    responses=problem_responses(UnknownSession, Invalid, NotRestorable),
 )
 async def read_timeline(
     session: TheSession,

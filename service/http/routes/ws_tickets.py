@@ -5,13 +5,15 @@ from __future__ import annotations
 from typing import Annotated
 
 from fastapi import Body, Response
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict
 
+from service.contract.operations import Ticket
 from service.http.content_type import JSON_ONLY
 from service.http.deps import Here
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.responses import json_response
-from service.http.route import api_router, policy
+from service.http.route import api_router
+from service.http.route_policy import policy
 from service.problems import ContentTooLarge, Invalid, Malformed, UnsupportedMediaType
 from service.security.ws_tickets import GOOD_FOR_S
 
@@ -24,19 +26,12 @@ class NoFields(BaseModel):
     model_config = ConfigDict(extra="forbid")
 
 
-class Ticket(BaseModel):
-    """Good for one socket."""
-
-    ticket: str = Field(description="To be sent as the first message of a socket.")
-    good_for_s: int = Field(description="Seconds within which it must be used.")
-
-
 @router.post(
     "/tickets",
     response_model=Ticket,
     summary="Get a ticket for a socket",
     dependencies=[JSON_ONLY],
-    responses=documented(Malformed, ContentTooLarge, UnsupportedMediaType, Invalid),
+    responses=problem_responses(Malformed, ContentTooLarge, UnsupportedMediaType, Invalid),
 )
 @policy(idempotency_key=False)
 async def create_ticket(

@@ -1,23 +1,67 @@
-"""A session as one small file: configuration with seed, and the changes with their ticks.
+"""Recordings: a session as one small file of its configuration (with seed) and its changes with their ticks.
 
-Whoever replays it comes to the same digest. Recordings are read strictly: what is not understood
-is refused, never skipped. Entries of older recordings name no digests, and those of forks not always. Those
-that name no version of the rules are of the first.
+A replay leads to the same digest. Recordings are read strictly: unknown keys are refused, never skipped.
+Entries of older recordings name no digests, and those of forks not always. A recording that names no
+version of the rules is of version 1.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
+from functools import partial
 from typing import Any
 
+from anyio import to_thread
+
+from service.problems import FieldProblem, Invalid, RecordingMismatch
 from service.resources import DEFAULT_LANGUAGE
 from service.sessions.fork import renumber
+from service.sessions.persistence.replay import ReplayError, replay
+from service.sessions.scheduler.offload import REPLAY_S, with_time_limit
+from service.sessions.services import SessionServices
 from service.sessions.session import Session
 from service.store import EntryRecord
 
 FORMAT = "roadtalk-recording"
 VERSION = 1
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Recording:
+    """What a recording holds beside its configuration."""
+
+    entries: Sequence[EntryRecord]
+    tick: int
+    digest: str
+
+
+async def replay_recording(session: Session, recording: Recording, services: SessionServices) -> None:
+    """Replay a recording on a new session. Raises `Invalid`, or `RecordingMismatch` for another digest."""
+    try:
+        most = services.settings.max_recording_ticks
+        work = partial(replay, session, session.narrator, recording.entries, recording.tick, most=most)
+        await to_thread.run_sync(with_time_limit(REPLAY_S, work))
+    except ReplayError as error:
+        at = error.position
+        field = f"recording.entries.{at}" if at < len(recording.entries) else "recording.tick"
+        if error.differs:
+            raise RecordingMismatch(
+                f"{error} It was changed, or made by other rules.",
+                errors=[FieldProblem(f"{field}.digest", str(error))],
+            ) from error
+        raise Invalid(
+            "The recording cannot be replayed.", errors=[FieldProblem(field, str(error))]
+        ) from error
+    if session.timeline.tick != recording.tick:
+        ends = session.timeline.tick
+        raise RecordingMismatch(f"Replayed, it ends at tick {ends}, not at {recording.tick}.")
+    digest = session.run.world.digest()
+    if digest != recording.digest:
+        raise RecordingMismatch(
+            f"Replayed, it ends in {digest}, not in {recording.digest}: "
+            "it was changed, or made by other rules."
+        )
 
 
 def recording_json(session: Session, entries: Sequence[EntryRecord]) -> dict[str, Any]:

@@ -23,7 +23,8 @@ from service.sessions.fork import ForkPoint
 from service.sessions.log import EventLog
 from service.sessions.narrator_protocol import NarratorProtocol
 from service.sessions.outcome import compose_reply
-from service.sessions.transaction import Transaction, planner_timeout_problem, step_ticks
+from service.sessions.planner_timeout import planner_timeout_problem
+from service.sessions.transaction import Transaction, step_ticks
 from service.sessions.utterance import Outcome, Utterance
 from service.store import Branch, EntryRecord
 from sim.events import Event

@@ -8,7 +8,8 @@ import structlog
 
 from service.sessions.persistence.replay import ReplayError, replay
 from service.sessions.persistence.snapshots import UnfitError, unpack
-from service.sessions.session import Session, SessionServices
+from service.sessions.services import SessionServices
+from service.sessions.session import Session
 from service.store import EntryRecord, SessionRecord, SnapshotRecord
 from sim.session.saved_config import saved_config
 from sim.session.timeline import Timeline

@@ -53,7 +53,7 @@ _UNREADABLE = (
 )
 
 _ROOT = Path(__file__).parents[3]
-_SOURCES = ("sim/**/*.py", "service/sessions/**/*.py", "service/actions.py")
+_SOURCES = ("sim/**/*.py", "service/sessions/**/*.py", "service/actions/*.py")
 
 
 class UnfitError(Exception):

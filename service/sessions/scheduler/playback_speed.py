@@ -14,13 +14,11 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Final, Literal, TypeAlias
 
-from service.actions import Action
 from sim.actions import Adjust, Set
 
 PlaybackSpeed: TypeAlias = float | Literal["max"]
 """Simulated seconds in a second, or as many as there is time for."""
 
-PARAMETER: Final = "playback_speed"
 SLOWEST: Final = 0.25
 FASTEST: Final = 64.0
 NORMAL: Final = 1.0
@@ -53,11 +51,6 @@ class PlaybackSpeedSet:
     before: PlaybackSpeed
     after: PlaybackSpeed
     tick: int
-
-
-def sets_playback_speed(action: Action) -> bool:
-    """Whether an action is about the clock's speed, and so about no world."""
-    return isinstance(action, Set | Adjust) and action.parameter == PARAMETER
 
 
 def change_playback_speed(speed: PlaybackSpeed, action: Set | Adjust) -> PlaybackSpeed:

@@ -290,7 +290,7 @@ async def test_the_sources_of_the_rules_make_the_version() -> None:
     found = module.version()
     assert found.startswith(f"{module.FORMAT}.")
     sources = [path for pattern in module._SOURCES for path in module._ROOT.glob(pattern)]
-    assert {"world.py", "snapshot_codec.py", "actions.py"} <= {path.name for path in sources}
+    assert {"world.py", "snapshot_codec.py", "table.py"} <= {path.name for path in sources}
 
 
 async def test_states_on_the_way_are_fewer_where_there_would_be_too_many(

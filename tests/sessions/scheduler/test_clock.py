@@ -9,12 +9,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from service.sessions.scheduler.clock import (
+from service.sessions.scheduler.clock import SLOT_S, Lateness
+from service.sessions.scheduler.wheel_clock import (
     POSTPONE_MARGIN_S,
     SLOT_CAPACITY,
-    SLOT_S,
     UNTHROTTLED_TURN_S,
-    Lateness,
     WheelClock,
 )
 from tests.support.clock_time import Counter, Time

@@ -7,7 +7,8 @@ from typing import cast
 
 import pytest
 
-from service.sessions.scheduler.clock import SLOT_S, WheelClock
+from service.sessions.scheduler.clock import SLOT_S
+from service.sessions.scheduler.wheel_clock import WheelClock
 from tests.support.clock_time import Counter, Time
 
 

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from service.actions import load
 from service.app import create_app
 from service.refusals import refusals
-from service.sessions.scheduler.clock import SLOT_S, WheelClock
+from service.sessions.scheduler.clock import SLOT_S
 from service.sessions.scheduler.playback_speed import (
     FASTEST,
     MAX,
@@ -28,6 +28,7 @@ from service.sessions.scheduler.playback_speed import (
     period_s,
     ticks_of_turn,
 )
+from service.sessions.scheduler.wheel_clock import WheelClock
 from service.settings import Settings
 from service.store import MemoryStore
 from tests.support.fakes import HandClock

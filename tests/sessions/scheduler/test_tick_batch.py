@@ -7,9 +7,10 @@ from datetime import UTC, datetime
 import pytest
 
 from service.narration import Narrator
-from service.sessions.scheduler.clock import BATCH_SIZE, WheelClock
 from service.sessions.scheduler.tick_batch import TickBatch
-from service.sessions.session import Session, SessionServices
+from service.sessions.scheduler.wheel_clock import BATCH_SIZE, WheelClock
+from service.sessions.services import SessionServices
+from service.sessions.session import Session
 from service.sessions.subscribers import StreamMessage, Subscribers
 from service.settings import Settings
 from service.store import MemoryStore, SessionRecord

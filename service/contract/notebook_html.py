@@ -8,7 +8,7 @@ from html import escape
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from service.client.results import State
+    from service.contract.state import State
 
 CELL = 14
 """Pixels of a cell."""

@@ -1,0 +1,68 @@
+"""Actions that run many episodes, and advice about a hazard; they hold no other action."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+from annotated_types import Ge, Gt, Le
+
+from service.actions.steering import STRICT
+from sim.actions import Amount, Layout, PlaceableKind, RoadType, TimeOfDay, Traffic, Weather
+from sim.planner_names import PlannerName
+from sim.sensor_names import SensorName
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ScenarioParts:
+    """The keys of `scenario`, as conditions of an evaluation."""
+
+    weather: Weather | None = None
+    time_of_day: TimeOfDay | None = None
+    road: RoadType | None = None
+    layout: Layout | None = None
+    traffic: Traffic | None = None
+    potholes: Amount | None = None
+    vehicles: Amount | None = None
+    barriers: Amount | None = None
+    pedestrians: Amount | None = None
+    avs: Amount | None = None
+    planner: PlannerName | None = None
+    sensor: SensorName | None = None
+
+    __pydantic_config__ = STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Evaluate:
+    """Many episodes, compared."""
+
+    do: Literal["evaluate"] = "evaluate"
+    runs: Annotated[int, Ge(1), Le(1_000_000)] | None = None
+    planners: tuple[PlannerName, ...] | None = None
+    scenario: ScenarioParts | None = None
+
+    __pydantic_config__ = STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FindWorst:
+    """The world in which a planner fares worst."""
+
+    do: Literal["find_worst"] = "find_worst"
+    runs: Annotated[int, Ge(1), Le(1_000_000)] | None = None
+    planner: PlannerName | None = None
+
+    __pydantic_config__ = STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Advise:
+    """What to do about a hazard at a distance, at a speed."""
+
+    do: Literal["advise"] = "advise"
+    hazard: PlaceableKind
+    distance_m: Annotated[float, Gt(0)]
+    speed_kmh: Annotated[float, Ge(0)]
+
+    __pydantic_config__ = STRICT

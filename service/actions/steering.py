@@ -1,0 +1,121 @@
+"""Actions that steer the clock, the history and the views of a session; they hold no other action."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+from annotated_types import Ge, Le, MaxLen, MinLen
+
+STRICT = {"extra": "forbid"}
+"""Pydantic's setting for every action: unknown keys are refused."""
+
+Ticks = Annotated[int, Ge(1), Le(10_000)]
+Name = Annotated[str, MinLen(1), MaxLen(80)]
+ViewName = Literal["road", "schematic", "occupancy", "plan", "log", "potholes", "sensors", "path", "metrics"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Pause:
+    """Stop the clock."""
+
+    do: Literal["pause"] = "pause"
+
+    __pydantic_config__ = STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Resume:
+    """Start the clock."""
+
+    do: Literal["resume"] = "resume"
+
+    __pydantic_config__ = STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Undo:
+    """Take back the latest change, as if it had never been said."""
+
+    do: Literal["undo"] = "undo"
+
+    __pydantic_config__ = STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Redo:
+    """Say again what was undone last."""
+
+    do: Literal["redo"] = "redo"
+
+    __pydantic_config__ = STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Step:
+    """Run some ticks at once, and stay paused after them."""
+
+    do: Literal["step"] = "step"
+    ticks: Ticks
+
+    __pydantic_config__ = STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rewind:
+    """Go back some ticks."""
+
+    do: Literal["rewind"] = "rewind"
+    ticks: Ticks
+
+    __pydantic_config__ = STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Show:
+    """Show a view."""
+
+    do: Literal["show"] = "show"
+    view: ViewName
+
+    __pydantic_config__ = STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Hide:
+    """Hide a view."""
+
+    do: Literal["hide"] = "hide"
+    view: ViewName
+
+    __pydantic_config__ = STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Save:
+    """Keep the session under a name."""
+
+    do: Literal["save"] = "save"
+    name: Name
+
+    __pydantic_config__ = STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Load:
+    """Go on from what was saved under a name."""
+
+    do: Literal["load"] = "load"
+    name: Name
+
+    __pydantic_config__ = STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Record:
+    """Start or stop recording."""
+
+    do: Literal["record"] = "record"
+    on: bool
+
+    __pydantic_config__ = STRICT

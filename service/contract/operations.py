@@ -1,0 +1,46 @@
+"""The service itself: its health, and tickets for sockets."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Annotated, Literal
+
+from service.contract.model import Answered, DocumentedAs, Model
+
+
+@dataclass(frozen=True, slots=True)
+class Lateness(Model):
+    """How long after their deadline the latest ticks began."""
+
+    ticks: int
+    p50_ms: float
+    p99_ms: float
+    max_ms: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Health(Answered):
+    """The service is alive, and what it holds."""
+
+    status: Annotated[str, DocumentedAs(Literal["ok"])]
+    version: str
+    sessions: int
+    watchers: int
+    tick_lateness: Lateness
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Ready(Answered):
+    """The store answers."""
+
+    status: Annotated[str, DocumentedAs(Literal["ready"])]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Ticket(Answered):
+    """Lets one socket in: its first message is `{"type": "auth", "ticket": ...}`."""
+
+    ticket: str = field(repr=False)
+    """To be sent as the first message of a socket."""
+    good_for_s: int
+    """Seconds within which it must be used."""

@@ -1,0 +1,187 @@
+"""Handlers of actions: what a transaction does for each kind of action, registered in one place.
+
+A handler gets the transaction, the action, the sequence number of the utterance and the action's position in
+it, changes the transaction and returns a fact. It raises a `ProblemError` that names the field at fault.
+Actions that change the world share one handler, since `sim.session.edits` applies them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
+
+from service.actions import (
+    Advise,
+    Ask,
+    Forget,
+    Hide,
+    Load,
+    Pause,
+    Redo,
+    Resume,
+    Rewind,
+    Save,
+    Show,
+    Step,
+    Teach,
+    Undo,
+)
+from service.actions.table import sets_playback_speed, types_where
+from service.problems import DoesNotFit, FieldProblem, Invalid, NotAvailable, NothingToUndo
+from service.sessions.bookmarks import MAX_BOOKMARKS, Bookmark, Bookmarked, Jumped, unknown_bookmark
+from service.sessions.facts import Advised, Asked, Fact, PauseSet, Stepped, Undone, Viewed
+from service.sessions.planner_timeout import planner_timeout_problem
+from service.sessions.rewind import rewind_timeline
+from service.sessions.scheduler.playback_speed import (
+    PlaybackSpeedError,
+    PlaybackSpeedSet,
+    change_playback_speed,
+)
+from sim.actions import Adjust, Set, Weather, WorldAction
+from sim.hazard_advice import NoAdviceError, advise
+from sim.session.errors import EditError
+from sim.session.timeline import PlannerSilentError
+from sim.types import Kind
+
+if TYPE_CHECKING:
+    from service.sessions.transaction import Transaction
+
+Handler: TypeAlias = Callable[["Transaction", Any, int, int], Fact]
+"""Takes the transaction, the action, the utterance's sequence number and the action's position in it."""
+
+HandlerT = TypeVar("HandlerT", bound=Handler)
+
+HANDLERS: dict[type, Handler] = {}
+"""The handler of each class of actions that is offered."""
+
+
+def handles(*kinds: type) -> Callable[[HandlerT], HandlerT]:
+    """Registers a function as the handler of some classes of actions."""
+
+    def register(handler: HandlerT) -> HandlerT:
+        HANDLERS.update(dict.fromkeys(kinds, handler))
+        return handler
+
+    return register
+
+
+@handles(*types_where(lambda traits: traits.changes_world))
+def _change_world(transaction: Transaction, action: WorldAction, sequence: int, position: int) -> Fact:
+    if sets_playback_speed(action):
+        assert isinstance(action, Set | Adjust)
+        return _set_playback_speed(transaction, action, position)
+    try:
+        (applied,) = transaction.timeline.apply(sequence, [action])
+    except EditError as error:
+        sentence = transaction.refusals.edit(error)
+        kind = NotAvailable if error.category == "not-available" else DoesNotFit
+        where = f"actions.{position}.{error.field}"
+        raise kind(sentence, errors=[FieldProblem(where, sentence)]) from error
+    return applied
+
+
+def _set_playback_speed(transaction: Transaction, action: Set | Adjust, position: int) -> PlaybackSpeedSet:
+    before = transaction.playback_speed
+    try:
+        transaction.playback_speed = change_playback_speed(before, action)
+    except PlaybackSpeedError as error:
+        sentence = transaction.refusals.playback_speed(error.code, error.facts)
+        where = f"actions.{position}.{error.field}"
+        raise Invalid(sentence, errors=[FieldProblem(where, sentence)]) from error
+    return PlaybackSpeedSet(before, transaction.playback_speed, transaction.timeline.tick)
+
+
+@handles(Ask)
+def _ask(transaction: Transaction, action: Ask, _sequence: int, _position: int) -> Asked:
+    return Asked(action, transaction.timeline.copy())
+
+
+@handles(Advise)
+def _advise(transaction: Transaction, action: Advise, _sequence: int, position: int) -> Advised:
+    weather: Weather = getattr(transaction.timeline.state.config, "weather", "clear")
+    try:
+        advice = advise(Kind(action.hazard), action.distance_m, action.speed_kmh, weather)
+    except NoAdviceError as error:
+        sentence, where = transaction.refusals.advice(error), f"actions.{position}.{error.field}"
+        raise Invalid(sentence, errors=[FieldProblem(where, sentence)]) from error
+    return Advised(advice, transaction.timeline.tick)
+
+
+@handles(Show, Hide)
+def _set_view(_transaction: Transaction, action: Show | Hide, _sequence: int, _position: int) -> Viewed:
+    return Viewed(action.view, isinstance(action, Show))
+
+
+@handles(Pause, Resume)
+def _set_paused(transaction: Transaction, action: Pause | Resume, _sequence: int, _position: int) -> PauseSet:
+    before, transaction.paused = transaction.paused, isinstance(action, Pause)
+    return PauseSet(before, transaction.paused, transaction.timeline.tick)
+
+
+@handles(Step)
+def _step(transaction: Transaction, action: Step, _sequence: int, _position: int) -> Stepped:
+    transaction.paused = True
+    timeline = transaction.timeline
+    try:
+        return Stepped(timeline.tick, tuple(timeline.advance() for _ in range(action.ticks)))
+    except PlannerSilentError as silence:
+        raise planner_timeout_problem(silence, transaction.language) from silence
+
+
+@handles(Undo)
+def _undo(transaction: Transaction, _action: Undo, _sequence: int, position: int) -> Undone:
+    transaction.close_step()
+    step = transaction.undo_stack.undo(transaction.timeline)
+    if step is None:
+        raise _nothing_to_undo(transaction.refusals.session("nothing_to_undo"), position)
+    return transaction.replace_tail(step.inverse, again=False)
+
+
+@handles(Redo)
+def _redo(transaction: Transaction, _action: Redo, _sequence: int, position: int) -> Undone:
+    transaction.close_step()
+    step = transaction.undo_stack.redo(transaction.timeline)
+    if step is None:
+        raise _nothing_to_undo(transaction.refusals.session("nothing_to_redo"), position)
+    return transaction.replace_tail(step, again=True)
+
+
+@handles(Rewind)
+def _rewind(transaction: Transaction, action: Rewind, _sequence: int, position: int) -> Jumped:
+    before = transaction.timeline.state
+    rewind_timeline(transaction.timeline, action.ticks, f"actions.{position}.ticks", transaction.language)
+    return transaction.jump(before, len(transaction.timeline.entries))
+
+
+@handles(Save)
+def _save(transaction: Transaction, action: Save, sequence: int, position: int) -> Bookmarked:
+    stack, name = transaction.undo_stack, action.name
+    again = name in stack.bookmarks
+    if not again and len(stack.bookmarks) >= MAX_BOOKMARKS:
+        sentence = transaction.refusals.session("names", most=MAX_BOOKMARKS)
+        raise Invalid(sentence, errors=[FieldProblem(f"actions.{position}.name", sentence)])
+    bookmark = Bookmark(name, sequence, transaction.timeline.copy())
+    stack.bookmarks = {**stack.bookmarks, name: bookmark}
+    return Bookmarked(name, transaction.timeline.tick, again)
+
+
+@handles(Load)
+def _load(transaction: Transaction, action: Load, _sequence: int, position: int) -> Jumped:
+    bookmarks = transaction.undo_stack.bookmarks
+    bookmark = bookmarks.get(action.name)
+    if bookmark is None:
+        raise unknown_bookmark(action.name, bookmarks, f"actions.{position}.name", transaction.language)
+    before, log = transaction.timeline.state, transaction.timeline.entries
+    transaction.timeline = bookmark.timeline.copy()
+    kept = log.common_prefix_length(transaction.timeline.entries)
+    return transaction.jump(before, kept, action.name)
+
+
+@handles(Teach, Forget)
+def _refuse_aliases(transaction: Transaction, _action: Teach | Forget, _sequence: int, position: int) -> Fact:
+    sentence = transaction.refusals.session("alone")
+    raise Invalid(sentence, errors=[FieldProblem(f"actions.{position}", sentence)])
+
+
+def _nothing_to_undo(sentence: str, position: int) -> NothingToUndo:
+    return NothingToUndo(sentence, errors=[FieldProblem(f"actions.{position}", sentence)])

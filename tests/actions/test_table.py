@@ -1,0 +1,109 @@
+"""The table of actions agrees with those who do them, and its columns with each other."""
+
+from __future__ import annotations
+
+from typing import get_args
+
+import pytest
+
+from service.actions import ACTION_TYPES, QUESTIONS, Action, Ask, QuestionName, load
+from service.actions.table import (
+    BY_VERB,
+    ActionTraits,
+    ModelUse,
+    WhatIf,
+    is_world_action,
+    traits_of,
+    types_where,
+    verb,
+)
+from service.narration.answers import Answers
+from service.narration.sayings import Sayings
+from service.sessions.action_handlers import HANDLERS
+from sim.actions import WorldAction
+
+
+def test_every_action_has_a_verb_of_its_own_and_a_row() -> None:
+    assert len(BY_VERB) == len(ACTION_TYPES)
+    assert {verb(kind) for kind in ACTION_TYPES} == set(BY_VERB)
+
+
+def test_actions_of_the_world_are_those_of_the_simulator() -> None:
+    assert set(types_where(lambda traits: traits.changes_world)) == set(get_args(WorldAction))
+
+
+def test_what_is_offered_is_handled() -> None:
+    assert set(types_where(lambda traits: traits.offered)) == set(HANDLERS)
+
+
+@pytest.mark.parametrize("traits", BY_VERB.values(), ids=BY_VERB)
+def test_columns_agree(traits: ActionTraits) -> None:
+    assert traits.undo_step or not traits.changes_world, "a change of the world can be undone"
+    assert traits.changes_session or not traits.undo_step, "a step of undo is stored"
+    assert not (traits.is_question and traits.changes_session), "a question changes nothing"
+    assert traits.changes_session == (traits.model is not ModelUse.ALWAYS), (
+        "a model may cause without asking what changes nothing, and only that"
+    )
+    assert not traits.additive or traits.amendable
+
+
+def test_a_model_is_offered_no_new_action_by_default() -> None:
+    assert ActionTraits().model is ModelUse.NEVER
+
+
+def test_questions_and_phrases_stand_in_no_what_if() -> None:
+    for name, traits in BY_VERB.items():
+        assert (traits.what_if is WhatIf.INVALID) == (name in ("ask", "teach", "forget"))
+
+
+@pytest.mark.parametrize(
+    ("values", "world"),
+    [
+        ({"do": "set", "parameter": "planner", "value": "astar"}, True),
+        ({"do": "set", "parameter": "playback_speed", "value": 2}, False),
+        ({"do": "adjust", "parameter": "playback_speed", "direction": "up"}, False),
+        ({"do": "pause"}, False),
+        ({"do": "reset"}, True),
+    ],
+)
+def test_playback_speed_is_of_no_world(values: dict[str, object], world: bool) -> None:
+    (action,) = load([values])
+    assert is_world_action(action) is world
+
+
+def test_every_question_has_traits_and_an_answerer() -> None:
+    assert set(QUESTIONS) == set(get_args(QuestionName)) == set(Answers(Sayings.load())._by_question)
+
+
+@pytest.mark.parametrize("about", QUESTIONS)
+def test_questions_take_their_keys_and_no_others(about: QuestionName) -> None:
+    values: dict[str, object] = {
+        "move": "left",
+        "tick": 1,
+        "change": [{"do": "pause"}],
+        "kind": "pothole",
+        "metric": "steps",
+    }
+    traits = QUESTIONS[about]
+    (asked,) = load([{"do": "ask", "about": about, **{key: values[key] for key in traits.may}}])
+    assert isinstance(asked, Ask)
+    assert traits_of(asked).is_question
+    for key in values.keys() - set(traits.may):
+        with pytest.raises(ValueError, match=f"'{key}' does not belong"):
+            load([{"do": "ask", "about": about, **{name: values[name] for name in (*traits.must, key)}}])
+    for key in traits.must:
+        with pytest.raises(ValueError, match=f"needs '{key}'"):
+            load([{"do": "ask", "about": about}])
+
+
+def test_an_action_has_traits_whatever_it_holds() -> None:
+    actions: tuple[Action, ...] = load([{"do": verb(kind)} for kind in ACTION_TYPES if _is_bare(kind)])
+    assert all(traits_of(action) is BY_VERB[action.do] for action in actions)
+
+
+def _is_bare(kind: type) -> bool:
+    try:
+        kind()
+    except TypeError:
+        return False
+    return True
