@@ -17,6 +17,7 @@ from service.grammar.sentences import Unsayable
 from service.grammar.topic import Phrases, Topic
 from service.interpreter.languages import Languages
 from service.problems import FieldProblem, NotAvailable, NotSaved, NotTeachable
+from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE
 from service.sessions.availability import refusal_of
 from service.sessions.facts import AliasChange
@@ -80,7 +81,7 @@ class Aliases:
         told = None if before is None else self.describe(contract.load(before.meaning), code)
         if isinstance(action, Forget):
             if before is None:
-                raise _not_teachable(f"No phrase “{action.phrase}” was ever taught.")
+                raise _not_teachable(refusals(code).said("never_taught", phrase=action.phrase))
             lesson = AliasChange(action.phrase, told or "", taught=False, before=told)
             if not dry_run:
                 await self._forget(before, None if answer is None else answer(lesson))
@@ -99,21 +100,21 @@ class Aliases:
         try:
             return self._languages[code].sentence(actions)
         except Unsayable:
-            return ", ".join(action.do for action in actions)
+            return ", ".join(refusals(code).action(action.do) for action in actions)
 
     def _check(self, action: Teach, code: str, key: str, *, new: bool) -> None:
-        words = key.split()
+        words, said = key.split(), refusals(code).said
         if not any(word.isalpha() for word in words):
-            raise _not_teachable("A phrase needs a word in it.")
+            raise _not_teachable(said("no_word"))
         if len(words) > MAX_WORDS:
-            raise _not_teachable(f"A phrase may have at most {MAX_WORDS} words.")
+            raise _not_teachable(said("too_many_words", most=MAX_WORDS))
         if new and len(self._kept) >= MAX_PHRASES:
-            raise _not_teachable(f"{MAX_PHRASES} phrases are taught, which is the limit: forget one first.")
+            raise _not_teachable(said("too_many_phrases", most=MAX_PHRASES))
         others = {each.phrase: contract.load(each.meaning) for each in self.records(code) if each.key != key}
         amid = replace(RICH_TOPIC, phrases=self._languages[code].phrases(others))
         alone = self._languages[code].parse(action.phrase, amid)
         if not isinstance(alone, Refused) or alone.reason != "not_understood":
-            raise _not_teachable(f"“{action.phrase}” means something already, and that stays.")
+            raise _not_teachable(said("means_something", phrase=action.phrase))
         for meant in action.meaning:
             if (sentence := refusal_of(meant, code)) is not None:
                 raise NotAvailable(sentence, errors=[FieldProblem("meaning", sentence)])

@@ -68,10 +68,15 @@ class Languages:
         """The codes, the default first."""
         return tuple(sorted(self._by_code, key=lambda code: (code != DEFAULT_LANGUAGE, code)))
 
+    def check(self, code: str) -> None:
+        """Raises `Invalid` for a language that is not spoken here; the default always is."""
+        if code != DEFAULT_LANGUAGE:
+            self[code]
+
     def __getitem__(self, code: str) -> Language:
         """Raises `Invalid` for a language that is not spoken here."""
         try:
             return self._by_code[code]
         except KeyError:
-            sentence = f"There is no language {code!r} here; there are: {', '.join(self.codes)}."
+            sentence = refusals().said("no_language", code=code, codes=self.codes)
             raise Invalid(sentence, errors=[FieldProblem("language", sentence)]) from None

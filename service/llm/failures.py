@@ -1,4 +1,7 @@
-"""Failures of a language model, by reason; the sentences for people are in `prompts/llm/told.yaml`."""
+"""Everything that can go wrong with a model, by the name under which a person is told.
+
+A leaf; the sentences are in `prompts/sayings/<language>/refusals.yaml`, one for each reason.
+"""
 
 from __future__ import annotations
 

@@ -8,10 +8,11 @@ caller.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Protocol, TypeAlias
 
 from service.actions import Action
+from service.llm.failures import ModelFailure
 
 Facts: TypeAlias = Mapping[str, Any]
 """The structured part of an explanation, as JSON values: `service.contract.encode.explanation`."""
@@ -23,6 +24,8 @@ class Interpretation:
 
     actions: tuple[Action, ...] = ()
     explanation: str = ""
+    failure: ModelFailure | None = field(default=None, compare=False)
+    """what went wrong, to be told in another language"""
 
 
 class LanguageModel(Protocol):

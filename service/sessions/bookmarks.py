@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 
 from service.actions import Action, Load
 from service.problems import FieldProblem, UnknownName
+from service.refusals import refusals
 from service.store import EntryRecord, Store, StoreError
 from sim.session.edits import Change
 from sim.session.timeline import Timeline
@@ -66,8 +67,10 @@ def attach_names(entries: Sequence[EntryRecord], saved: Iterable[Bookmark]) -> S
     return [replace(entry, names=names.get(entry.sequence, {})) for entry in entries]
 
 
-async def add_other_session(store: Store, problem: UnknownName, actions: Sequence[Action]) -> UnknownName:
-    """The same problem, naming another session that has such a bookmark, if there is one."""
+async def add_other_session(
+    store: Store, problem: UnknownName, actions: Sequence[Action], language: str
+) -> UnknownName:
+    """The problem, telling also of another session in which there is such a moment."""
     (error,) = problem.errors
     action = actions[int(error.field.split(".")[1])]
     try:
@@ -77,15 +80,19 @@ async def add_other_session(store: Store, problem: UnknownName, actions: Sequenc
     if not found:
         return problem
     session = found[0].session_name or found[0].session
-    sentence = f"{problem.detail} It is saved in session {session}; a name is found where it was given."
+    elsewhere = refusals(language).session("saved_elsewhere", session=session)
+    sentence = f"{problem.detail} {elsewhere}"
     return UnknownName(sentence, errors=[FieldProblem(error.field, sentence)], **problem.more)
 
 
-def unknown_bookmark(name: str, names: Iterable[str], where: str) -> UnknownName:
-    """The problem of an unknown name, with the most similar names there are."""
+def unknown_bookmark(name: str, names: Iterable[str], where: str, language: str) -> UnknownName:
+    """The problem of a name that nothing was saved under, with the nearest there are."""
     from rapidfuzz import process  # at the first name that is not there
 
     near = [found for found, _, _ in process.extract(name, list(names), limit=MAX_SUGGESTIONS)]
-    told = f" There is: {', '.join(near)}." if near else " Nothing has been saved here yet."
-    sentence = f"Nothing was saved as {name!r}.{told}"
+    words = refusals(language)
+    if near:
+        sentence = words.session("not_saved_near", name=name, near=tuple(near))
+    else:
+        sentence = words.session("not_saved", name=name)
     return UnknownName(sentence, errors=[FieldProblem(where, sentence)], suggestions=near)

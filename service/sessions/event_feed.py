@@ -67,8 +67,8 @@ class EventFeed:
         """Write and publish what was found out about a road that began by itself."""
         session = self._session
         if not session.closed:
-            text = session.services.narrator.event(event, session.run)
-            line = self.log_reachability(ReachabilityNotice(event, text))
+            text = session.narrator.event(event, session.run)
+            line = self.log_reachability(ReachabilityNotice(event, text, session.run))
             self.publish_change(None, line.text, (), [line])
 
     def publish_tick(self, before: SimState, tick: StepResult, lines: Sequence[LogEvent]) -> None:
@@ -77,7 +77,7 @@ class EventFeed:
 
         def message() -> bytes:
             decision = tick.decision
-            taken, narrator = tick.of(), session.services.narrator
+            taken, narrator = tick.of(), session.narrator
             narration = None if taken is None else narrator.decision(taken.decision, before, taken.forecast)
             return tick_message(
                 session.sequence, lambda: session.status, before, tick.state, decision, narration, lines
@@ -102,7 +102,7 @@ class EventFeed:
         self.tick_batch.publish_now(session.timeline.tick, message)
 
     def _narrate(self, run: SimState, part: Applied | StepResult) -> list[tuple[Event, str]]:
-        narrator = self._session.services.narrator
+        narrator = self._session.narrator
         return [(event, narrator.event(event, run)) for event in part.events]
 
     def _write(self, narrated: list[tuple[Event, str]]) -> list[LogEvent]:

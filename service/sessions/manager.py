@@ -26,6 +26,7 @@ from service.problems import (
     UnknownSession,
 )
 from service.refusals import refusals
+from service.resources import DEFAULT_LANGUAGE
 from service.sessions.bookmarks import attach_names
 from service.sessions.build_fork import build_fork
 from service.sessions.persistence.recording import Recording, replay_recording
@@ -94,6 +95,7 @@ class SessionManager:
         config: Config,
         *,
         paused: bool,
+        language: str = DEFAULT_LANGUAGE,
         recorded: Recording | None = None,
         answer: Callable[[Session], StoredResponse] | None = None,
     ) -> Session:
@@ -112,6 +114,7 @@ class SessionManager:
                 config=asdict(config),
                 paused=paused and recorded is None,
                 tick=recorded.tick if recorded else 0,
+                language=language,
             )
             # Looking for a road that can be driven may take many draws.
             timeline = await asyncio.to_thread(Timeline, config) if config.solvable else Timeline(config)
@@ -141,11 +144,11 @@ class SessionManager:
 
         Raises a `ProblemError`; for a future tick it names `field`.
         """
-        check_step_ticks(actions, self._services.settings.max_step_ticks)
+        check_step_ticks(actions, self._services.settings.max_step_ticks, parent.language)
         now = parent.timeline.tick
         tick = now if at_tick is None else at_tick
         if tick > now:
-            message = f"has not come yet: it is tick {now}"
+            message = refusals(parent.language).session("tick_not_come", now=now)
             raise Invalid(f"{field}: {message}.", errors=[FieldProblem(field, message)])
         self._check_capacity()
         self._creating += 1
@@ -304,7 +307,7 @@ class SessionManager:
             raise NotRestorable(sequence) from error
         except NewerRulesError as error:
             _LOG.error("a kept session is of newer rules", session=session_id, rules=error.rules)
-            raise NotRestorable(reason=refusals().newer_rules(error, "session")) from error
+            raise NotRestorable(reason=refusals(record.language).newer_rules(error, "session")) from error
         except (ConfigError, TypeError, StoreError) as error:
             _LOG.error("a kept session cannot be replayed", session=session_id, error=str(error))
             raise NotRestorable from error

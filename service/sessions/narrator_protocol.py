@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any, Protocol
 
 from service.sessions.facts import AliasChange, Answerable, Fact, SideBySideTexts
+from service.sessions.scheduler.playback_speed import PlaybackSpeed
 from sim.events import Event
 from sim.explain.side_by_side import SideBySide
 from sim.forecast import Forecast
@@ -14,6 +15,16 @@ from sim.state import SimState
 
 class NarratorProtocol(Protocol):
     """Facts → words; a narrator says nothing that is not in the facts."""
+
+    @property
+    def language(self) -> str:
+        """The code of the language."""
+
+    def in_language(self, code: str) -> NarratorProtocol:
+        """The same in another language."""
+
+    def failed(self) -> str:
+        """What is said when the simulation has met a defect of its own."""
 
     def decision(self, decision: Decision, run: SimState, forecast: Forecast | None = None) -> str:
         """What the vehicle does at a tick and why; `run` is the state in which it decided.
@@ -29,6 +40,9 @@ class NarratorProtocol(Protocol):
 
     def event(self, event: Event, run: SimState) -> str:
         """One line of the log."""
+
+    def speed(self, pace: PlaybackSpeed) -> str:
+        """A playback speed: `4×`."""
 
     def planner(self, name: str) -> str:
         """The name of a planner, for people."""

@@ -25,17 +25,24 @@ def make_outcome(
     sequence: int,
     notice: ReachabilityNotice | None = None,
 ) -> Outcome:
-    """The outcome of an utterance; `before` is the state it was said in, `notice` follows the reply."""
+    """The outcome of an utterance that was said in a state; `notice` is told after what was done.
+
+    `narrator`: the session's; the reply is in the language of the utterance, the log in that of the session.
+    """
+    own = narrator if utterance.language is None else narrator.in_language(utterance.language)
     if utterance.supposes is not None:
         facts = tuple(
             replace(fact, supposes=utterance.supposes) if isinstance(fact, Asked) else fact for fact in facts
         )
-    answers = [narrator.answer(fact) for fact in facts if isinstance(fact, Answerable)]
-    done = compose_reply(narrator, facts, answers)
+    answers, said = _narrate(own, facts)
+    done = said if own is narrator or not _changing(facts) else _narrate(narrator, facts)[1]
+    noticed = "" if notice is None else notice.text
+    if notice is not None and own is not narrator:
+        noticed = own.event(notice.event, notice.run)
     return Outcome(
         utterance=utterance,
         facts=facts,
-        reply=done if notice is None else f"{done} {notice.text}".strip(),
+        reply=f"{said} {noticed}".strip() if noticed else said,
         done=done,
         notice=notice,
         answer=answers[-1] if answers else None,
@@ -43,6 +50,17 @@ def make_outcome(
         changes=merge_changes(facts),
         before=before,
     )
+
+
+def _narrate(narrator: NarratorProtocol, facts: tuple[Fact, ...]) -> tuple[list[dict[str, Any]], str]:
+    """The answers, and all that is said."""
+    answers = [narrator.answer(fact) for fact in facts if isinstance(fact, Answerable)]
+    return answers, compose_reply(narrator, facts, answers)
+
+
+def _changing(facts: tuple[Fact, ...]) -> bool:
+    """Whether there is more than answers, which the log has a line of."""
+    return any(not isinstance(fact, Answerable) for fact in facts)
 
 
 def make_entry(outcome: Outcome, tick: int, transaction: Transaction) -> EntryRecord:

@@ -12,6 +12,8 @@ from dataclasses import dataclass, field, replace
 
 from service.actions import Rewind
 from service.problems import FieldProblem, Invalid
+from service.refusals import refusals
+from service.resources import DEFAULT_LANGUAGE
 from service.sessions.utterance import Utterance
 from sim.session.timeline import Timeline
 
@@ -40,22 +42,22 @@ class TimeJump:
         return replace(self, after=timeline.copy())
 
 
-def rewind_timeline(timeline: Timeline, ticks: int, where: str) -> None:
-    """Rewind a timeline by some ticks. Raises `Invalid` (naming the field `where`) if there are fewer."""
+def rewind_timeline(timeline: Timeline, ticks: int, where: str, language: str) -> None:
+    """Make an earlier tick the present. Raises `Invalid`, naming `where`, if there are not so many."""
     if ticks > timeline.tick:
-        sentence = f"It is tick {timeline.tick}: that is as far as one can go back, and not {ticks}."
+        sentence = refusals(language).session("too_far_back", tick=timeline.tick, ticks=ticks)
         raise Invalid(sentence, errors=[FieldProblem(where, sentence)])
     timeline.rewind(timeline.tick - ticks)
 
 
-def rewind_to(tick: int) -> Callable[[Timeline], Utterance]:
-    """An utterance that rewinds to a tick, made once the present tick is known. It raises `Invalid`."""
+def rewind_to(tick: int, language: str = DEFAULT_LANGUAGE) -> Callable[[Timeline], Utterance]:
+    """What goes back to a tick, once it is known where the session stands. It raises `Invalid`."""
 
     def utterance(timeline: Timeline) -> Utterance:
         ticks = timeline.tick - tick
         if ticks <= 0:
             now = timeline.tick
-            message = f"{'has not come yet' if ticks else 'is where it stands'}: it is tick {now}"
+            message = refusals(language).session("tick_not_come" if ticks else "tick_is_now", now=now)
             raise Invalid(f"tick: {message}.", errors=[FieldProblem("tick", message)])
         whole, rest = divmod(ticks, MAX_TICKS)
         ways = [MAX_TICKS] * whole + ([rest] if rest else [])

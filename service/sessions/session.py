@@ -21,7 +21,6 @@ from service.actions import Action
 from service.actions.table import traits_of
 from service.contract.encode.state import SessionStatus
 from service.problems import NotSaved, UnknownName, UnknownSession
-from service.resources import DEFAULT_LANGUAGE
 from service.server_timing import part as timed
 from service.sessions.bookmarks import add_other_session
 from service.sessions.conversation import Conversation
@@ -94,6 +93,7 @@ class Session:
         self.reachability = ReachabilityMonitor(lambda: self.run, self.feed.announce_reachability)
         self._state_cache = StateCache()
         self.services = services
+        self.narrator = services.narrator.in_language(record.language)
         self._lock = asyncio.Lock()
         self._changing = False
         self._tick_due = False
@@ -107,6 +107,11 @@ class Session:
     def id(self) -> str:
         """The session's unguessable id."""
         return self.record.id
+
+    @property
+    def language(self) -> str:
+        """The code of the language that its log and narration are in."""
+        return self.record.language
 
     @property
     def run(self) -> SimState:
@@ -189,7 +194,7 @@ class Session:
     def _start_manual_override(self, silence: PlannerSilentError) -> None:
         """Switch to manual driving, by a stored change: a replay does not ask that planner again."""
         self._changing = True  # no tick until it is done
-        text = self.services.narrator.planner_timeout(silence.planner, silence.fault)
+        text = self.narrator.planner_timeout(silence.planner, silence.fault)
         task = asyncio.ensure_future(self._switch_to_manual(text))
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
@@ -202,9 +207,7 @@ class Session:
         """Pause and log a defect of the rules, rather than fail twice a second."""
         _LOG.error("session paused after a failed tick", session=self.id, error=repr(error))
         self.paused = True
-        line = self.feed.log_line(
-            self.timeline.tick, "failed", "The simulation met a defect of its own and has been paused."
-        )
+        line = self.feed.log_line(self.timeline.tick, "failed", self.narrator.failed())
         self.feed.publish_change(None, line.text, (), [line])
 
     @property
@@ -233,8 +236,9 @@ class Session:
         """Whether the actions would succeed now and change something."""
         return is_possible(self.begin_transaction(), self.sequence, actions)
 
-    def begin_transaction(self, language: str = DEFAULT_LANGUAGE) -> Transaction:
-        """A copy to try actions on; `language`: the one in which they are refused."""
+    def begin_transaction(self, language: str | None = None) -> Transaction:
+        """A copy to try actions on; `language`: the one in which they are refused (the session's)."""
+        language = language or self.language
         return Transaction(self.timeline, self.paused, self.undo_stack, self.playback_speed, language)
 
     @asynccontextmanager
@@ -256,7 +260,8 @@ class Session:
         Raises a `ProblemError`; the session is unchanged then.
         """
         if isinstance(utterance, Utterance):
-            check_step_ticks(utterance.actions, self.services.settings.max_step_ticks)
+            language = utterance.language or self.language
+            check_step_ticks(utterance.actions, self.services.settings.max_step_ticks, language)
         task = asyncio.ensure_future(self._change(utterance, dry_run, preconditions))
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
@@ -313,7 +318,9 @@ class Session:
                 return await to_thread.run_sync(transaction.perform, sequence, actions)
             return transaction.perform(sequence, actions)
         except UnknownName as problem:
-            raise await add_other_session(self.services.store, problem, utterance.actions) from None
+            raise await add_other_session(
+                self.services.store, problem, utterance.actions, utterance.language or self.language
+            ) from None
 
     async def _make_outcome(
         self,
@@ -326,10 +333,9 @@ class Session:
         """The outcome in words, made in a thread where slow. `event`: about the transaction's road."""
         notice = None
         if event is not None and transaction is not None:
-            notice = ReachabilityNotice(
-                event, self.services.narrator.event(event, transaction.timeline.state)
-            )
-        told = partial(make_outcome, self.services.narrator, self.run, utterance, facts, sequence, notice)
+            run = transaction.timeline.state
+            notice = ReachabilityNotice(event, self.narrator.event(event, run), run)
+        told = partial(make_outcome, self.narrator, self.run, utterance, facts, sequence, notice)
         if not is_slow_to_answer(self.run.config.planner, facts):
             return told()
         return await run_in_thread(

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import Any
 
 from service.actions import Action
-from service.resources import DEFAULT_LANGUAGE
 from service.sessions.facts import Fact, Stepped
 from sim.events import Event
 from sim.session.edits import Change
@@ -20,9 +19,9 @@ class Utterance:
     actions: tuple[Action, ...]
     text: str | None = None
     supposes: str | None = None
-    """what its questions take for granted (`Asked.supposes`)"""
-    language: str = DEFAULT_LANGUAGE
-    """the language of a refusal"""
+    """what its questions were said to be about, beyond their keys (`Asked.supposes`)"""
+    language: str | None = None
+    """the language in which it is answered or refused; None is the session's"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +30,8 @@ class ReachabilityNotice:
 
     event: Event
     text: str
+    run: SimState
+    """the state it is about"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

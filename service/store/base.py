@@ -11,6 +11,8 @@ from dataclasses import dataclass, field, replace
 from datetime import datetime
 from typing import Any, Protocol
 
+from service.resources import DEFAULT_LANGUAGE
+
 
 class StoreError(Exception):
     """The store failed; the message is for whoever runs the service."""
@@ -36,9 +38,9 @@ class Branch:
 class SessionRecord:
     """How a session began, and the last stored tick of its clock.
 
-    `number` orders sessions by age and is given by the store; `config` is JSON values; `paused` is how the
-    session began; `tick` is stored at the beginning, at eviction and at a graceful stop; `branch` is what a
-    fork shares with its parent.
+    `number` orders sessions by age and is given by the store; `config` is JSON values; `paused` is
+    how the session began. `tick` is where the clock stood when last written: at the beginning or at a
+    graceful stop. `branch` is what a fork has from its parent; `language` is that of its log and narration.
     """
 
     id: str
@@ -49,6 +51,7 @@ class SessionRecord:
     tick: int = 0
     number: int = 0
     branch: Branch | None = None
+    language: str = DEFAULT_LANGUAGE
 
     def with_number(self, number: int) -> SessionRecord:
         """The same record with the store's number."""

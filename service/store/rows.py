@@ -7,6 +7,7 @@ from typing import Any
 
 from sqlalchemy import Row
 
+from service.resources import DEFAULT_LANGUAGE
 from service.store.base import Branch, EntryRecord, SessionRecord, SnapshotRecord, StoredResponse
 
 
@@ -27,6 +28,7 @@ def session_to_row(record: SessionRecord) -> dict[str, Any]:
         "config": dict(record.config),
         "paused": record.paused,
         "tick": record.tick,
+        "language": record.language,
     } | (shared or {})
 
 
@@ -50,6 +52,7 @@ def session_from_row(row: Row[Any]) -> SessionRecord:
         tick=row.tick,
         number=row.number,
         branch=branch,
+        language=row.language or DEFAULT_LANGUAGE,
     )
 
 

@@ -38,7 +38,6 @@ from service.http.realtime.websocket_auth import authenticate
 from service.http.session_json import PREFIX
 from service.http.validation import field_problems, invalid
 from service.problems import Internal, Invalid, Malformed, ProblemError
-from service.resources import DEFAULT_LANGUAGE
 from service.security.guard import client_of
 from service.sessions.messages import state_message
 from service.sessions.session import Session
@@ -198,14 +197,13 @@ async def _answer(
 
 
 async def _run(context: Context, session: Session, message: Command | Actions) -> dict[str, Any]:
-    heard, code = None, DEFAULT_LANGUAGE
+    heard = None
     if isinstance(message, Command):
-        code = message.language
-        heard = await context.interpreter.interpret(message.text, session, code)
+        heard = await context.interpreter.interpret(message.text, session, message.language)
         utterance = heard.utterance
     else:
         utterance = Utterance(actions=tuple(message.actions))
-    outcome = await context.interpreter.execute(session, utterance, dry_run=message.dry_run, code=code)
+    outcome = await context.interpreter.execute(session, utterance, dry_run=message.dry_run)
     return result_json(outcome, heard, message.dry_run)
 
 

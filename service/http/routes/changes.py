@@ -14,7 +14,6 @@ from service.http.errors import problem_responses
 from service.http.responses import json_response
 from service.http.route import api_router
 from service.problems import Invalid, NotRestorable, NotSaved, UnknownSession
-from service.resources import DEFAULT_LANGUAGE
 
 router = api_router("time")
 
@@ -42,7 +41,7 @@ async def list_changes(
         sequence, text = group[0].sequence, said.get(group[0].sequence)
         if text is None:
             dumped = contract.dump(tuple(entry.action for entry in group))
-            told = here.interpreter.aliases.describe(contract.load(dumped), DEFAULT_LANGUAGE)
+            told = here.interpreter.aliases.describe(contract.load(dumped), session.language)
         else:
             told = text
         items.append({"tick": group[0].tick, "sequence": sequence, "text": told, "said": text is not None})

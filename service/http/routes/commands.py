@@ -79,7 +79,6 @@ async def run_command(
             session,
             heard.utterance,
             dry_run=body.dry_run,
-            code=body.language,
             preconditions=conditions(respond),
         )
     )

@@ -40,6 +40,7 @@ from service.problems import (
     UnsupportedMediaType,
 )
 from service.refusals import refusals
+from service.resources import DEFAULT_LANGUAGE
 from service.sessions.utterance import Outcome, Utterance
 from sim.actions import Prefer, Set
 from sim.config import LISTS, Config, ConfigError
@@ -100,7 +101,7 @@ async def patch_config(
 
     Also as `application/merge-patch+json`. Where nothing differs nothing is done.
     """
-    actions = actions_for(session.run.config, body, here.settings.max_road_cells)
+    actions = actions_for(session.run.config, body, here.settings.max_road_cells, session.language)
 
     @respond_once
     def respond(outcome: Outcome) -> Response:
@@ -110,7 +111,7 @@ async def patch_config(
         preconditions = conditions(respond)
         if preconditions.sequences is not None:
             preconditions.check(session.sequence)
-        return _changes_response((), refusals().session("as_it_is"), session.sequence)
+        return _changes_response((), refusals(session.language).session("as_it_is"), session.sequence)
     try:
         done = tuple(action for _, action in actions)
         preconditions = conditions(respond)
@@ -121,7 +122,9 @@ async def patch_config(
         raise _of_fields(problem, [name for name, _ in actions]) from problem
 
 
-def actions_for(config: Config, patch: Mapping[str, Any], most_cells: int) -> list[tuple[str, Set | Prefer]]:
+def actions_for(
+    config: Config, patch: Mapping[str, Any], most_cells: int, language: str = DEFAULT_LANGUAGE
+) -> list[tuple[str, Set | Prefer]]:
     """What makes a configuration so, each action with its field. Raises `Invalid`, for all bad fields."""
     defaults = asdict(defaults_under(config.rules))
     wanted = {name: _normalize(value, defaults.get(name)) for name, value in patch.items()}
@@ -139,7 +142,7 @@ def actions_for(config: Config, patch: Mapping[str, Any], most_cells: int) -> li
             for name in {"columns", "rows"} & set(fitting):
                 problems[name] = f"makes a road of more than {most_cells} cells, the most there can be here"
     except ConfigError as error:
-        problems |= {each.field: refusals().problem(each) for each in error.problems}
+        problems |= {each.field: refusals(language).problem(each) for each in error.problems}
     if problems:
         raise invalid(FieldProblem(name, problems[name]) for name in sorted(problems))
     # What begins a new road comes last, so that it is made with all that was asked for.

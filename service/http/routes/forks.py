@@ -73,7 +73,8 @@ async def fork_session(
     @respond_once
     def respond(made: Session) -> Response:
         headers = {"Location": links_json(made.id)["self"], **etag(made.sequence)}
-        return json_response(session_json(made, here.interpreter.sentence_for(made.run.config)), 201, headers)
+        sentence = here.interpreter.sentence_for(made.run.config, made.language)
+        return json_response(session_json(made, sentence), 201, headers)
 
     with here.guard.quotas.reserve(client_of(request.scope)) as reservation:
         made = await here.manager.fork(

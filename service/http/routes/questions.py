@@ -57,5 +57,5 @@ async def ask_question(
 ) -> Response:
     """Answers, and changes nothing."""
     heard = await here.interpreter.interpret_question(body.question, session, body.language)
-    outcome = await here.interpreter.execute(session, heard.utterance, code=body.language)
+    outcome = await here.interpreter.execute(session, heard.utterance)
     return json_response(outcome.answer, headers=etag(outcome.sequence))

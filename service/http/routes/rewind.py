@@ -51,4 +51,6 @@ async def rewind_session(
     def respond(outcome: Outcome) -> Response:
         return json_response(result_json(outcome, None, False), headers=etag(outcome.sequence))
 
-    return respond(await session.change(rewind_to(body.tick), preconditions=conditions(respond)))
+    return respond(
+        await session.change(rewind_to(body.tick, session.language), preconditions=conditions(respond))
+    )

@@ -40,7 +40,7 @@ async def list_sessions(here: Here, after: After = None, limit: Limit = 50) -> R
 )
 async def read_session(session: TheSession, here: Here) -> Response:
     """A session as it stands. One that is kept but not live is brought back, paused."""
-    value = session_json(session, here.interpreter.sentence_for(session.run.config))
+    value = session_json(session, here.interpreter.sentence_for(session.run.config, session.language))
     return json_response(value, headers=etag(session.sequence))
 
 

@@ -47,7 +47,7 @@ router = api_router("talking")
 async def step_session(
     body: Annotated[bodies.StepTicks, Body(openapi_examples=examples.STEP)],
     session: TheSession,
-    here: Here,
+    here: Here,  # noqa: ARG001 -- routes that are called directly are called alike
     conditions: TheConditions,
 ) -> Response:
     """Pauses, then runs the ticks as fast as it can; answers what was decided in each."""
@@ -59,7 +59,7 @@ async def step_session(
         status = replace(session.status, paused=True, sequence=outcome.sequence)
         state = state_json(status, runs[-1])
         decisions = [
-            told_decision(here.narrator, run, tick.decision)
+            told_decision(session.narrator, run, tick.decision)
             for run, tick in zip(runs, outcome.ticks, strict=False)
             if tick.decision is not None
         ]

@@ -148,7 +148,11 @@ class Replay:
         if entry.paused is not None:
             session.paused = entry.paused
         transaction = Transaction(
-            session.timeline, session.paused, session.undo_stack, session.playback_speed
+            session.timeline,
+            session.paused,
+            session.undo_stack,
+            session.playback_speed,
+            session.language,
         )
         facts = transaction.perform(entry.sequence, said)
         before = session.run

@@ -44,7 +44,7 @@ def restore(
         said = "a session is done again from all of its log; whoever asked for it waits, nobody else"
         _LOG.info(said, session=record.id, entries=len(entries), reason=why)
     session = Session(record, Timeline(saved_config(record.config)), services)
-    replay(session, services.narrator, entries, record.tick)
+    replay(session, session.narrator, entries, record.tick)
     return session, unfit
 
 
@@ -55,5 +55,5 @@ def _restore_snapshot(
     session = Session(record, frozen.timeline, services)
     frozen.apply_to(session)
     session.log_position.counted_work = frozen.timeline.worked
-    replay(session, services.narrator, entries, record.tick, first=position)
+    replay(session, session.narrator, entries, record.tick, first=position)
     return session

@@ -99,11 +99,6 @@ def is_accelerated(speed: PlaybackSpeed) -> bool:
     return speed == MAX or float(speed) > NORMAL
 
 
-def format_speed(speed: PlaybackSpeed) -> str:
-    """A speed for people: `4×`."""
-    return "as fast as possible" if speed == MAX else f"{float(speed):g}×"
-
-
 @lru_cache(maxsize=256)
 def _ticks_a_turn(speed: PlaybackSpeed, step_seconds: float) -> int:
     return max(1, math.ceil(SHORTEST_TURN_S * float(speed) / step_seconds - 1e-9))
