@@ -17,6 +17,7 @@ from service.http.conditional.answers import KeptAnswers
 from service.http.deps import Context
 from service.http.metrics import Metrics, time_store
 from service.http.middleware.cross_site import CrossSiteCheck
+from service.http.middleware.direct_routes import DirectRoutes
 from service.http.middleware.head_method import HeadMethod
 from service.http.middleware.host_check import HostCheck
 from service.http.middleware.request_id import RequestId
@@ -188,15 +189,16 @@ def create_app(
         redirect_slashes=False,
     )
     app.state.context = context
+    routes = [route for resource in RESOURCES for route in resource.router.routes]
     # The last one added is the outermost.
+    app.add_middleware(DirectRoutes, routes=routes)
     app.add_middleware(CrossSiteCheck)
     app.add_middleware(HostCheck, hosts=guard.hosts)
     app.add_middleware(SecurityHeaders)
     app.add_middleware(HeadMethod)
     app.add_middleware(RequestId)
     errors.install(app)
-    for resource in RESOURCES:
-        app.router.routes.extend(resource.router.routes)
+    app.router.routes[:0] = routes
     openapi.install(app)
     docs.install(app)
     pages.install(app)

@@ -17,7 +17,7 @@ from service.actions import Action, Forget, Teach
 from service.actions.table import ModelUse, traits_of
 from service.grammar.parse_types import Ambiguous as AmbiguousParse
 from service.grammar.parse_types import Correction, Parse, Refused, Understood
-from service.grammar.references import heard
+from service.grammar.references import parse_in_topic
 from service.grammar.sentences import Unsayable
 from service.grammar.topic import ALONE, Topic
 from service.interpreter.aliases import Aliases
@@ -108,8 +108,8 @@ class Interpreter:
     async def _read(self, text: str, session: Session | None, code: str) -> Parse:
         parse, topic = self.languages[code].parse, self.topic(session, code)
         if len(text) <= MAX_INLINE_CHARS:
-            return heard(parse, text, topic)
-        return await to_thread.run_sync(heard, parse, text, topic)
+            return parse_in_topic(parse, text, topic)
+        return await to_thread.run_sync(parse_in_topic, parse, text, topic)
 
     async def interpret(
         self, text: str, session: Session | None = None, code: str = DEFAULT_LANGUAGE, field: str = "text"

@@ -117,7 +117,7 @@ def test_the_cursor_goes_from_cell_to_cell_and_says_what_is_there(road: Road) ->
     said = road.page.locator(".road [aria-live=polite].unseen")
     expect(said).to_have_text(re.compile("its own, 2 rows ahead: free"))
     keys.press("ArrowUp")
-    expect(said).to_have_text(re.compile("its own, 3 rows ahead: pothole"))
+    expect(said).to_have_text(re.compile("its own, 3 rows ahead: a pothole"))
     expect(road.bubble).to_contain_text("Pothole")
     assert road.visitor.tick() == 0
     keys.press("ArrowRight")

@@ -27,7 +27,7 @@ async def test_a_file_is_packed_for_those_who_take_it_and_plain_for_the_rest(ser
     assert "content-encoding" not in plain.headers
     assert "content-encoding" not in refused.headers
     assert packed.text == plain.text
-    assert 'import { ACTS } from "./core/commands.js";' in plain.text
+    assert 'import { COMMANDS } from "./core/commands.js";' in plain.text
     assert int(packed.headers["content-length"]) < 0.6 * int(plain.headers["content-length"])
     assert packed.headers["vary"] == plain.headers["vary"] == "Accept-Encoding"
     assert packed.headers["etag"] != plain.headers["etag"], "another form is another tag"

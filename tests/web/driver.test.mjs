@@ -21,13 +21,13 @@ test("a planner that is chosen while a person drives takes the wheel", () => {
 });
 
 test("a new road of each family can be chosen, in the present", () => {
-  const acts = createRoads().acts ?? [];
-  const offered = acts.map((act) => act.now({ world, past: null }));
+  const commands = createRoads().commands ?? [];
+  const offered = commands.map((act) => act.now({ world, past: null }));
   assert.deepEqual(offered.map(({ label }) => label), [
     "New road: walls with gaps", "New road: narrow streets", "New road: dead ends", "New road: crossing traffic", "New road: a maze",
   ]);
   assert.deepEqual(offered.map(({ turns }) => turns[0][0].layout), ["walls", "narrows", "dead_ends", "crossing", "maze"]);
-  assert.ok(acts.every((act) => act.now({ world, past: { world } }) === null && act.now({ world: null, past: null }) === null));
+  assert.ok(commands.every((act) => act.now({ world, past: { world } }) === null && act.now({ world: null, past: null }) === null));
 });
 
 test("a family of roads is told in words", () => {

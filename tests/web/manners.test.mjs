@@ -45,7 +45,7 @@ test("what is chosen holds for this visit even where nothing can be kept", () =>
 });
 
 /** The keyboard, with what has the focus, and what a key has done. */
-function keyboard(acts) {
+function keyboard(commands) {
   const did = [];
   /** @type {(event: object) => void} */ let press = () => {};
   globalThis.Element = class {
@@ -57,7 +57,7 @@ function keyboard(acts) {
     }
   };
   globalThis.addEventListener = (_, listener) => (press = listener);
-  const page = { state: () => ({}), act: (actions, label) => did.push(label), acts: () => acts };
+  const page = { state: () => ({}), act: (actions, label) => did.push(label), commands: () => commands };
   watchKeys(page, { focus: () => did.push("focus") });
   return (key, changes = {}) => {
     did.length = 0;

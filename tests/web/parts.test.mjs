@@ -1,8 +1,8 @@
-// The small modules: history, seeded chance and the looks drawn from it, the loop, the acts.
+// The small modules: history, seeded chance and the looks drawn from it, the loop, the commands.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { ACTS } from "../../web/src/core/commands.js";
+import { COMMANDS } from "../../web/src/core/commands.js";
 import { History } from "../../web/src/talk/history.js";
 import { createLoop } from "../../web/src/core/renderLoop.js";
 import { cracksOf, rimOf } from "../../web/src/road/paint/hazards.js";
@@ -100,12 +100,12 @@ test("the loop draws once a frame however often it is woken, and rests when noth
 });
 
 test("each act says what it will do now, and has a key of its own", () => {
-  const act = (name) => ACTS.find((one) => one.name === name);
+  const act = (name) => COMMANDS.find((one) => one.name === name);
   const running = { world: { paused: false } };
   const paused = { world: { paused: true } };
   assert.deepEqual(act("clock").now(running).turns, [[{ do: "pause" }]]);
   assert.deepEqual(act("clock").now(paused).turns, [[{ do: "resume" }]]);
   assert.deepEqual(act("step").now(paused).turns, [[{ do: "step", ticks: 1 }]]);
   assert.deepEqual(act("step").now(running).turns, [[{ do: "pause" }], [{ do: "step", ticks: 1 }]]);
-  assert.equal(new Set(ACTS.map(({ key }) => key)).size, ACTS.length);
+  assert.equal(new Set(COMMANDS.map(({ key }) => key)).size, COMMANDS.length);
 });

@@ -3,7 +3,9 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { foreseen, foresee, underWay } from "../../web/src/why/forecast.js";
-import { Book, WINDOW } from "../../web/src/why/regret.js";
+import { createStore } from "../../web/src/core/store.js";
+import { missingFrom, sumOf, WINDOW } from "../../web/src/why/regret.js";
+import { RegretLoader } from "../../web/src/why/regretLoader.js";
 import { roadWords } from "../../web/src/road/laneSentences.js";
 import { drawPlan } from "../../web/src/road/paint/plan.js";
 import { pictureOf } from "../../web/src/road/serverVideo.js";
@@ -12,7 +14,7 @@ import { INITIAL, reduce } from "../../web/src/core/state.js";
 import { AT_FIRST, viewsAfter } from "../../web/src/ui/views.js";
 import { moveOptions } from "../../web/src/why/moveOptions.js";
 import { worldOf } from "../../web/src/road/world.js";
-import { hello, tick, wireState } from "./fakes.mjs";
+import { hello, settle, tick, wireState } from "./fakes.mjs";
 
 const begun = () => reduce(INITIAL, hello());
 const changed = (more) => ({ type: "changed", sequence: 100, text: null, reply: "", changes: [], events: [], state: wireState(), ...more });
@@ -109,45 +111,70 @@ test("the plan draws an arrow to the intended cell and marks what is rejected", 
   assert.ok(calls.some(([name, x, y]) => name === "roundRect" && x === 41 && y === 31), "the cell spoken of is framed");
 });
 
-/** A book whose service answers what it is given. */
-function bookOf(answers, clock = { now: 0 }) {
+/** A session whose metrics are seen, with a service that answers what it is given. */
+function judging(answers, { tick: at = 0, paused = false } = {}) {
   const asked = [];
+  const clock = { now: 0 };
   const http = async (path) => {
     asked.push(path);
     return Response.json(answers.shift());
   };
-  const book = new Book({ http, now: () => clock.now });
-  book.session = "s1";
-  return { book, asked, clock };
+  const store = createStore(reduce, INITIAL);
+  const loader = new RegretLoader(store, { http, now: () => clock.now, seen: () => true });
+  store.dispatch({ type: "session", id: "s1" });
+  store.dispatch(hello({ state: wireState({ tick: at, paused }) }));
+  const live = async () => {
+    store.dispatch({ type: "phase", phase: { phase: "live" } });
+    for (let turn = 0; turn < 6; turn += 1) await settle();
+  };
+  const ticks = (from, to) => {
+    for (let each = from; each <= to; each += 1) store.dispatch(tick({ tick: each, decision: { tick: each - 1, move: "forward", blocked: [{}] } }));
+  };
+  return { store, loader, asked, clock, live, ticks, regret: () => store.state().regret };
 }
 
 test("losses are asked for in stretches while the clock runs, and at once when it stands", async () => {
   const item = (at) => ({ tick: at, blocked: 1, ticks: 1, lost: false });
-  const first = { from: 0, now: 4, items: [0, 1, 2].map(item), more: false };
-  const { book, asked, clock } = bookOf([first, { from: 4, now: 12, items: [4, 5].map(item), more: false }]);
-  book.note(0, 1);
-  assert.equal(await book.fill(4, true), false);
-  assert.equal(await book.fill(4, false), true);
-  assert.equal(asked[0], "/api/v1/sessions/s1/regret?from=0&limit=60");
-  assert.deepEqual(book.sum(4), { ticks: 3, known: 3, lost: false });
-  assert.equal(book.items.get(3), null);
-  assert.equal(book.missing(4), null);
-  assert.equal(await book.fill(12, true), false, "too soon after the last");
+  const first = { from: 0, now: 8, items: [0, 1, 2].map(item), more: false };
+  const { loader, asked, clock, live, ticks, regret } = judging([first, { from: 8, now: 16, items: [8, 9].map(item), more: false }]);
+  ticks(1, 7);
+  await live();
+  assert.deepEqual(asked, [], "not for so few");
+  ticks(8, 8);
+  for (let turn = 0; turn < 6; turn += 1) await settle();
+  assert.deepEqual(asked, ["/api/v1/sessions/s1/regret?from=0&limit=60"]);
+  assert.deepEqual(sumOf(regret(), 8), { ticks: 3, known: 3, lost: false });
+  assert.equal(regret().items.get(3), null);
+  assert.equal(missingFrom(regret(), 8), null);
+  ticks(9, 16);
+  await settle();
+  assert.equal(asked.length, 1, "too soon after the last");
   clock.now = 5_000;
-  assert.equal(await book.fill(12, true), true);
-  assert.match(asked[1], /from=4/);
+  await loader.fill();
+  assert.match(asked[1], /from=8/);
+  const stands = judging([{ from: 0, now: 4, items: [], more: false }], { tick: 4, paused: true });
+  await stands.live();
+  assert.equal(stands.asked.length, 1);
 });
 
 test("what a run was is forgotten when it becomes another", async () => {
-  const { book } = bookOf([{ from: 0, now: 2, items: [{ tick: 0, blocked: 0, ticks: 5, lost: false }], more: false }]);
-  const filling = book.fill(2, false);
-  book.forget();
-  await filling;
-  assert.equal(book.items.size, 0);
-  assert.equal(book.missing(2), 0);
-  for (let at = 0; at < 3_000; at++) book.note(at, 2);
-  assert.ok(book.items.size <= 1_000);
-  assert.ok(book.items.has(2_999 - WINDOW));
+  const { store, live, regret } = judging(
+    [{ from: 0, now: 2, items: [{ tick: 0, blocked: 0, ticks: 5, lost: false }], more: false }, { from: 0, now: 2, items: [], more: false }],
+    { tick: 2, paused: true },
+  );
+  const going = live();
+  const changes = [{ path: "potholes", before: 1, after: 2 }];
+  store.dispatch({ type: "changed", sequence: 101, text: null, reply: "Done.", changes, events: [], state: wireState({ tick: 2, paused: true, undo: 1 }) });
+  assert.equal(regret().age, 1);
+  await going;
+  assert.deepEqual([...regret().items], [[0, null], [1, null]], "what was told of the run that is no more is asked for again");
+});
+
+test("of a long run the latest is kept", () => {
+  const { ticks, regret } = judging([]);
+  ticks(1, 3_000);
+  assert.ok(regret().items.size <= 1_000);
+  assert.ok(regret().items.has(2_999 - WINDOW));
 });
 
 test("the road is told a lane a sentence, the nearest first", () => {

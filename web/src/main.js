@@ -6,7 +6,7 @@
  * frame.
  */
 
-import { ACTS } from "./core/commands.js";
+import { COMMANDS } from "./core/commands.js";
 import { Connector } from "./core/connector.js";
 import { watchKeys } from "./core/keyboard.js";
 import { createPage } from "./core/page.js";
@@ -19,25 +19,25 @@ import { createPanels } from "./panels/index.js";
 import { keepAddress } from "./timeline/momentAddress.js";
 import { TimelineLoader } from "./timeline/timelineLoader.js";
 import { TimeTravel } from "./timeline/timeTravel.js";
-import { byId } from "./ui/dom.js";
+import { byId } from "./ui/slot.js";
+import { RegretLoader } from "./why/regretLoader.js";
 import { fillTexts } from "./ui/shell.js";
-
-/** @typedef {import("./core/page.js").Page} Page */
 
 fillTexts(document);
 const store = createStore(reduce, INITIAL);
-const connector = new Connector(store, (data) => page.picture?.(data));
+const connector = new Connector(store);
+new RegretLoader(store);
 new TimelineLoader(store, { storage: browserStorage() });
-const looking = new TimeTravel(store);
-keepAddress(store, looking);
+const timeTravel = new TimeTravel(store);
+keepAddress(store, timeTravel);
 const page = createPage(store, connector, {
-  looking,
-  acts: () => acts,
+  timeTravel,
+  commands: () => commands,
   wake: () => loop.wake(),
 });
 
 const panels = createPanels(page);
-const acts = [...ACTS, ...panels.flatMap((panel) => panel.acts ?? [])];
+const commands = [...COMMANDS, ...panels.flatMap((panel) => panel.commands ?? [])];
 let shown = INITIAL;
 const loop = createLoop({
   update() {

@@ -1,17 +1,17 @@
 // @ts-check
 /**
  * What a person can do without words, once for buttons, keys and the palette. Those that belong to a panel are told by
- * it (`Panel.acts`); all of them together are `page.acts()`.
+ * it (`Panel.commands`); all of them together are `page.commands()`.
  */
 
 import { t } from "./texts.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "./page.js" */
 /** @import { Action } from "./protocol.js" */
 /** @import { State } from "./state.js" */
 
 /**
- * @typedef {object} Act
+ * @typedef {object} Command
  * @property {string} name
  * @property {string} group  a heading in the palette and in help
  * @property {string} [key]  as `KeyboardEvent.key` has it
@@ -29,8 +29,8 @@ import { t } from "./texts.js";
  * @property {(page: Page) => void} [run]  what else is to be done
  */
 
-/** Do it, if it makes sense now. @param {Act} act @param {Page} page */
-export function perform(act, page) {
+/** Do it, if it makes sense now. @param {Command} act @param {Page} page */
+export function runCommand(act, page) {
   const doing = act.now(page.state());
   if (doing === null) return;
   for (const actions of doing.turns ?? []) page.act(actions, doing.label, true);
@@ -40,8 +40,8 @@ export function perform(act, page) {
 /** @type {Action} */
 const STEP = { do: "step", ticks: 1 };
 
-/** @type {Act[]} */
-export const ACTS = [
+/** @type {Command[]} */
+export const COMMANDS = [
   {
     name: "back",
     group: t("groups.clock"),
@@ -55,7 +55,7 @@ export const ACTS = [
             label: t("clock.back"),
             icon: "back",
             turns: past || world.paused ? [] : [[{ do: "pause" }]],
-            run: (page) => void page.looking.step(-1),
+            run: (page) => void page.timeTravel.step(-1),
           }
         : null,
   },
@@ -66,7 +66,7 @@ export const ACTS = [
     key: " ",
     keyName: t("clock.space"),
     now: ({ past, world }) => {
-      if (past) return { label: t("clock.play"), icon: "play", run: (page) => page.looking.toggle() };
+      if (past) return { label: t("clock.play"), icon: "play", run: (page) => page.timeTravel.toggle() };
       return world?.paused
         ? { label: t("clock.resume"), icon: "play", turns: [[{ do: "resume" }]] }
         : { label: t("clock.pause"), icon: "pause", turns: [[{ do: "pause" }]] };
@@ -80,7 +80,7 @@ export const ACTS = [
     key: "ArrowRight",
     keyName: "→",
     now({ past, world }) {
-      if (past) return { label: t("clock.step"), icon: "step", run: (page) => void page.looking.step(1) };
+      if (past) return { label: t("clock.step"), icon: "step", run: (page) => void page.timeTravel.step(1) };
       // Two messages: a step that comes alone is streamed tick by tick, with its decision.
       return { label: t("clock.step"), icon: "step", turns: world?.paused === false ? [[{ do: "pause" }], [STEP]] : [[STEP]] };
     },

@@ -70,5 +70,3 @@ function problemText(problem) {
 export function errorText(error) {
   return error instanceof Error ? error.message : String(error);
 }
-
-export { errorText as words };

@@ -1,9 +1,9 @@
 // @ts-check
 /** The keyboard: what each key does when nobody is typing. */
 
-import { perform } from "./commands.js";
+import { runCommand } from "./commands.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "./page.js" */
 
 /** Elements that need the keys themselves. */
 const TYPING = "input, textarea, select, [contenteditable]";
@@ -18,9 +18,9 @@ export function watchKeys(page, words) {
     if (target?.closest(PRESSABLE) && (event.key === " " || event.key === "Enter")) return;
     if (event.key === "/") words.focus();
     else {
-      const act = page.acts().find(({ key }) => key === event.key);
+      const act = page.commands().find(({ key }) => key === event.key);
       if (!act || (event.repeat && !act.repeats)) return;
-      perform(act, page);
+      runCommand(act, page);
     }
     event.preventDefault();
   });

@@ -4,7 +4,9 @@
 import { errorText } from "./http.js";
 import { t } from "./texts.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "./page.js" */
+/** @import { State } from "./state.js" */
+/** @import { Panel } from "../panels/index.js" */
 
 /**
  * What makes a part once and hands it to whoever wants it; that it could not be fetched is told, and tried again.
@@ -21,6 +23,25 @@ export function onDemand(page, make) {
       part = null;
       page.tell({ text: t("page.part_not_fetched", { reason: errorText(error) }), tone: "bad" });
     });
+  };
+}
+
+/**
+ * A panel that is fetched when the state first asks for it.
+ * @param {Page} page
+ * @param {(state: State) => boolean} isWanted
+ * @param {() => Promise<Panel>} make
+ * @returns {Panel}
+ */
+export function lazyPanel(page, isWanted, make) {
+  /** @type {Panel | null} */ let panel = null;
+  const wanted = onDemand(page, async () => (panel = await make()));
+  return {
+    update(state, before) {
+      if (panel) panel.update?.(state, before);
+      else if (isWanted(state)) wanted((made) => made.update?.(page.state(), before));
+    },
+    repaint: () => panel?.repaint?.(),
   };
 }
 

@@ -3,7 +3,7 @@
 
 import { LANGUAGE } from "./texts.js";
 
-/** @import { Act } from "./commands.js" */
+/** @import { Command } from "./commands.js" */
 /** @import { Connector } from "./connector.js" */
 /** @import { Action, ClientMessage } from "./protocol.js" */
 /** @import { Event, Highlight, Notice, State } from "./state.js" */
@@ -28,18 +28,18 @@ import { LANGUAGE } from "./texts.js";
  * @property {(views: Views, large?: string | null) => void} arrange  show (true), hide (false), enlarge
  * @property {(notice: Notice | null) => void} tell  a passing line over the page, read aloud as well
  * @property {(other: Otherwise) => void} pick  play what would have been beside what was
- * @property {TimeTravel} looking  which tick is looked at, and the way to others
+ * @property {TimeTravel} timeTravel  which tick is looked at, and the way to others
  * @property {() => void} startSession
  * @property {() => void} reconnect  now rather than after the pause
- * @property {() => Act[]} acts  all that can be done by a key or from the palette
+ * @property {() => Command[]} commands  all that can be done by a key or from the palette
  * @property {() => void} wake  something is to be drawn anew
- * @property {(data: ArrayBuffer) => void} [picture]  a picture has come from the service
+ * @property {(call: (data: ArrayBuffer) => void) => void} onPicture  be called with each picture that the service sends
  */
 
 /**
  * @param {Store<State, Event>} store
  * @param {Connector} connector
- * @param {{looking: TimeTravel, acts: () => Act[], wake: () => void}} parts
+ * @param {{timeTravel: TimeTravel, commands: () => Command[], wake: () => void}} parts
  * @returns {Page}
  */
 export function createPage({ state, dispatch, subscribe }, connector, parts) {
@@ -66,6 +66,7 @@ export function createPage({ state, dispatch, subscribe }, connector, parts) {
     put: (text) => dispatch({ type: "draft", text }),
     act: (actions, label, quiet = false) => exchange(label, quiet, (id) => ({ type: "actions", id, actions })),
     send: (message) => void connector.send(message),
+    onPicture: (call) => void connector.pictures.add(call),
     highlight: (highlight) => dispatch({ type: "highlight", highlight }),
     foresee: (foresight) => dispatch({ type: "foresight", foresight }),
     arrange: (views, large) => dispatch({ type: "views", views, large }),

@@ -14,6 +14,7 @@ import { answerExchange, beginExchange, endUnanswered, refuseExchange } from "..
 import { NO_TIMELINE, timelineAfter } from "../timeline/timelineState.js";
 import { AT_FIRST, viewsAfter } from "../ui/views.js";
 import { worldAfter, worldOf } from "../road/world.js";
+import { NO_REGRET, regretAfter } from "../why/regret.js";
 
 /** @import { Foresight } from "../why/forecast.js" */
 /** @import { Line } from "../talk/journal.js" */
@@ -22,6 +23,7 @@ import { worldAfter, worldOf } from "../road/world.js";
 /** @import { Steps } from "./undoStack.js" */
 /** @import { Exchange } from "../talk/exchanges.js" */
 /** @import { LoaderEvent, Timeline } from "../timeline/timelineState.js" */
+/** @import { Regret, RegretEvent } from "../why/regret.js" */
 /** @import { Otherwise } from "../why/alternatives.js" */
 /** @import { Views } from "../ui/views.js" */
 /** @import { World } from "../road/world.js" */
@@ -46,6 +48,7 @@ import { worldAfter, worldOf } from "../road/world.js";
  * @property {Views} views  what is shown
  * @property {string | null} large  the part of the page that is enlarged
  * @property {Steps} steps  which changes can be taken back
+ * @property {Regret} regret  how good and how tight decisions were
  * @property {Look} look  which tick is looked at
  * @property {Past | null} past  that tick, as soon as it has come; null: the present is looked at
  * @property {Draft | null} draft  the latest sentence that was offered to stand in the box
@@ -84,7 +87,7 @@ import { worldAfter, worldOf } from "../road/world.js";
  *   | {type: "past", past: Past}
  *   | {type: "draft", text: string}
  *   | {type: "comparison", other: Otherwise}
- *   | LoaderEvent} PageEvent  what happened on this side of the wire
+ *   | LoaderEvent | RegretEvent} PageEvent  what happened on this side of the wire
  */
 
 /** @typedef {ServerMessage | PageEvent} Event */
@@ -109,6 +112,7 @@ export const INITIAL = {
   views: AT_FIRST,
   large: null,
   steps: NO_STEPS,
+  regret: NO_REGRET,
   look: { tick: null, playing: false },
   past: null,
   draft: null,
@@ -123,11 +127,17 @@ export function reduce(state, event) {
   const next = after(state, event);
   if (event.type === "session") return next;
   const timeline = timelineAfter(state.timeline, /** @type {ServerMessage | LoaderEvent} */ (event), state.world);
-  return timeline === state.timeline ? next : { ...next, timeline };
+  const regret = regretAfter(state.regret, /** @type {ServerMessage | RegretEvent} */ (event), next, state);
+  return timeline === state.timeline && regret === state.regret ? next : { ...next, timeline, regret };
 }
 
 /** @param {State} state @param {Event} event @returns {State} */
 function after(state, event) {
+  return afterMessage(afterDoing(state, event), event);
+}
+
+/** What happened on this side of the wire. @param {State} state @param {Event} event @returns {State} */
+function afterDoing(state, event) {
   switch (event.type) {
     case "session":
       return { ...INITIAL, session: event.id, notice: state.notice, views: state.views, large: state.large };
@@ -155,6 +165,14 @@ function after(state, event) {
       return { ...state, draft: { text: event.text } };
     case "comparison":
       return { ...state, comparison: { other: event.other } };
+    default:
+      return state;
+  }
+}
+
+/** What the service has sent. @param {State} state @param {Event} event @returns {State} */
+function afterMessage(state, event) {
+  switch (event.type) {
     case "hello":
       return afterHello(state, event);
     case "tick":

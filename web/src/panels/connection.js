@@ -4,7 +4,7 @@
 import { html, render } from "../../vendor/lit-html.js";
 import { t } from "../core/texts.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { State } from "../core/state.js" */
 /** @import { Panel } from "./index.js" */
 

@@ -2,13 +2,13 @@
 /** The clock's buttons and its speed; the same as the keys do (`core/commands.js`). */
 
 import { html, live, nothing, render } from "../../vendor/lit-html.js";
-import { ACTS, perform } from "../core/commands.js";
+import { COMMANDS, runCommand } from "../core/commands.js";
 import { t } from "../core/texts.js";
 import { paceText } from "../core/words.js";
-import { iconOf } from "../ui/icons.js";
+import { icon } from "../ui/icons.js";
 
-/** @import { Act } from "../core/commands.js" */
-/** @import { Page } from "../main.js" */
+/** @import { Command } from "../core/commands.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { State } from "../core/state.js" */
 /** @import { Panel } from "./index.js" */
 
@@ -23,25 +23,25 @@ const AFTER = "step";
  * @returns {Panel}
  */
 export function createControls(host, page) {
-  const acts = ACTS.filter((act) => act.button);
+  const commands = COMMANDS.filter((act) => act.button);
   return {
-    acts: [faster(1, "+"), faster(-1, "−")],
+    commands: [faster(1, "+"), faster(-1, "−")],
 
     update(state) {
       const off = state.connection.phase !== "live";
       const pace = page.state().world?.pace ?? 1;
       render(
-        acts.map((act) => html`${button(act, state, off, page)}${act.name === AFTER ? speed(pace, off, page) : nothing}`),
+        commands.map((act) => html`${button(act, state, off, page)}${act.name === AFTER ? speed(pace, off, page) : nothing}`),
         host,
       );
     },
   };
 }
 
-/** @param {Act} act @param {State} state @param {boolean} off @param {Page} page */
+/** @param {Command} act @param {State} state @param {boolean} off @param {Page} page */
 function button(act, state, off, page) {
   const doing = act.now(state);
-  const { label, icon = act.name } = doing ?? { label: t(`clock.${act.name}`) };
+  const { label, icon: picture = act.name } = doing ?? { label: t(`clock.${act.name}`) };
   const title = [label, act.keyName].filter(Boolean).join("  ");
   return html`<button
     class=${act.name === "clock" ? "button strong" : "button"}
@@ -51,8 +51,8 @@ function button(act, state, off, page) {
     aria-keyshortcuts=${act.key === " " ? "Space" : (act.key ?? nothing)}
     data-act=${act.name}
     ?disabled=${off || doing === null}
-    @click=${() => perform(act, page)}
-  ><span class="control-icon">${iconOf(icon)}</span><span class="control-label">${label}</span></button>`;
+    @click=${() => runCommand(act, page)}
+  ><span class="control-icon">${icon(picture)}</span><span class="control-label">${label}</span></button>`;
 }
 
 /** @param {number | "max"} pace @param {boolean} off @param {Page} page */
@@ -69,7 +69,7 @@ function setSpeed(value, page) {
   page.act([{ do: "set", parameter: "playback_speed", value }], t("clock.speed_set", { pace: paceText(value) }), true);
 }
 
-/** @param {1 | -1} direction @param {string} keyName @returns {Act} */
+/** @param {1 | -1} direction @param {string} keyName @returns {Command} */
 function faster(direction, keyName) {
   const name = direction > 0 ? "faster" : "slower";
   return {

@@ -5,8 +5,8 @@ import { html, live } from "../../vendor/lit-html.js";
 import { t } from "../core/texts.js";
 import { PLANNERS, plannerName } from "../core/words.js";
 
-/** @import { Act } from "../core/commands.js" */
-/** @import { Page } from "../main.js" */
+/** @import { Command } from "../core/commands.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { Action } from "../core/protocol.js" */
 /** @import { State } from "../core/state.js" */
 /** @import { World } from "../road/world.js" */
@@ -33,8 +33,8 @@ export function driverChoice({ connection, past, world }, page) {
   </select>`;
 }
 
-/** The same from the palette. @returns {Act[]} */
-export function driverActs() {
+/** The same from the palette. @returns {Command[]} */
+export function driverCommands() {
   return DRIVERS.map((name) => ({
     name: `driver-${name}`,
     group: t("groups.driver"),

@@ -1,7 +1,7 @@
 // @ts-check
 /** The panels of the page, each in a file of its own; a new panel is a file and a line here. */
 
-import { byId } from "../ui/dom.js";
+import { byId } from "../ui/slot.js";
 import { createAnnouncer } from "../talk/announcer.js";
 import { createCaption } from "../road/caption.js";
 import { createCard } from "../why/bubbleLoader.js";
@@ -9,18 +9,17 @@ import { createCommand } from "../talk/commandBox.js";
 import { createCounterfactual } from "../why/counterfactualLoader.js";
 import { createConnectionBadge } from "./connection.js";
 import { createControls } from "./controls.js";
+import { createHelpLoader, createPaletteLoader } from "../talk/dialogLoader.js";
 import { createExport } from "../timeline/export.js";
 import { createForesight } from "../why/forecastPoller.js";
-import { createHelp } from "../talk/help.js";
 import { createRoadInput } from "../road/roadInput.js";
 import { createLanes } from "../road/laneList.js";
 import { createLog } from "./log.js";
 import { createMetrics } from "./metrics.js";
 import { createNotice } from "../ui/notice.js";
 import { createOccupancy } from "./occupancy.js";
-import { createPalette } from "../talk/palette.js";
 import { createPast } from "../timeline/pastBar.js";
-import { createServerVideo } from "../road/serverVideo.js";
+import { createServerVideo } from "../road/serverVideoLoader.js";
 import { createPlan } from "./plan.js";
 import { createRoad } from "../road/road.js";
 import { createRoads } from "../talk/roadFamilies.js";
@@ -33,8 +32,8 @@ import { createTimeline } from "../timeline/timeline.js";
 import { createVerdict } from "./verdict.js";
 import { createViews } from "./views.js";
 
-/** @import { Act } from "../core/commands.js" */
-/** @import { Page } from "../main.js" */
+/** @import { Command } from "../core/commands.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { State } from "../core/state.js" */
 
 /**
@@ -42,7 +41,7 @@ import { createViews } from "./views.js";
  * @property {(state: State, before: State) => void} [update]  the state has changed
  * @property {(now: number) => boolean} [draw]  draw what moves; whether there is more to come
  * @property {() => void} [repaint]  size or colours have changed
- * @property {Act[]} [acts]  what can be done with it by a key or from the palette
+ * @property {Command[]} [commands]  what can be done with it by a key or from the palette
  */
 
 /** @param {Page} page @returns {Panel[]} */
@@ -79,7 +78,7 @@ export function createPanels(page) {
     createMetrics(byId("metrics"), page),
     createReader(),
     createRoads(),
-    createPalette(/** @type {HTMLDialogElement} */ (byId("palette")), page),
-    createHelp(byId("help"), /** @type {HTMLDialogElement} */ (byId("help-dialog")), page),
+    createPaletteLoader(/** @type {HTMLDialogElement} */ (byId("palette")), page),
+    createHelpLoader(byId("help"), /** @type {HTMLDialogElement} */ (byId("help-dialog")), page),
   ];
 }

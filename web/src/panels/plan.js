@@ -17,7 +17,7 @@ import { find, fitCanvas } from "../ui/slot.js";
 import { foreseen, underWay } from "../why/forecast.js";
 import { moveOptions } from "../why/moveOptions.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { Cell, Decision } from "../core/protocol.js" */
 /** @import { State } from "../core/state.js" */
 /** @import { MoveOption } from "../why/moveOptions.js" */
@@ -61,7 +61,7 @@ export function createPlan(host, note, page) {
 
   /** @param {MoveOption} way */
   function pick(way) {
-    if (shown?.decision && isPickable(way)) page.pick?.({ kind: "move", tick: shown.decision.tick, move: way.move });
+    if (shown?.decision && isPickable(way)) page.pick({ kind: "move", tick: shown.decision.tick, move: way.move });
   }
 
   return {

@@ -5,9 +5,9 @@ import { html, render } from "../../vendor/lit-html.js";
 import { t } from "../core/texts.js";
 import { clock, percent } from "../core/words.js";
 import { speedKmh, toGo } from "../road/world.js";
-import { driverActs, driverChoice } from "./driver.js";
+import { driverCommands, driverChoice } from "./driver.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { State } from "../core/state.js" */
 /** @import { World } from "../road/world.js" */
 /** @import { Panel } from "./index.js" */
@@ -38,7 +38,7 @@ const FIGURES = [
 /** @param {HTMLElement} host  a definition list @param {Page} page @returns {Panel} */
 export function createStatus(host, page) {
   return {
-    acts: driverActs(),
+    commands: driverCommands(),
 
     update(state) {
       render(

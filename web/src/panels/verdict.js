@@ -5,7 +5,7 @@ import { html, nothing } from "../../vendor/lit-html.js";
 import { t } from "../core/texts.js";
 import { createSlot } from "../ui/slot.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { State } from "../core/state.js" */
 /** @import { Panel } from "./index.js" */
 

@@ -3,13 +3,13 @@
 
 import { html, nothing, render } from "../../vendor/lit-html.js";
 import { t } from "../core/texts.js";
-import { iconOf } from "../ui/icons.js";
+import { icon } from "../ui/icons.js";
 import { createMenu } from "../ui/menu.js";
 import { find } from "../ui/slot.js";
 import { keepViews, LAYERS, PARTS, viewsLeft } from "../ui/views.js";
 
-/** @import { Act } from "../core/commands.js" */
-/** @import { Page } from "../main.js" */
+/** @import { Command } from "../core/commands.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { State } from "../core/state.js" */
 /** @import { Panel } from "./index.js" */
 
@@ -45,7 +45,7 @@ export function createViews(host, page) {
   let begun = false;
 
   return {
-    acts: viewActs(toggle, enlarge),
+    commands: viewCommands(toggle, enlarge),
 
     update({ views, large }, before) {
       if (begun && views === before.views && large === before.large) return;
@@ -75,12 +75,12 @@ function headButtons(name, large, { enlarge, hide }) {
   const grow = large ? t("views.shrink") : t("views.enlarge", { name: theName(name) });
   const hides = t("views.hide", { name: theName(name) });
   return html`<button class="head-button" type="button" data-enlarge=${name} title=${large ? `${grow}  Esc` : grow} aria-label=${grow} aria-pressed=${String(large)} @click=${() => enlarge(name)}>
-      ${iconOf(large ? "shrink" : "grow")}
+      ${icon(large ? "shrink" : "grow")}
     </button>
     ${
       name === "road" || name === "talk"
         ? nothing
-        : html`<button class="head-button" type="button" data-hide=${name} aria-label=${hides} title=${hides} @click=${() => hide(name)}>${iconOf("close")}</button>`
+        : html`<button class="head-button" type="button" data-hide=${name} aria-label=${hides} title=${hides} @click=${() => hide(name)}>${icon("close")}</button>`
     }`;
 }
 
@@ -105,11 +105,11 @@ function menuItems(page, toggle) {
 /**
  * @param {(name: string) => void} toggle
  * @param {(name: string) => void} enlarge
- * @returns {Act[]}
+ * @returns {Command[]}
  */
-function viewActs(toggle, enlarge) {
+function viewCommands(toggle, enlarge) {
   const group = t("groups.views");
-  /** @type {(name: string, key?: string) => Act} */
+  /** @type {(name: string, key?: string) => Command} */
   const toggling = (name, key) => ({
     name: `view-${name}`,
     group,

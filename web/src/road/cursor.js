@@ -19,7 +19,7 @@ import { egoOf } from "./world.js";
 
 /** @import { Kind } from "../core/wire.js" */
 /** @import { Places } from "./hitTest.js" */
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { Cell } from "../core/protocol.js" */
 /** @import { State } from "../core/state.js" */
 /** @import { Thing, World } from "./world.js" */
@@ -55,7 +55,7 @@ const HINT = [
 export function createCursor(host, places, page, card, actions) {
   const cursor = new Cursor(host, places, page, card, actions);
   return {
-    acts: [
+    commands: [
       {
         name: "cursor",
         group: t("groups.road"),
@@ -226,7 +226,7 @@ class Cursor {
     const why = hindrance(world, thing.kind, at, thing.id);
     if (why !== null) return this.#say(why);
     this.letGo();
-    if (!same(thing.cell, at)) this.actions.perform(moving(thing, at), t("edit.move", { id: thing.id, place: placeWords(world, at) }));
+    if (!same(thing.cell, at)) this.actions.runCommand(moving(thing, at), t("edit.move", { id: thing.id, place: placeWords(world, at) }));
   }
 
   /** @param {Thing | null} thing */
@@ -241,7 +241,7 @@ class Cursor {
   /** @param {World} world @param {Cell} at */
   #remove(world, at) {
     const thing = thingIn(world, at);
-    if (isLoose(thing)) this.actions.perform(removing(thing), t("edit.take_off", { id: thing.id }));
+    if (isLoose(thing)) this.actions.runCommand(removing(thing), t("edit.take_off", { id: thing.id }));
     else this.#say(t(thing ? "cursor.drives_itself_remove" : "cursor.nothing_to_remove"));
   }
 
@@ -249,7 +249,7 @@ class Cursor {
   #put(kind, world, at) {
     const why = hindrance(world, kind, at);
     if (why !== null) this.#say(why);
-    else this.actions.perform(placing(kind, at), t("edit.put", { thing: nameOf({ kind }), place: placeWords(world, at) }));
+    else this.actions.runCommand(placing(kind, at), t("edit.put", { thing: nameOf({ kind }), place: placeWords(world, at) }));
   }
 
   /** @param {string} text */

@@ -20,7 +20,7 @@ import { createTray, portrait } from "./tray.js";
 
 /** @import { Kind } from "../core/wire.js" */
 /** @import { Places } from "./hitTest.js" */
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { Cell, Action } from "../core/protocol.js" */
 /** @import { State } from "../core/state.js" */
 /** @import { Thing, World } from "./world.js" */
@@ -31,7 +31,7 @@ import { createTray, portrait } from "./tray.js";
 
 /**
  * @typedef {object} RoadActions
- * @property {(actions: Action[], label: string) => void} perform  do it; a refusal is said over the road
+ * @property {(actions: Action[], label: string) => void} runCommand  do it; a refusal is said over the road
  * @property {(text: string) => void} tell  say something over the road, for a while
  */
 
@@ -49,7 +49,7 @@ const TOLD_MS = 5_000;
 export function createDragDrop(host, surface, places, page, card) {
   const hands = new DragDrop(host, surface, places, page, card);
   return {
-    perform: (actions, label) => hands.perform(actions, label),
+    runCommand: (actions, label) => hands.runCommand(actions, label),
     tell: (text) => hands.tell(text),
     update: (state) => hands.update(state),
     draw() {
@@ -196,19 +196,19 @@ class DragDrop {
     const cell = this.#over(x, y);
     this.#end();
     if (cell === null || !onRoad(world, cell)) {
-      if (thing) this.perform(removing(thing), t("edit.take_off", { id: thing.id }));
+      if (thing) this.runCommand(removing(thing), t("edit.take_off", { id: thing.id }));
       return;
     }
     if (thing && same(thing.cell, cell)) return;
     const why = hindrance(world, kind, cell, thing?.id);
     if (why !== null) return this.tell(why);
-    if (thing) this.perform(moving(thing, cell), t("edit.move", { id: thing.id, place: placeWords(world, cell) }));
+    if (thing) this.runCommand(moving(thing, cell), t("edit.move", { id: thing.id, place: placeWords(world, cell) }));
     else this.#put(kind, world, cell);
   }
 
   /** @param {Kind} kind @param {World} world @param {Cell} cell */
   #put(kind, world, cell) {
-    this.perform(placing(kind, cell), t("edit.put", { thing: nameOf({ kind }), place: placeWords(world, cell) }));
+    this.runCommand(placing(kind, cell), t("edit.put", { thing: nameOf({ kind }), place: placeWords(world, cell) }));
   }
 
   #end() {
@@ -221,7 +221,7 @@ class DragDrop {
   }
 
   /** @param {Action[]} actions @param {string} label */
-  perform(actions, label) {
+  runCommand(actions, label) {
     if (this.page.state().past !== null) return this.tell(t("edit.past"));
     // A thing moved changes no figure, and would not be listed if it were quiet.
     this.sent = this.page.act(actions, label, actions.length === 1);

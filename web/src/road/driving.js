@@ -1,22 +1,25 @@
 // @ts-check
 /** Who drives, and by which key that is changed; driving itself (`manualDrive.js`) is fetched when a person first does. */
 
-import { onDemand, styled } from "../core/lazy.js";
+import { lazyPanel, styled } from "../core/lazy.js";
 import { t } from "../core/texts.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { Panel } from "../panels/index.js" */
 
 /** @param {HTMLElement} host  the road @param {Page} page @returns {Panel} */
 export function createDriving(host, page) {
-  /** @type {Panel | null} */ let manual = null;
-  const wanted = onDemand(page, async () => {
-    const [{ createManualDrive }] = await Promise.all([import("./manualDrive.js"), styled("wheel")]);
-    return (manual = createManualDrive(host, page));
-  });
+  const manual = lazyPanel(
+    page,
+    ({ world }) => world?.mode === "manual",
+    async () => {
+      const [{ createManualDrive }] = await Promise.all([import("./manualDrive.js"), styled("wheel")]);
+      return createManualDrive(host, page);
+    },
+  );
 
   return {
-    acts: [
+    commands: [
       {
         name: "manual",
         group: t("groups.drive"),
@@ -39,9 +42,6 @@ export function createDriving(host, page) {
       },
     ],
 
-    update(state, before) {
-      if (manual) manual.update?.(state, before);
-      else if (state.world?.mode === "manual") wanted((made) => made.update?.(page.state(), before));
-    },
+    update: manual.update,
   };
 }

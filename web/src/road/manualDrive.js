@@ -12,7 +12,7 @@ import { MOVES, moveName } from "../core/words.js";
 import { createSlot } from "../ui/slot.js";
 import { isArrow, isDriving, moveOf, TOGETHER_MS } from "./drivingKeys.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { Move } from "../core/protocol.js" */
 /** @import { State } from "../core/state.js" */
 /** @import { Panel } from "../panels/index.js" */

@@ -14,7 +14,7 @@ import { watchPointing } from "../why/pointing.js";
 import { createDragDrop } from "./dragDrop.js";
 
 /** @import { Places } from "./hitTest.js" */
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { Card } from "../why/bubbleLoader.js" */
 /** @import { Panel } from "../panels/index.js" */
 

@@ -10,7 +10,7 @@ import { html } from "../../vendor/lit-html.js";
 import { t } from "../core/texts.js";
 import { createSlot, find } from "../ui/slot.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { Panel } from "../panels/index.js" */
 
 const HEADER_BYTES = 16;
@@ -46,7 +46,7 @@ export function createServerVideo(host, page) {
   let decoding = false;
   /** @type {any} */ let patience = null;
 
-  page.picture = async (data) => {
+  page.onPicture(async (data) => {
     const told = wanted ? pictureOf(data) : null;
     if (!told || decoding) return; // a page that is too slow sees fewer, never old ones
     decoding = true;
@@ -65,7 +65,7 @@ export function createServerVideo(host, page) {
     } finally {
       decoding = false;
     }
-  };
+  });
 
   /** @param {string} why */
   function giveUp(why) {

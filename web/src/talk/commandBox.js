@@ -4,13 +4,13 @@
 import { html, live, nothing, render } from "../../vendor/lit-html.js";
 import { browserStorage } from "../core/storage.js";
 import { t } from "../core/texts.js";
-import { iconOf } from "../ui/icons.js";
+import { icon } from "../ui/icons.js";
 import { find } from "../ui/slot.js";
 import { History } from "./history.js";
 import { createMicrophone } from "./speech.js";
 import { Suggestions } from "./suggestions.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { Panel } from "../panels/index.js" */
 
 /** Well beyond what the service takes, so that it is the one to say that a text is too long. */
@@ -111,6 +111,6 @@ function template(text, suggestions, { input, key, blur }, microphone) {
       <kbd class="hint" aria-hidden="true">/</kbd>
     </div>
     ${microphone?.() ?? nothing}
-    <button class="button strong icon send" type="submit" aria-label=${t("talk.send")}>${iconOf("send")}</button>
+    <button class="button strong icon send" type="submit" aria-label=${t("talk.send")}>${icon("send")}</button>
     ${suggestions.line(t(touch() ? "talk.hint_touch" : "talk.hint"))}`;
 }

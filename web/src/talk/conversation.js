@@ -8,7 +8,7 @@ import { LAYOUTS, layoutName } from "../core/words.js";
 import { exchangeTemplate } from "./exchange.js";
 import { shown } from "./exchanges.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { State } from "../core/state.js" */
 /** @import { Panel } from "../panels/index.js" */
 

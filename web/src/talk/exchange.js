@@ -7,7 +7,7 @@ import { changeWords, markWords } from "../core/words.js";
 import { answerTemplate } from "./answer.js";
 import { changesOf } from "./exchanges.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { CommandResult, Problem, Change } from "../core/protocol.js" */
 /** @import { Exchange } from "./exchanges.js" */
 

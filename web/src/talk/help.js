@@ -10,9 +10,8 @@ import { plain } from "../core/words.js";
 import { guide } from "./language.js";
 import { canSpeak, speak, speaks } from "./speech.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { LanguageGuide, TaughtPhrase } from "../core/wire.js" */
-/** @import { Panel } from "../panels/index.js" */
 
 const MOST_EXAMPLES = 3;
 /** Kinds of sentences under people's headings, in the order of a first hour; others follow under their own name. */
@@ -30,7 +29,7 @@ const HEADINGS = /** @type {[string, string[]][]} */ ([
   ["advice", ["advise", "ask maintenance"]],
   ["teach", ["teach", "forget"]],
 ]);
-/** Keys that are not acts of their own. */
+/** Keys that are not commands of their own. */
 const MORE_KEYS = [
   ["/", "help.key_box"],
   ["↑ ↓", "help.key_said"],
@@ -40,8 +39,8 @@ const MORE_KEYS = [
 
 /** @typedef {{guidance: LanguageGuide | null, trouble: string | null}} Known  what the service has told */
 
-/** @param {HTMLElement} button @param {HTMLDialogElement} dialog @param {Page} page @returns {Panel} */
-export function createHelp(button, dialog, page) {
+/** @param {HTMLDialogElement} dialog @param {Page} page */
+export function createHelp(dialog, page) {
   const asking = turns();
   const put = (/** @type {string} */ text) => {
     dialog.close();
@@ -71,13 +70,7 @@ export function createHelp(button, dialog, page) {
   dialog.addEventListener("click", (event) => {
     if (event.target === dialog) dialog.close();
   });
-  button.addEventListener("click", () => void open());
-  return {
-    acts: [
-      { name: "box", group: t("groups.talk"), keyName: "/", now: () => ({ label: t("talk.to_box"), run: () => document.getElementById("words")?.focus() }) },
-      { name: "help", group: t("groups.help"), key: "?", keyName: "?", now: () => ({ label: t("help.title"), run: () => void open() }) },
-    ],
-  };
+  return { open };
 }
 
 /** @param {unknown[]} parts @param {() => void} close */
@@ -136,14 +129,14 @@ function phrases(taught) {
 
 /** @param {Page} page */
 function keys(page) {
-  const acts = page.acts().flatMap((act) => {
+  const commands = page.commands().flatMap((act) => {
     const doing = act.keyName ? act.now(page.state()) : null;
     return doing && act.keyName ? [[act.keyName, doing.label]] : [];
   });
   /** @type {Map<string, string[]>} what can be done → the keys that do it */
   const rows = new Map();
   const taken = new Set();
-  for (const [key, what] of [...MORE_KEYS.map(([key, text]) => [key, t(text)]), ...acts]) {
+  for (const [key, what] of [...MORE_KEYS.map(([key, text]) => [key, t(text)]), ...commands]) {
     if (taken.has(key)) continue;
     taken.add(key);
     rows.set(what, [...(rows.get(what) ?? []), key]);

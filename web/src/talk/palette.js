@@ -1,15 +1,14 @@
 // @ts-check
-/** Everything that can be done, in one list to search: acts with their keys, then sentences. Ctrl K opens it. */
+/** Everything that can be done, in one list to search: commands with their keys, then sentences. Ctrl K opens it. */
 
 import { html, live, nothing, render } from "../../vendor/lit-html.js";
-import { perform } from "../core/commands.js";
+import { runCommand } from "../core/commands.js";
 import { turns } from "../core/latest.js";
 import { t } from "../core/texts.js";
 import { guide } from "./language.js";
 import { rank } from "./rank.js";
 
-/** @import { Page } from "../main.js" */
-/** @import { Panel } from "../panels/index.js" */
+/** @import { Page } from "../core/page.js" */
 
 /** @typedef {{label: string, group: string, key?: string, said?: boolean, run: () => void}} Entry  said: a sentence */
 /** @typedef {{entries: Entry[], typed: string, at: number}} Shown */
@@ -18,12 +17,11 @@ const MOST_SHOWN = 60;
 /** Sentences of a kind. */
 const MOST_EXAMPLES = 3;
 
-/** @param {HTMLDialogElement} dialog @param {Page} page @returns {Panel} */
+/** @param {HTMLDialogElement} dialog @param {Page} page */
 export function createPalette(dialog, page) {
   /** @type {Shown} */ let shown = { entries: [], typed: "", at: 0 };
   const asking = turns();
   const found = () => rank(shown.entries, shown.typed).slice(0, MOST_SHOWN);
-  dialog.setAttribute("aria-label", t("palette.label"));
 
   /** @param {Partial<Shown>} change @param {boolean} [scroll] */
   function show(change, scroll = true) {
@@ -45,24 +43,18 @@ export function createPalette(dialog, page) {
 
   async function open() {
     if (document.querySelector("dialog[open]")) return;
-    show({ entries: actsNow(page), typed: "", at: 0 });
+    show({ entries: commandsNow(page), typed: "", at: 0 });
     dialog.showModal();
     const newest = asking();
-    const guidance = await guide().catch(() => null); // the acts alone are useful too
+    const guidance = await guide().catch(() => null); // the commands alone are useful too
     if (guidance === null || !newest() || !dialog.open) return;
     const sentences = guidance.intents.filter(({ available }) => available).flatMap(({ examples }) => examples.slice(0, MOST_EXAMPLES));
     const marked = found()[shown.at]?.label;
-    shown.entries = [...actsNow(page), ...sentences.map(({ text }) => ({ label: text, group: t("groups.say"), said: true, run: () => page.put(text) }))];
+    shown.entries = [...commandsNow(page), ...sentences.map(({ text }) => ({ label: text, group: t("groups.say"), said: true, run: () => page.put(text) }))];
     // What was chosen meanwhile stays chosen.
     show({ at: Math.max(0, found().findIndex(({ label }) => label === marked)) });
   }
 
-  addEventListener("keydown", (event) => {
-    if (event.key.toLowerCase() !== "k" || !(event.ctrlKey || event.metaKey) || event.altKey || event.shiftKey) return;
-    event.preventDefault();
-    if (dialog.open) dialog.close();
-    else void open();
-  });
   dialog.addEventListener("click", (event) => {
     if (event.target === dialog) dialog.close(); // beside it
   });
@@ -76,7 +68,7 @@ export function createPalette(dialog, page) {
     event.preventDefault();
   });
 
-  return { acts: [{ name: "palette", group: t("groups.help"), keyName: "Ctrl K", now: () => ({ label: t("palette.label"), run: () => void open() }) }] };
+  return { open };
 }
 
 /**
@@ -100,14 +92,14 @@ function template(found, { typed, at }, { type, mark, run }) {
 }
 
 /** What two keys do stands here once. @param {Page} page @returns {Entry[]} */
-function actsNow(page) {
-  const acts = page.acts().flatMap((act) => {
+function commandsNow(page) {
+  const commands = page.commands().flatMap((act) => {
     const doing = act.now(page.state());
-    return doing ? [{ label: doing.label, group: act.group, key: act.keyName, run: () => perform(act, page) }] : [];
+    return doing ? [{ label: doing.label, group: act.group, key: act.keyName, run: () => runCommand(act, page) }] : [];
   });
-  const groups = [...new Set(acts.map(({ group }) => group))];
+  const groups = [...new Set(commands.map(({ group }) => group))];
   return groups.flatMap((group) => {
-    const own = acts.filter((act) => act.group === group);
+    const own = commands.filter((act) => act.group === group);
     return own.filter(({ label }, at) => own.findIndex((act) => act.label === label) === at);
   });
 }

@@ -10,7 +10,7 @@ import { LAYOUTS, layoutName } from "../core/words.js";
 /** @returns {Panel} */
 export function createRoads() {
   return {
-    acts: LAYOUTS.map((layout) => ({
+    commands: LAYOUTS.map((layout) => ({
       name: `road-${layout}`,
       group: t("groups.new_road"),
       now: ({ past, world }) => (world === null || past ? null : { label: t("talk.new_road", { name: layoutName(layout) }), turns: [[{ do: "scenario", layout: /** @type {Scenario["layout"]} */ (layout) }]] }),

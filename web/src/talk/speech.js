@@ -8,9 +8,9 @@
 import { html } from "../../vendor/lit-html.js";
 import { prefer, preference } from "../core/preferences.js";
 import { LANGUAGE, t } from "../core/texts.js";
-import { iconOf } from "../ui/icons.js";
+import { icon } from "../ui/icons.js";
 
-/** @import { Act } from "../core/commands.js" */
+/** @import { Command } from "../core/commands.js" */
 /** @import { Panel } from "../panels/index.js" */
 
 /** Decisions of this weight and more are told aloud. */
@@ -49,7 +49,7 @@ export function createMicrophone(put, changed) {
 
   return () =>
     html`<button class="button quiet icon microphone" type="button" aria-label=${t("talk.speak")} aria-pressed=${String(listening !== null)} title=${title} @click=${press}>
-      ${iconOf("microphone")}
+      ${icon("microphone")}
     </button>`;
 }
 
@@ -66,14 +66,14 @@ export function speak(on) {
 
 /** Reads aloud what matters: replies, ends, and decisions of weight. @returns {Panel} */
 export function createReader() {
-  /** @type {Act} */
+  /** @type {Command} */
   const toggle = {
     name: "aloud",
     group: t("groups.talk"),
     now: () => ({ label: t(speaks() ? "talk.aloud_stop" : "talk.aloud"), run: () => speak(!speaks()) }),
   };
   return {
-    acts: canSpeak() ? [toggle] : [],
+    commands: canSpeak() ? [toggle] : [],
     update(state, before) {
       if (!speaks()) return;
       if (state.announcement !== before.announcement) say(state.announcement);

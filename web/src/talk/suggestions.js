@@ -11,7 +11,7 @@ import { Latest } from "../core/latest.js";
 import { t } from "../core/texts.js";
 import { foresee, previewWords } from "./language.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { Foreseen } from "./language.js" */
 
 const PAUSE_MS = 120;

@@ -7,7 +7,7 @@ import { dialogSlot, makeDialog } from "../ui/dialog.js";
 import { createMomentsDialog } from "./momentsDialog.js";
 import { createSessionsDialog } from "./sessionsDialog.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { Dialogs } from "./share.js" */
 
 /** @param {Page} page @returns {Dialogs} */

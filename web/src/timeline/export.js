@@ -6,8 +6,8 @@ import { onDemand, styled } from "../core/lazy.js";
 import { t } from "../core/texts.js";
 import { find } from "../ui/slot.js";
 
-/** @import { Act } from "../core/commands.js" */
-/** @import { Page } from "../main.js" */
+/** @import { Command } from "../core/commands.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { Panel } from "../panels/index.js" */
 
 /** @typedef {{picture: () => void, recording: () => Promise<void>, open: (file: File | undefined) => Promise<void>}} Files */
@@ -26,14 +26,14 @@ export function createExport(host, page) {
   watchDrops(show, open);
 
   const group = t("groups.session");
-  /** @type {Act[]} */
-  const acts = [
+  /** @type {Command[]} */
+  const commands = [
     { name: "picture", group, now: ({ past }) => ({ label: past ? t("session.picture_tick", past.world) : t("session.picture"), run: () => files((all) => all.picture()) }) },
     { name: "video", group, now: () => ({ label: t("session.video"), run: () => video((show) => show()) }) },
     { name: "recording", group, now: () => ({ label: t("session.recording"), run: () => files((all) => void all.recording()) }) },
     { name: "open-recording", group, now: () => ({ label: t("session.open_recording"), run: () => find(host, "input").click() }) },
   ];
-  return { acts };
+  return { commands };
 }
 
 /** @param {boolean} over  whether a file is held over the page @param {(file: File | undefined) => void} open */

@@ -7,7 +7,7 @@ import { t } from "../core/texts.js";
 import { fetched, fileName, recordingIn, recordingPath, save } from "./downloads.js";
 import { openRecording } from "./links.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { Files } from "./export.js" */
 
 /** @param {Page} page @returns {Files} */

@@ -3,12 +3,12 @@
 
 import { html } from "../../vendor/lit-html.js";
 import { t } from "../core/texts.js";
-import { iconOf } from "../ui/icons.js";
+import { icon } from "../ui/icons.js";
 import { eventText, JUMPS, nextEvent } from "./timelineEvents.js";
 import { allEvents } from "./timelineState.js";
 
-/** @import { Act } from "../core/commands.js" */
-/** @import { Page } from "../main.js" */
+/** @import { Command } from "../core/commands.js" */
+/** @import { Page } from "../core/page.js" */
 
 const WAYS = /** @type {const} */ ([
   { direction: -1, name: "previous", key: "[" },
@@ -30,9 +30,9 @@ export function createJumps(page) {
     const kind = t(`timeline.kinds.${name}`);
     if (event) {
       page.tell({ text: t("timeline.found", { tick: event.tick, text: eventText(event) }), aloud: true });
-      void page.looking.at(event.tick);
+      void page.timeTravel.at(event.tick);
     } else if (direction > 0 && look.tick !== null) {
-      page.looking.live();
+      page.timeTravel.live();
       page.tell({ text: t("timeline.none_later_live", { kind }) });
     } else page.tell({ text: t(direction < 0 ? "timeline.none_earlier" : "timeline.none_later", { kind }) });
   }
@@ -45,7 +45,7 @@ export function createJumps(page) {
   });
 
   return {
-    acts: jumpActs(jump, () => chosen),
+    commands: jumpCommands(jump, () => chosen),
 
     /** The buttons, with the choice between them. */
     buttons() {
@@ -71,16 +71,16 @@ function button({ name, key }, press) {
   const label = t(`timeline.${name}_kind`, { kind: t("timeline.kinds.any") });
   const title = `${t(`timeline.${name}`)}  ${key}`;
   return html`<button class="button icon small" type="button" data-jump=${name} aria-label=${label} title=${title} aria-keyshortcuts=${key} @click=${press}>
-    ${iconOf(name)}
+    ${icon(name)}
   </button>`;
 }
 
 /**
  * @param {(name: string, direction: 1 | -1) => void} jump
  * @param {() => string} chosen
- * @returns {Act[]}
+ * @returns {Command[]}
  */
-function jumpActs(jump, chosen) {
+function jumpCommands(jump, chosen) {
   const group = t("groups.time");
   return WAYS.flatMap(({ direction, name: way, key }) => [
     { name: way, group, key, keyName: key, repeats: true, now: () => ({ label: t(`timeline.${way}_chosen`), run: () => jump(chosen(), direction) }) },

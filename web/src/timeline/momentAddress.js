@@ -10,8 +10,8 @@ import { hashOf, momentInHash } from "../core/address.js";
 /** So long nobody has gone to another tick: the address is written no more often. */
 const REST_MS = 300;
 
-/** @param {Store<State, Event>} store @param {TimeTravel} looking */
-export function keepAddress(store, looking) {
+/** @param {Store<State, Event>} store @param {TimeTravel} timeTravel */
+export function keepAddress(store, timeTravel) {
   /** @type {any} */ let timer = null;
   /** Whether the address has been followed: until then it is not written. */
   let followed = false;
@@ -22,8 +22,8 @@ export function keepAddress(store, looking) {
     const place = momentInHash(location.hash);
     const { session, world } = store.state();
     if (place === null || place.session !== session || !world) return;
-    if (place.tick === null) looking.live();
-    else void looking.at(place.tick);
+    if (place.tick === null) timeTravel.live();
+    else void timeTravel.at(place.tick);
   }
 
   /** Unless the address names another session by now. It is not a step of the browser's own way back. */

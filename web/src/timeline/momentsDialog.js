@@ -8,7 +8,7 @@ import { sessionPath } from "../core/protocol.js";
 import { t } from "../core/texts.js";
 import { dialogSlot, makeDialog } from "../ui/dialog.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { SavedMoment, SavedMoments } from "../core/wire.js" */
 /** @import { Exchange } from "../talk/exchanges.js" */
 
@@ -60,7 +60,7 @@ export function createMomentsDialog(page) {
 
   return (naming) => {
     // Only the present can be given a name: what is looked at is the past.
-    if (naming) page.looking.live();
+    if (naming) page.timeTravel.live();
     show({ name: "", note: { text: "", bad: false } });
     dialog.showModal();
     if (naming) /** @type {HTMLElement | null} */ (dialog.querySelector("input"))?.focus();
@@ -101,11 +101,11 @@ function content({ name, note, moments }, { page, close, name: rename, save }) {
 function row({ name, tick }, page, close) {
   const look = () => {
     close();
-    void page.looking.at(tick);
+    void page.timeTravel.at(tick);
   };
   const go = () => {
     close();
-    page.looking.live();
+    page.timeTravel.live();
     page.act([{ do: "load", name }], t("moments.go_to", { name }), false);
   };
   const past = tick < (page.state().world?.tick ?? 0);

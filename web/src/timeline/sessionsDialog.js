@@ -9,7 +9,7 @@ import { SESSIONS_PATH, sessionPath } from "../core/protocol.js";
 import { dateText, t } from "../core/texts.js";
 import { dialogSlot, makeDialog } from "../ui/dialog.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { SessionPage, SessionSummary } from "../core/wire.js" */
 
 const PAGE_SESSIONS = 20;

@@ -6,14 +6,14 @@ import { hashOf } from "../core/address.js";
 import { onDemand, styled } from "../core/lazy.js";
 import { browserStorage } from "../core/storage.js";
 import { t } from "../core/texts.js";
-import { iconOf } from "../ui/icons.js";
+import { icon } from "../ui/icons.js";
 import { createMenu } from "../ui/menu.js";
 import { createSlot } from "../ui/slot.js";
 import { forks } from "./links.js";
 import { shareMoment, forkHere, rewindHere } from "./shareMoment.js";
 
-/** @import { Act } from "../core/commands.js" */
-/** @import { Page } from "../main.js" */
+/** @import { Command } from "../core/commands.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { Panel } from "../panels/index.js" */
 
 /** What stands in the session's menu, in this order; null is a line. */
@@ -34,7 +34,7 @@ export function createShare(host, page) {
   });
 
   return {
-    acts: [...momentActs(page, dialogs), ...forkActs(), ...keptActs(page, dialogs)],
+    commands: [...momentCommands(page, dialogs), ...forkCommands(), ...keptCommands(page, dialogs)],
 
     update({ session }, before) {
       if (session !== before.session) origin(originLink(session));
@@ -44,10 +44,10 @@ export function createShare(host, page) {
 
 /** @param {Page} page */
 function menuItems(page) {
-  const acts = page.acts();
+  const commands = page.commands();
   return MENU.flatMap((name) => {
     if (name === null) return [null];
-    const act = acts.find((each) => each.name === name);
+    const act = commands.find((each) => each.name === name);
     const doing = act?.now(page.state());
     return act && doing ? [{ name, label: doing.label, keyName: act.keyName, run: () => doing.run?.(page) }] : [];
   });
@@ -65,12 +65,12 @@ function originLink(session) {
   const text = t("session.origin_tick", { tick: from.tick });
   const title = t("session.origin_title", { text });
   return html`<a class="origin" href=${hashOf(from.parent, from.tick)} title=${title} aria-label=${title}>
-    ${iconOf("fork")}<span class="origin-text">${text}</span>
+    ${icon("fork")}<span class="origin-text">${text}</span>
   </a>`;
 }
 
-/** @param {Page} page @param {(use: (dialogs: Dialogs) => void) => void} dialogs @returns {Act[]} */
-function momentActs(page, dialogs) {
+/** @param {Page} page @param {(use: (dialogs: Dialogs) => void) => void} dialogs @returns {Command[]} */
+function momentCommands(page, dialogs) {
   const group = t("groups.session");
   const byHand = (/** @type {string} */ url, /** @type {string} */ what) => dialogs(({ link }) => link(url, what));
   return [
@@ -80,8 +80,8 @@ function momentActs(page, dialogs) {
   ];
 }
 
-/** @returns {Act[]} */
-function forkActs() {
+/** @returns {Command[]} */
+function forkCommands() {
   const group = t("groups.session");
   return [
     {
@@ -101,8 +101,8 @@ function forkActs() {
   ];
 }
 
-/** @param {Page} page @param {(use: (dialogs: Dialogs) => void) => void} dialogs @returns {Act[]} */
-function keptActs(page, dialogs) {
+/** @param {Page} page @param {(use: (dialogs: Dialogs) => void) => void} dialogs @returns {Command[]} */
+function keptCommands(page, dialogs) {
   const group = t("groups.session");
   return [
     { name: "save-moment", group, now: () => ({ label: t("session.save_moment"), run: () => dialogs(({ moments }) => moments(true)) }) },

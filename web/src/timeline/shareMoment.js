@@ -8,7 +8,7 @@ import { browserStorage } from "../core/storage.js";
 import { t } from "../core/texts.js";
 import { forkAt, noteFork, shareLink } from "./links.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 
 /**
  * What is done to the session and tick that are looked at; what goes wrong is told.
@@ -62,7 +62,7 @@ export function rewindHere(page) {
     await askJson(`${sessionPath(session)}/rewind`, { method: "POST", body: { tick } });
     const here = () => page.state().session === session;
     if (!here()) return;
-    page.looking.live();
+    page.timeTravel.live();
     const undo = () => void (here() ? page.act([{ do: "undo" }], t("clock.undo"), true) : page.tell({ text: t("session.other") }));
     page.tell({ text: t("session.rewound", { tick }), offer: { label: t("clock.undo"), run: undo } });
   });

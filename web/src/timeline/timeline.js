@@ -11,7 +11,7 @@ import { byImportance, eventsIn, eventsNear, eventText, spanOf } from "./timelin
 import { sliderInput } from "./timelineInput.js";
 import { allEvents, nowOf } from "./timelineState.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { Inks } from "./paint/line.js" */
 /** @import { Timeline } from "./timelineState.js" */
 /** @import { Panel } from "../panels/index.js" */
@@ -51,7 +51,7 @@ export function createTimeline(host, page) {
   const canvas = /** @type {HTMLCanvasElement} */ (find(host, "canvas"));
 
   return {
-    acts: jumps.acts,
+    commands: jumps.commands,
 
     update() {
       stale = true;

@@ -4,7 +4,7 @@
 import { nowOf } from "./timelineState.js";
 import { tickAt } from "./paint/line.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 
 const LEAP = 10;
 
@@ -22,7 +22,7 @@ export function sliderInput(page, line, point) {
     const slider = /** @type {HTMLElement} */ (event.currentTarget);
     const tick = tickAt(line(), event.clientX - slider.getBoundingClientRect().left);
     const reached = Math.max(0, Math.min(nowOf(page.state().timeline), tick));
-    if (dragging) void page.looking.at(reached);
+    if (dragging) void page.timeTravel.at(reached);
     point(reached);
   }
 
@@ -47,17 +47,17 @@ export function sliderInput(page, line, point) {
     key(event) {
       if (event.ctrlKey || event.metaKey || event.altKey) return;
       const leap = event.shiftKey ? LEAP : 1;
-      const { looking } = page;
+      const { timeTravel } = page;
       const ways = /** @type {Record<string, () => unknown>} */ ({
-        ArrowLeft: () => looking.step(-leap),
-        ArrowDown: () => looking.step(-leap),
-        ArrowRight: () => looking.step(leap),
-        ArrowUp: () => looking.step(leap),
-        PageDown: () => looking.step(-LEAP),
-        PageUp: () => looking.step(LEAP),
-        Home: () => looking.at(0),
-        End: () => looking.live(),
-        Escape: () => looking.live(),
+        ArrowLeft: () => timeTravel.step(-leap),
+        ArrowDown: () => timeTravel.step(-leap),
+        ArrowRight: () => timeTravel.step(leap),
+        ArrowUp: () => timeTravel.step(leap),
+        PageDown: () => timeTravel.step(-LEAP),
+        PageUp: () => timeTravel.step(LEAP),
+        Home: () => timeTravel.at(0),
+        End: () => timeTravel.live(),
+        Escape: () => timeTravel.live(),
       });
       if (!Object.hasOwn(ways, event.key)) return;
       void ways[event.key]();

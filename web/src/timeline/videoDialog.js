@@ -7,7 +7,7 @@ import { decimalText, t } from "../core/texts.js";
 import { dialogSlot, makeDialog } from "../ui/dialog.js";
 import { fetched, fileName, save, sizeText, stretch, videoPath } from "./downloads.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { VideoWish } from "./downloads.js" */
 
 /**

@@ -19,7 +19,7 @@ import { optionText } from "./moveOptions.js";
 import { tellOf, thingOf } from "./why.js";
 
 /** @import { Place, Places } from "../road/hitTest.js" */
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { Decision, Option } from "../core/protocol.js" */
 /** @import { State } from "../core/state.js" */
 /** @import { Offer, Told } from "./why.js" */
@@ -175,7 +175,7 @@ class WhyBubble {
   #take({ act, pick }) {
     this.hide();
     if (act) this.page.act(act.actions, act.label, act.quiet);
-    if (pick) this.page.pick?.(pick);
+    if (pick) this.page.pick(pick);
   }
 
   /** Beside what it speaks of, and wholly in the window. */

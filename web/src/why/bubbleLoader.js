@@ -5,7 +5,7 @@ import { same } from "../road/hitTest.js";
 import { onDemand, styled } from "../core/lazy.js";
 
 /** @import { Places } from "../road/hitTest.js" */
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { Cell } from "../core/protocol.js" */
 /** @import { Bubble } from "./bubble.js" */
 /** @import { Panel } from "../panels/index.js" */

@@ -3,7 +3,7 @@
 
 import { onDemand, styled } from "../core/lazy.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { Panel } from "../panels/index.js" */
 
 /** @param {HTMLElement} host @param {Page} page @returns {Panel} */

@@ -4,7 +4,7 @@
 import { foreseen, foresee, underWay } from "./forecast.js";
 import { Latest } from "../core/latest.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { Panel } from "../panels/index.js" */
 
 /** @param {Page} page @returns {Panel} */

@@ -5,7 +5,7 @@ import { onRoad, thingAt, viewUnder } from "../road/hitTest.js";
 import { sceneOf } from "../core/state.js";
 import { alike } from "./bubbleLoader.js";
 
-/** @import { Page } from "../main.js" */
+/** @import { Page } from "../core/page.js" */
 /** @import { Card, Target } from "./bubbleLoader.js" */
 
 const REST_MS = 350;

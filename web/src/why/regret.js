@@ -1,11 +1,12 @@
 // @ts-check
 /**
- * How good and how tight each decision was: moves blocked, from the stream; ticks lost against the best, from the
- * service, which has to search for it and is asked for stretches and not too often.
+ * How good and how tight each decision was, as part of the state: moves blocked, from the stream; ticks lost against the
+ * best, from the service, which has to search for it (`regretLoader.js`).
  */
 
-import { askJson } from "../core/http.js";
-import { sessionPath } from "../core/protocol.js";
+/** @import { ServerMessage } from "../core/protocol.js" */
+/** @import { Judged as JudgedPage } from "../core/wire.js" */
+/** @import { State } from "../core/state.js" */
 
 /**
  * @typedef {object} Judged
@@ -14,85 +15,85 @@ import { sessionPath } from "../core/protocol.js";
  * @property {boolean} [lost]  whether this move has put the goal out of reach
  */
 
-/** How many ticks are looked back over. */
+/**
+ * @typedef {object} Regret
+ * @property {ReadonlyMap<number, Judged | null>} items  by tick; null where no decision was taken
+ * @property {number} age  raised when the run becomes another
+ * @property {string | null} trouble  why the latest question was not answered
+ */
+
+/**
+ * What comes of a question, asked at an age from a tick on.
+ * @typedef {{type: "regret", age: number, from: number, items: JudgedPage["items"], now: number}
+ *   | {type: "regret-trouble", text: string}} RegretEvent
+ */
+
+/** How many ticks are looked back over, and asked for at once. */
 export const WINDOW = 60;
 const KEPT = 1_000;
-/** While the clock runs it is asked for this much at once, and no more often than this. */
-const STRETCH = 8;
-const APART_MS = 3_000;
 
-export class Book {
-  /** @type {Map<number, Judged | null>} null where no decision was taken */ items = new Map();
-  /** @type {string | null} */ session = null;
-  #asking = false;
-  #askedAt = -Infinity;
-  /** Raised when the run becomes another. */ age = 0;
+/** @type {Regret} */
+export const NO_REGRET = { items: new Map(), age: 0, trouble: null };
 
-  /** @param {{http?: typeof fetch, now?: () => number}} [with_] */
-  constructor({ http, now = () => performance.now() } = {}) {
-    this.http = http;
-    this.now = now;
+/**
+ * The regret after an event that has carried the state on.
+ * @param {Regret} regret
+ * @param {ServerMessage | RegretEvent} event
+ * @param {State} state
+ * @param {State} before
+ * @returns {Regret}
+ */
+export function regretAfter(regret, event, state, before) {
+  if (event.type === "regret") return event.age === regret.age ? afterAnswer(regret, event) : regret;
+  if (event.type === "regret-trouble") return { ...regret, trouble: event.text };
+  if (rewritten(state, before)) return { ...NO_REGRET, age: regret.age + 1 };
+  if (event.type !== "tick" || before.world === null || event.decision?.tick !== event.tick - 1) return regret;
+  return note(regret, event.decision.tick, event.decision.blocked?.length);
+}
+
+/** Whether the run has become another. @param {State} state @param {State} before */
+function rewritten({ world, prior, steps }, { world: old, steps: earlier }) {
+  return world !== null && old !== null && world !== old && prior === null && (world.tick < old.tick || steps !== earlier);
+}
+
+/** What a tick's message tells. @param {Regret} regret @param {number} tick @param {number | undefined} blocked @returns {Regret} */
+function note(regret, tick, blocked) {
+  if (regret.items.has(tick)) return regret;
+  const items = new Map(regret.items).set(tick, blocked === undefined ? null : { blocked });
+  if (items.size > KEPT) items.delete(/** @type {number} */ (items.keys().next().value));
+  return { ...regret, items };
+}
+
+/** @param {Regret} regret @param {RegretEvent & {type: "regret"}} answer @returns {Regret} */
+function afterAnswer(regret, { from, items: judged, now }) {
+  const told = new Map(judged.map((item) => [item.tick, item]));
+  const items = new Map(regret.items);
+  for (let tick = from; tick < Math.min(from + WINDOW, now); tick++) items.set(tick, told.get(tick) ?? null);
+  return { ...regret, items, trouble: null };
+}
+
+/** The first tick before `tick` whose loss is not known; null where all are. @param {Regret} regret @param {number} tick */
+export function missingFrom({ items }, tick) {
+  for (let each = Math.max(0, tick - WINDOW); each < tick; each++) {
+    const item = items.get(each);
+    if (item === undefined || (item !== null && item.ticks === undefined)) return each;
   }
+  return null;
+}
 
-  /** The run has become another from a tick on. @param {number} [tick] */
-  forget(tick = 0) {
-    this.age += 1;
-    this.#askedAt = -Infinity;
-    for (const each of this.items.keys()) if (each >= tick) this.items.delete(each);
+/**
+ * What was lost in the ticks before `tick`, as far as it is known.
+ * @param {Regret} regret
+ * @param {number} tick
+ */
+export function sumOf({ items }, tick) {
+  let [ticks, known, lost] = [0, 0, false];
+  for (let each = Math.max(0, tick - WINDOW); each < tick; each++) {
+    const item = items.get(each);
+    if (!item || item.ticks === undefined) continue;
+    known += 1;
+    ticks += item.ticks ?? 0;
+    lost ||= item.lost === true;
   }
-
-  /** What a tick's message tells. @param {number} tick @param {number | null} blocked */
-  note(tick, blocked) {
-    if (!this.items.has(tick)) this.items.set(tick, blocked === null ? null : { blocked });
-    if (this.items.size > KEPT) this.items.delete(/** @type {number} */ (this.items.keys().next().value));
-  }
-
-  /** The first tick before `tick` whose loss is not known; null where all are. @param {number} tick */
-  missing(tick) {
-    for (let each = Math.max(0, tick - WINDOW); each < tick; each++) {
-      const item = this.items.get(each);
-      if (item === undefined || (item !== null && item.ticks === undefined)) return each;
-    }
-    return null;
-  }
-
-  /**
-   * Ask for what is missing before a tick, when it is time. Answers whether there is something new.
-   * @param {number} tick
-   * @param {boolean} running  whether ticks follow each other: then stretches are waited for
-   * @returns {Promise<boolean>} throws `Refused`
-   */
-  async fill(tick, running) {
-    const from = this.missing(tick);
-    if (from === null || this.#asking || this.session === null) return false;
-    if (running && (tick - from < STRETCH || this.now() - this.#askedAt < APART_MS)) return false;
-    this.#asking = true;
-    this.#askedAt = this.now();
-    const [age, path] = [this.age, `${sessionPath(this.session)}/regret?from=${from}&limit=${WINDOW}`];
-    try {
-      const { items, now } = await askJson(path, { http: this.http });
-      if (age !== this.age) return true; // about a run that is no more: to be asked for again
-      const told = new Map(items.map((/** @type {Judged & {tick: number}} */ item) => [item.tick, item]));
-      for (let each = from; each < Math.min(from + WINDOW, now); each++) this.items.set(each, told.get(each) ?? null);
-      return true;
-    } finally {
-      this.#asking = false;
-    }
-  }
-
-  /**
-   * What was lost in the ticks before `tick`, as far as it is known.
-   * @param {number} tick
-   */
-  sum(tick) {
-    let [ticks, known, lost] = [0, 0, false];
-    for (let each = Math.max(0, tick - WINDOW); each < tick; each++) {
-      const item = this.items.get(each);
-      if (!item || item.ticks === undefined) continue;
-      known += 1;
-      ticks += item.ticks ?? 0;
-      lost ||= !!item.lost;
-    }
-    return { ticks, known, lost };
-  }
+  return { ticks, known, lost };
 }

@@ -1,0 +1,35 @@
+// @ts-check
+/** Help (`?`) and the palette (Ctrl K), fetched when they are first opened. */
+
+import { onDemand } from "../core/lazy.js";
+import { t } from "../core/texts.js";
+
+/** @import { Page } from "../core/page.js" */
+/** @import { Panel } from "../panels/index.js" */
+
+/** @param {HTMLElement} button @param {HTMLDialogElement} dialog @param {Page} page @returns {Panel} */
+export function createHelpLoader(button, dialog, page) {
+  const wanted = onDemand(page, async () => (await import("./help.js")).createHelp(dialog, page));
+  const open = () => wanted((help) => void help.open());
+  button.addEventListener("click", open);
+  return {
+    commands: [
+      { name: "box", group: t("groups.talk"), keyName: "/", now: () => ({ label: t("talk.to_box"), run: () => document.getElementById("words")?.focus() }) },
+      { name: "help", group: t("groups.help"), key: "?", keyName: "?", now: () => ({ label: t("help.title"), run: open }) },
+    ],
+  };
+}
+
+/** @param {HTMLDialogElement} dialog @param {Page} page @returns {Panel} */
+export function createPaletteLoader(dialog, page) {
+  const wanted = onDemand(page, async () => (await import("./palette.js")).createPalette(dialog, page));
+  const open = () => wanted((palette) => void palette.open());
+  dialog.setAttribute("aria-label", t("palette.label"));
+  addEventListener("keydown", (event) => {
+    if (event.key.toLowerCase() !== "k" || !(event.ctrlKey || event.metaKey) || event.altKey || event.shiftKey) return;
+    event.preventDefault();
+    if (dialog.open) dialog.close();
+    else open();
+  });
+  return { commands: [{ name: "palette", group: t("groups.help"), keyName: "Ctrl K", now: () => ({ label: t("palette.label"), run: open }) }] };
+}
