@@ -199,7 +199,7 @@ class Plain:
         """It comes back as it was written down: paused, without lines that nothing stands for."""
         tick, lines = self.kept
         self.stand = replace(self.stand, tick=tick)
-        self.lines = tuple(line for line in self.lines[:lines] if not line.passing)
+        self.lines = tuple(line for line in self.lines[:lines] if not line.transient)
         self.kept = tick, len(self.lines)
         self.paused = True
         self.way = None
