@@ -40,8 +40,8 @@ from sim.session.config_to_actions import UndescribableError, config_to_actions
 MAX_SUGGESTIONS = 3
 
 MAX_INLINE_CHARS = 120
-"""Longest text, in characters, that is parsed on the event loop. Longer ones may take 20 ms and more, in
-which ticks would wait, so a thread parses them."""
+"""Longest text, in characters, that is parsed on the event loop. Longer ones may take 20 ms and more, so
+a thread parses them."""
 
 Source = Literal["grammar", "llm", "typed"]
 

@@ -51,9 +51,9 @@ class Conversation:
         twin._added = twin._added.copy()
         return twin
 
-    def record(self, outcome: Outcome, *, passing: bool = False) -> None:
-        """Record what an outcome did or answered; `passing`: it is not stored."""
-        if passing:
+    def record(self, outcome: Outcome, *, transient: bool = False) -> None:
+        """Record what an outcome did or answered; `transient`: it is not stored."""
+        if transient:
             self._durable = self._durable or self.durable
         elif self._durable is not None:
             self._durable.record(outcome)

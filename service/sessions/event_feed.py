@@ -56,12 +56,12 @@ class EventFeed:
         """Write whether the vehicle can still arrive; the line is transient: it follows from the state."""
         self._narration.finish()
         event = notice.event
-        return self.log.add(event.tick, event.type, notice.text, event.ids, passing=True)
+        return self.log.add(event.tick, event.type, notice.text, event.ids, transient=True)
 
-    def log_line(self, tick: int, kind: str, text: str, *, passing: bool = True) -> LogEvent:
-        """Write a line; one that is `passing` is not there after a restart."""
+    def log_line(self, tick: int, kind: str, text: str, *, transient: bool = True) -> LogEvent:
+        """Write a line; one that is `transient` is not there after a restart."""
         self._narration.finish()
-        return self.log.add(tick, kind, text, passing=passing)
+        return self.log.add(tick, kind, text, transient=transient)
 
     def announce_reachability(self, event: Event) -> None:
         """Write and publish what was found out about a road that began by itself."""

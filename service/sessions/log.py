@@ -1,7 +1,7 @@
 """The event log of a session: numbered lines, of which the latest few hundred are kept.
 
 Numbers are absolute and start at 1, so that a client can ask for the lines after the last one it has seen and
-can tell when lines were dropped. A restart restores all lines except transient ones (`passing`), which no
+can tell when lines were dropped. A restart restores all lines except transient ones, which no
 stored entry stands for.
 """
 
@@ -68,12 +68,12 @@ class EventLog:
         ids: tuple[str, ...] = (),
         cell: Cell | None = None,
         *,
-        passing: bool = False,
+        transient: bool = False,
     ) -> LogEvent:
-        """Append a line; `passing`: it is transient."""
+        """Append a line; `transient`: it is transient."""
         self._last += 1
         event = LogEvent(self._last, tick, kind, text, ids, cell)
-        if passing:
+        if transient:
             self._transient_count += 1
             self._transient.add(event.number)
         if self._transient:

@@ -292,7 +292,7 @@ class Session:
                     return await self._make_outcome(utterance, facts, self.sequence, event, transaction)
                 if not any(traits_of(action).changes_session for action in utterance.actions):
                     outcome = await self._make_outcome(utterance, facts, self.sequence)
-                    self.conversation.record(outcome, passing=True)
+                    self.conversation.record(outcome, transient=True)
                     if views := merge_views(facts):
                         self.feed.publish_change(utterance.text, outcome.reply, (), (), views)
                     return outcome
@@ -365,7 +365,7 @@ class Session:
         self.adopt(transaction, outcome.sequence, outcome.utterance.actions)
         self.set_paused(transaction.paused)
         self.conversation.record(outcome)
-        lines = [self.feed.log_line(began, "changed", outcome.done, passing=False)]
+        lines = [self.feed.log_line(began, "changed", outcome.done, transient=False)]
         playing = outcome.only_steps and len(outcome.ticks) <= MAX_STREAMED_TICKS
         for run, part in parts_with_events(outcome.facts):
             noted = self.feed.log_events(run, part)
