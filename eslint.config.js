@@ -29,7 +29,7 @@ export default [
       "no-new-func": "error",
       "no-restricted-properties": ["error", { property: "innerHTML" }, { property: "outerHTML" }, { property: "insertAdjacentHTML" }],
       "max-lines": ["error", { max: 300, skipBlankLines: true }],
-      "max-lines-per-function": ["warn", { max: 60, skipBlankLines: true, skipComments: true }],
+      "max-lines-per-function": ["error", { max: 60, skipBlankLines: true, skipComments: true }],
     },
   },
   { files: ["tests/web/**/*.mjs", "*.js"], languageOptions: { globals: { ...globals.nodeBuiltin, ...globals.browser } } },

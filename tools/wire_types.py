@@ -3,8 +3,8 @@
     python -m tools.wire_types
 
 A test compares the file with what would be written, so that a change of the contract shows in the page.
-The source is the OpenAPI document of the service: each of its models becomes a type of the same name. A
-model that differs between requests and answers only in what has a default goes by one name.
+The sources are the OpenAPI document of the service and the schema of its stream: each model becomes a type
+of the same name. A model that differs between requests and answers only in its defaults goes by one name.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from service.app import create_app
+from service.contract.schema import stream_schema
 
 Schema = Mapping[str, Any]
 
@@ -135,9 +136,9 @@ def _array(schema: Schema, indent: str) -> str:
 
 
 def service_schemas() -> dict[str, Schema]:
-    """The models of the service by name, as its OpenAPI document has them."""
+    """The models of the service by name: those of its OpenAPI document, and the messages of the stream."""
     schemas: dict[str, Schema] = create_app().openapi()["components"]["schemas"]
-    return schemas
+    return {**stream_schema()["$defs"], **schemas}
 
 
 def main() -> None:

@@ -25,7 +25,7 @@ import { fillTexts } from "./ui/shell.js";
 
 fillTexts(document);
 const store = createStore(reduce, INITIAL);
-const connector = new Connector(store, (data) => page.picture?.(data));
+const connector = new Connector(store);
 new RegretLoader(store);
 new TimelineLoader(store, { storage: browserStorage() });
 const timeTravel = new TimeTravel(store);

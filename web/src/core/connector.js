@@ -17,10 +17,11 @@ export class Connector {
   /** Where to go next: a session that was made for an earlier wish, and comes late, is not gone to. */
   #going = turns();
 
-  /** @param {Store<State, Event>} store @param {(data: ArrayBuffer) => void} onPicture */
-  constructor(store, onPicture) {
+  /** Called with each picture that the service sends. @type {Set<(data: ArrayBuffer) => void>} */ pictures = new Set();
+
+  /** @param {Store<State, Event>} store */
+  constructor(store) {
     this.store = store;
-    this.onPicture = onPicture;
   }
 
   /** Go where the address says. */
@@ -35,7 +36,7 @@ export class Connector {
       page: location,
       find: findSession,
       onMessage: this.store.dispatch,
-      onPicture: this.onPicture,
+      onPicture: (data) => this.pictures.forEach((call) => call(data)),
       onPhase: (phase) => this.store.dispatch({ type: "phase", phase }),
     });
     void this.#connection.open();

@@ -33,7 +33,7 @@ import { LANGUAGE } from "./texts.js";
  * @property {() => void} reconnect  now rather than after the pause
  * @property {() => Command[]} commands  all that can be done by a key or from the palette
  * @property {() => void} wake  something is to be drawn anew
- * @property {(data: ArrayBuffer) => void} [picture]  a picture has come from the service
+ * @property {(call: (data: ArrayBuffer) => void) => void} onPicture  be called with each picture that the service sends
  */
 
 /**
@@ -66,6 +66,7 @@ export function createPage({ state, dispatch, subscribe }, connector, parts) {
     put: (text) => dispatch({ type: "draft", text }),
     act: (actions, label, quiet = false) => exchange(label, quiet, (id) => ({ type: "actions", id, actions })),
     send: (message) => void connector.send(message),
+    onPicture: (call) => void connector.pictures.add(call),
     highlight: (highlight) => dispatch({ type: "highlight", highlight }),
     foresee: (foresight) => dispatch({ type: "foresight", foresight }),
     arrange: (views, large) => dispatch({ type: "views", views, large }),

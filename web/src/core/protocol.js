@@ -21,7 +21,7 @@
 /** @typedef {wire.Change} Change */
 /** @typedef {wire.ChoiceModel} Choice */
 /** @typedef {wire.ProblemDocument} Problem */
-/** @typedef {Pick<wire.Session, "id" | "name" | "paused"> & Partial<wire.Session>} Session */
+/** @typedef {wire.Session} Session */
 
 /**
  * A decision, taken in the world of `tick`; it leads to the world of `tick + 1`. The stream tells it in few words,
@@ -45,33 +45,14 @@
 
 /** @typedef {Omit<wire.CommandResult, "answer"> & {answer: Answer | null}} CommandResult */
 
-/** @typedef {{type: "hello", protocol: number, session: Session, state: WireState, log: LogEvent[], decision: Decision | null, sequence: number}} HelloMessage */
-/**
- * @typedef {object} TickMessage  what one tick changed; a new episode brings `state` instead of the moves
- * @property {"tick"} type
- * @property {number} tick
- * @property {number} sequence
- * @property {number} episode
- * @property {Status} status
- * @property {Record<string, Cell>} [vehicles]
- * @property {Record<string, Cell>} [moved]
- * @property {Record<string, Heading>} [turned]
- * @property {Decision | null} decision
- * @property {string | null} narration
- * @property {LogEvent[]} events
- * @property {Metrics} metrics
- * @property {string} digest
- * @property {WireState} [state]
- */
-/** @typedef {{type: "changed", sequence: number, text: string | null, reply: string, changes: Change[], events: LogEvent[], state: WireState, views?: Record<string, boolean>}} ChangedMessage */
-/** @typedef {{type: "state", missed: [number, number] | null, state: WireState}} StateMessage */
-/** @typedef {{type: "result", id: string, result: CommandResult}} ResultMessage */
-/** @typedef {{type: "problem", id: string, problem: Problem}} ProblemMessage */
-/** @typedef {{type: "error", problem: Problem} | {type: "gone"} | {type: "pong"} | {type: "unknown"}} OtherMessage */
-/** @typedef {HelloMessage | TickMessage | ChangedMessage | StateMessage | ResultMessage | ProblemMessage | OtherMessage} ServerMessage */
-
-/** @typedef {{type: "command", id: string, text: string, language?: string} | {type: "actions", id: string, actions: Action[]} | {type: "ping"} | Subscription | {type: "unsubscribe"}} ClientMessage */
-/** @typedef {{type: "subscribe", frames: "webp" | "jpeg", view: "road" | "schematic", fps: number, side: number}} Subscription */
+/** @typedef {wire.HelloMessage} HelloMessage */
+/** @typedef {wire.TickMessage} TickMessage */
+/** @typedef {wire.ChangedMessage} ChangedMessage */
+/** @typedef {wire.StateMessage} StateMessage */
+/** @typedef {Omit<wire.ResultMessage, "result"> & {result: CommandResult}} ResultMessage */
+/** @typedef {{type: "unknown"}} UnknownMessage  of a service that is newer than this page */
+/** @typedef {Exclude<wire.StreamMessage, wire.ResultMessage> | ResultMessage | UnknownMessage} ServerMessage */
+/** @typedef {wire.StreamRequest} ClientMessage */
 
 const API = "/api/v1";
 

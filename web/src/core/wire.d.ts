@@ -1,5 +1,14 @@
 // Written by `make types-page` from the service's models; a change by hand is lost.
 
+/** Typed actions. */
+export interface Actions {
+  type: "actions";
+  /** Chosen by the client, given back with the answer. */
+  id: string;
+  actions: Action[];
+  dry_run?: boolean;
+}
+
 /** Put `count` things of a kind on the road. */
 export interface Add {
   do: "add";
@@ -27,7 +36,7 @@ export interface Advice {
   speed_kmh: number;
   weather: "clear" | "rain" | "fog" | "snow";
   recommendation: Choice;
-  /** The chance of coming away unharmed by doing so. */
+  /** Probability of coming away unharmed by doing so. */
   confidence: number;
   /** 95 % interval */
   interval: [number, number];
@@ -41,7 +50,7 @@ export interface Advice {
 /** What one choice leads to. */
 export interface AdviceOption {
   option: Choice;
-  /** Of never reaching the hazard, or too slowly to be harmed. */
+  /** Probability of never reaching the hazard, or too slowly to be harmed. */
   chance: number;
   /** 95 % interval */
   interval: [number, number];
@@ -80,7 +89,7 @@ export interface AdvicePhysics {
   unharmed_kmh: number;
 }
 
-/** A number that the advice rests on, and where it is from. */
+/** A number that the advice rests on, and its source. */
 export interface AdviceQuantity {
   name: string;
   law: "lognormal" | "normal" | "fixed";
@@ -115,7 +124,7 @@ export interface Advise {
   speed_kmh: number;
 }
 
-/** The answer to a question: facts first, then words made from nothing else. */
+/** The answer to a question; the facts it was made from depend on the question. */
 export interface Answer {
   question: string;
   about: string;
@@ -136,6 +145,13 @@ export interface Ask {
   metric?: "crashes" | "successes" | "success_rate" | "steps" | "moves" | "distance" | null;
 }
 
+/** The first message of a socket where the service asks for a key: the key, or a ticket. */
+export interface Auth {
+  type: "auth";
+  key?: string | null;
+  ticket?: string | null;
+}
+
 /** A move that could not be made, and why. */
 export interface BlockedMove {
   move: Move;
@@ -143,23 +159,42 @@ export interface BlockedMove {
   causes: string[];
 }
 
-/** A decision in few words, as the stream tells it. */
+/** A decision as a tick message tells it: of its options, only the blocked ones. */
 export interface BriefDecision {
   /** Ticks since the session began. */
   tick: number;
   planner: string;
   move: Move;
+  /** Why the preferred move was made, or what kept the ego from it. */
   reason: string;
+  /** Ids of the things behind `reason`. */
   causes: string[];
+  /** How much there is to say: 0 nothing was in the way, 1 a detour, 2 a wait or worse. */
   weight: 0 | 1 | 2;
   blocked: BlockedMove[];
 }
 
-/** One figure that differs. */
+/** One value that differs. */
 export interface Change {
   path: string;
   before: unknown;
   after: unknown;
+}
+
+/** A change that was accepted, whoever made it. */
+export interface ChangedMessage {
+  type: "changed";
+  sequence: number;
+  /** What was said; null for typed actions. */
+  text: string | null;
+  reply: string;
+  changes: Change[];
+  events: LogEvent[];
+  state: State;
+  /** Views to be shown (true) or hidden; absent where none is named. */
+  views?: { [key: string]: boolean } | null;
+  /** Id of the message, to resume after it. */
+  event: string;
 }
 
 /** The choices, the one of least effort first. */
@@ -171,6 +206,16 @@ export interface ChoiceModel {
   actions: Action[];
 }
 
+/** Something said. */
+export interface Command {
+  type: "command";
+  /** Chosen by the client, given back with the answer. */
+  id: string;
+  text: string;
+  dry_run?: boolean;
+  language?: string;
+}
+
 /** What was done. */
 export interface CommandResult {
   /** What was said; null for typed actions. */
@@ -180,7 +225,7 @@ export interface CommandResult {
   /** What was done, in a sentence or two. */
   reply: string;
   /** The answer, if something was asked. */
-  answer: { [key: string]: unknown } | null;
+  answer: Answer | null;
   /** What understood it: the grammar, or a language model, which interprets. */
   source: "grammar" | "llm" | "typed";
   sequence: number;
@@ -208,15 +253,15 @@ export interface Counterfactual {
   at_tick: number;
   /** The move that was made, where another is asked about. */
   instead_of: Move | null;
-  /** What differs, in a sentence or two. */
-  text: string;
   /** Actions said after that tick, left out of both. */
   said_since: number;
   real: Side;
   changed: Side;
+  /** What differs, in a sentence or two. */
+  text?: string;
 }
 
-/** What a crash was with. Met in one cell (`hit`), passing through one another (`swap`), or cut off on a diagonal (`cross`). */
+/** What an ego crashed with. Met in one cell (`hit`), passing through one another (`swap`), or cut off on a diagonal (`cross`). */
 export interface CrashCause {
   kind: Kind;
   how: "hit" | "swap" | "cross";
@@ -231,11 +276,11 @@ export interface Decision {
   tick: number;
   planner: string;
   move: Move;
-  /** What a person driving asked for. */
+  /** The move that a person driving asked for. */
   asked: Move | null;
   options: Option[];
   narration: string;
-  /** How much there is to say: 0 nothing was in the way, 1 a way round, 2 a wait or worse. */
+  /** How much there is to say: 0 nothing was in the way, 1 a detour, 2 a wait or worse. */
   weight: 0 | 1 | 2;
 }
 
@@ -268,11 +313,17 @@ export interface End {
   cause: CrashCause | null;
   digest: string;
   /** The end in a few words. */
-  text: string;
+  text?: string;
 }
 
 /** The outcome of a choice with every quantity at its median or mean. */
 export type Ending = "stops" | "clears" | "crosses" | "hits";
+
+/** A message that could not be read, or a stream that cannot be opened. */
+export interface ErrorMessage {
+  type: "error";
+  problem: ProblemDocument;
+}
 
 /** Many episodes, compared. */
 export interface Evaluate {
@@ -292,13 +343,13 @@ export interface EventPage {
   first_kept: number;
 }
 
-/** What is expected at a tick: what the vehicle is about to do, and where the movers will be. */
+/** What is expected at a tick: what the ego is about to do, and where the movers will be. */
 export interface Expected {
   /** Ticks since the session began. */
   tick: number;
   /** The decision taken at it; null where a result stands. */
   decision: Decision | null;
-  /** Whether it is sure: false beyond the first tick where others react to the vehicle. */
+  /** Whether it is certain: false beyond the first tick where movers react to the ego. */
   exact: boolean;
   ahead: ExpectedTick[];
 }
@@ -330,6 +381,11 @@ export interface Forget {
   phrase: string;
 }
 
+/** The session was deleted; the last message. */
+export interface GoneMessage {
+  type: "gone";
+}
+
 /** A pothole or a barrier. */
 export interface Hazard {
   id: string;
@@ -338,13 +394,29 @@ export interface Hazard {
   cell: [number, number];
 }
 
-/** How the service does. */
+/** The service is alive, and what it holds. */
 export interface Health {
   status: "ok";
   version: string;
   sessions: number;
   watchers: number;
   tick_lateness: Lateness;
+}
+
+/** The first message of a connection: everything to begin with. */
+export interface HelloMessage {
+  type: "hello";
+  /** Raised when a message changes its meaning; new keys do not raise it. */
+  protocol: number;
+  session: Session;
+  state: State;
+  /** The latest lines, oldest first. */
+  log: LogEvent[];
+  /** The latest decision. */
+  decision: Decision | null;
+  sequence: number;
+  /** Id of the message, to resume after it. */
+  event: string;
 }
 
 /** Hide a view. */
@@ -392,7 +464,7 @@ export interface JudgedDecision {
 /** What a thing on the road is. */
 export type Kind = "pothole" | "barrier" | "vehicle" | "pedestrian" | "av";
 
-/** What can be said. */
+/** What can be said, or how a sentence that was begun could go on. */
 export interface LanguageGuide {
   language: string;
   languages: string[];
@@ -407,7 +479,7 @@ export interface LanguageGuide {
   preview: Preview | null;
 }
 
-/** How long after their time the latest ticks began. */
+/** How long after their deadline the latest ticks began. */
 export interface Lateness {
   ticks: number;
   p50_ms: number;
@@ -421,7 +493,7 @@ export interface Link {
   link: string;
   /** Ticks since the session began. */
   tick: number;
-  /** Whether all is in the link, so that it needs no session kept. */
+  /** Whether the link holds the whole session, so that no service need keep it. */
   carries: boolean;
 }
 
@@ -442,7 +514,7 @@ export interface LogEvent {
   cell: [number, number] | null;
 }
 
-/** Figures over the session's episodes. */
+/** Totals over the episodes of a session. */
 export interface Metrics {
   /** Episodes that have ended. */
   episodes: number;
@@ -465,7 +537,7 @@ export interface Moment {
   decision: Decision | null;
 }
 
-/** Moments with a name, of all sessions, those named last first. */
+/** Named moments of all sessions, those named last first. */
 export interface MomentPage {
   items: SessionMoment[];
   /** Send as `after` for what follows. */
@@ -498,7 +570,7 @@ export interface Mover {
   /** [column, row], row 0 at the goal */
   cell: [number, number];
   heading: "left" | "right";
-  /** Held by a pothole. */
+  /** Whether a pothole holds it. */
   disabled: boolean;
 }
 
@@ -570,7 +642,7 @@ export interface Option {
   reason: string;
   causes: string[];
   /** What spoke for or against it, in a few words. */
-  text: string;
+  text?: string;
 }
 
 /** What is otherwise, and from when: a move or actions, one of the two. */
@@ -608,18 +680,31 @@ export interface Pause {
   do: "pause";
 }
 
+/** Asks for a `pong`. */
+export interface Ping {
+  type: "ping";
+}
+
 /** What one tick changed: what moved, or the whole state where a road begins. */
 export interface PlayedTick {
   /** Ticks since the session began. */
   tick: number;
   episode: number;
   status: Outcome;
+  /** Cells of the egos, by id. */
   vehicles?: { [key: string]: [number, number] } | null;
+  /** Cells of the movers that changed theirs, by id. */
   moved?: { [key: string]: [number, number] } | null;
+  /** Headings of the movers that changed theirs, by id. */
   turned?: { [key: string]: "left" | "right" } | null;
   state?: State | null;
   decision: BriefDecision | null;
   cause: CrashCause | null;
+}
+
+/** The answer to `ping`. */
+export interface PongMessage {
+  type: "pong";
 }
 
 /** How the ego should weigh one way of driving against another. */
@@ -648,14 +733,21 @@ export interface ProblemDocument {
   errors: FieldProblemModel[];
   /** Why a sentence was refused. */
   reason?: "not_understood" | "negation" | "empty" | "impossible" | null;
-  /** Whose question it is. */
+  /** What asks back: the grammar, or a language model. */
   source?: "grammar" | "llm" | null;
   unparsed?: string[] | null;
   understood?: string[] | null;
   suggestions?: string[] | null;
   choices?: ChoiceModel[] | null;
-  /** Where the session stands, if it was changed meanwhile. */
+  /** The session's sequence number, if it was changed meanwhile. */
   sequence?: number | null;
+}
+
+/** Why a `command` or `actions` was refused, under the id that was sent with it. */
+export interface ProblemMessage {
+  type: "problem";
+  id: string;
+  problem: ProblemDocument;
 }
 
 /** A question, and nothing but one. */
@@ -750,6 +842,13 @@ export interface Reset {
   do: "reset";
 }
 
+/** What came of a `command` or `actions`, under the id that was sent with it. */
+export interface ResultMessage {
+  type: "result";
+  id: string;
+  result: CommandResult;
+}
+
 /** Start the clock. */
 export interface Resume {
   do: "resume";
@@ -772,7 +871,7 @@ export interface RoadChange {
   /** Ticks since the session began. */
   tick: number;
   sequence: number;
-  /** As it was said; of typed actions, what says the same. */
+  /** As it was said; of typed actions, the sentence that says the same. */
   text: string;
   /** Whether it was said, rather than done by typed actions. */
   said: boolean;
@@ -810,7 +909,7 @@ export interface SavedMoment {
   tick: number;
 }
 
-/** Moments with a name, by name. */
+/** The named moments of a session, by name. */
 export interface SavedMoments {
   items: SavedMoment[];
 }
@@ -860,13 +959,14 @@ export interface Session {
   name: string | null;
   created_at: string;
   paused: boolean;
-  /** How fast the clock plays it; `max` is as fast as possible. No world knows of it. */
+  /** How fast the clock plays the session; `max`: as fast as possible. Affects no world. */
   playback_speed: number | "max";
   mode: Mode;
   /** Ticks since the session began. */
   tick: number;
   episode: number;
   status: Outcome;
+  /** Changes the session has accepted. */
   sequence: number;
   seed: number;
   config: { [key: string]: unknown };
@@ -874,17 +974,16 @@ export interface Session {
   rules: number;
   /** What to tell whoever opens it, where these are not the rules of today. */
   rules_note: string | null;
-  /** What to say for a road like this one; null where nothing does. */
+  /** What to say for a road like this one; null where no sentence describes it. */
   sentence: string | null;
   /** Of a fork, or a session that a link opened; else null. */
   parent: Parent | null;
   links: { [key: string]: string };
 }
 
-/** A moment with a name, and the session it is in. */
+/** A named moment, and the session it is in. */
 export interface SessionMoment {
   name: string;
-  /** The change that named it. */
   sequence: number;
   /** Ticks since the session began. */
   tick: number;
@@ -901,16 +1000,16 @@ export interface SessionPage {
   more: boolean;
 }
 
-/** A session in a list. One that is not live is brought back when it is asked for. */
+/** A session in a list. One that is not live is restored when it is asked for. */
 export interface SessionSummary {
   id: string;
   name: string | null;
   created_at: string;
   seed: number;
   live: boolean;
-  /** Where it stands, or stood when last stored. */
+  /** The session's tick, or where it was last stored. */
   tick: number;
-  /** Of a fork. */
+  /** Of a fork, or a session that a link opened; else null. */
   parent: Parent | null;
   links: { [key: string]: string };
 }
@@ -966,22 +1065,33 @@ export interface State {
   visible_rows: number;
   step_seconds: number;
   paused: boolean;
-  /** How fast the clock plays it; `max` is as fast as possible. No world knows of it. */
+  /** How fast the clock plays the session; `max`: as fast as possible. Affects no world. */
   playback_speed: number | "max";
   mode: Mode;
   planner: string;
+  /** The egos, in order of their ids. */
   vehicles: Vehicle[];
   movers: Mover[];
   hazards: Hazard[];
   metrics: Metrics;
-  /** Equal exactly when two worlds are. */
+  /** Equal exactly when two worlds are equal. */
   digest: string;
   /** Changes the session has accepted. */
   sequence: number;
-  /** How many changes can be taken back, one after the other. */
+  /** How many changes can be undone, one after the other. */
   undo: number;
-  /** How many that were taken back can be made again. */
+  /** How many undone changes can be made again. */
   redo: number;
+}
+
+/** A full state for a reader that was too slow. */
+export interface StateMessage {
+  type: "state";
+  /** The ticks it was not sent, first and last. */
+  missed: [number, number] | null;
+  state: State;
+  /** Id of the message, to resume after it. */
+  event: string;
 }
 
 /** Run some ticks at once, and stay paused after them. */
@@ -1000,6 +1110,35 @@ export interface StepResult {
 /** How many ticks to run. */
 export interface StepTicks {
   ticks?: number;
+}
+
+/** The service stops: come back later. The last of the server-sent events; a socket is closed instead. */
+export interface StoppingMessage {
+  type: "stopping";
+  code: 1012;
+}
+
+export type StreamMessage = HelloMessage | TickMessage | ChangedMessage | StateMessage | GoneMessage | StoppingMessage | ResultMessage | ProblemMessage | ErrorMessage | PongMessage | SubscribedMessage | UnsubscribedMessage;
+
+export type StreamRequest = Command | Actions | Ping | Subscribe | Unsubscribe;
+
+/** Asks for pictures as well; a second one takes the place of the first. */
+export interface Subscribe {
+  type: "subscribe";
+  frames: "jpeg" | "webp";
+  view?: "road" | "schematic";
+  fps?: number;
+  side?: number;
+}
+
+/** The pictures that follow as binary messages. */
+export interface SubscribedMessage {
+  type: "subscribed";
+  frames: "jpeg" | "webp";
+  view: "road" | "schematic";
+  fps: number;
+  /** Pixels of the longer side. */
+  side: number;
 }
 
 /** A phrase that was taught, and what it means. */
@@ -1024,7 +1163,32 @@ export interface Text {
   language?: "en" | "de";
 }
 
-/** Good for one socket. */
+/** One tick: what moved, or the whole state where a new road begins. */
+export interface TickMessage {
+  type: "tick";
+  /** Ticks since the session began. */
+  tick: number;
+  sequence: number;
+  episode: number;
+  status: Outcome;
+  /** Cells of the egos, by id; absent where `state` is there. */
+  vehicles?: { [key: string]: [number, number] } | null;
+  /** Cells of the movers that changed theirs, by id; absent where `state` is there. */
+  moved?: { [key: string]: [number, number] } | null;
+  /** Headings of the movers that changed theirs, by id; absent where `state` is there. */
+  turned?: { [key: string]: "left" | "right" } | null;
+  /** The whole state where a new road begins; absent otherwise. */
+  state?: State | null;
+  decision: BriefDecision | null;
+  narration: string | null;
+  events: LogEvent[];
+  metrics: Metrics;
+  digest: string;
+  /** Id of the message, to resume after it. */
+  event: string;
+}
+
+/** Lets one socket in: its first message is `{"type": "auth", "ticket": ...}`. */
 export interface Ticket {
   /** To be sent as the first message of a socket. */
   ticket: string;
@@ -1036,7 +1200,7 @@ export interface Ticket {
 export interface TimelineMark {
   /** Ticks since the session began. */
   tick: number;
-  /** `near_miss`: something that moves came into the cell that the vehicle had just left, and would have hit it had it stayed. `episode`: one begins. */
+  /** `near_miss`: a mover came into the cell that the ego had just left, and would have hit it had it stayed. `episode`: one begins. */
   kind: "crash" | "success" | "stuck" | "near_miss" | "episode";
   ids: string[];
   cell: [number, number] | null;
@@ -1066,7 +1230,17 @@ export interface Undo {
   do: "undo";
 }
 
-/** An autonomous vehicle. */
+/** Asks for no more pictures. */
+export interface Unsubscribe {
+  type: "unsubscribe";
+}
+
+/** No more pictures follow. */
+export interface UnsubscribedMessage {
+  type: "unsubscribed";
+}
+
+/** An ego: a vehicle that a planner or a person drives. Other vehicles are movers. */
 export interface Vehicle {
   id: string;
   kind: "av";

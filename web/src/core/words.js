@@ -109,15 +109,6 @@ function listed(values, words) {
   return values.map(words).join(", ") || t("values.none");
 }
 
-/**
- * A number of things: 1, "row" → "1 row"; 2 → "2 rows".
- * @param {number} number
- * @param {string} noun  one of them
- */
-export function counted(number, noun) {
-  return `${number} ${noun}${number === 1 ? "" : "s"}`;
-}
-
 /** @param {number | null} fraction */
 export function percent(fraction) {
   return fraction === null ? t("units.none") : t("units.percent", { value: Math.round(fraction * 100) });

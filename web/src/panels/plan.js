@@ -61,7 +61,7 @@ export function createPlan(host, note, page) {
 
   /** @param {MoveOption} way */
   function pick(way) {
-    if (shown?.decision && isPickable(way)) page.pick?.({ kind: "move", tick: shown.decision.tick, move: way.move });
+    if (shown?.decision && isPickable(way)) page.pick({ kind: "move", tick: shown.decision.tick, move: way.move });
   }
 
   return {

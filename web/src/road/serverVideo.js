@@ -46,7 +46,7 @@ export function createServerVideo(host, page) {
   let decoding = false;
   /** @type {any} */ let patience = null;
 
-  page.picture = async (data) => {
+  page.onPicture(async (data) => {
     const told = wanted ? pictureOf(data) : null;
     if (!told || decoding) return; // a page that is too slow sees fewer, never old ones
     decoding = true;
@@ -65,7 +65,7 @@ export function createServerVideo(host, page) {
     } finally {
       decoding = false;
     }
-  };
+  });
 
   /** @param {string} why */
   function giveUp(why) {

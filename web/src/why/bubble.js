@@ -175,7 +175,7 @@ class WhyBubble {
   #take({ act, pick }) {
     this.hide();
     if (act) this.page.act(act.actions, act.label, act.quiet);
-    if (pick) this.page.pick?.(pick);
+    if (pick) this.page.pick(pick);
   }
 
   /** Beside what it speaks of, and wholly in the window. */
