@@ -37,8 +37,8 @@ export function createTalk(host, page) {
   }
 
   show(page.state(), null);
-  // Who begins to type will soon want it.
-  document.getElementById("words")?.addEventListener("focus", () => wanted((fetched) => (looks ??= fetched)), { once: true });
+  // Who begins to use the page will soon want it.
+  addEventListener("focusin", () => wanted((fetched) => (looks ??= fetched)), { once: true });
   return {
     update(state, before) {
       if (state.talk !== before.talk || state.steps !== before.steps) show(state, before);
