@@ -29,7 +29,10 @@ export function createPaletteLoader(dialog, page) {
     const [{ createPalette }] = await Promise.all([import("./palette.js"), styled("help")]);
     return createPalette(dialog, page);
   });
-  const open = () => wanted((palette) => void palette.open());
+  function open() {
+    const typed = collectKeys();
+    wanted((palette) => void palette.open(typed())).finally(typed);
+  }
   dialog.setAttribute("aria-label", t("palette.label"));
   addEventListener("keydown", (event) => {
     if (event.key.toLowerCase() !== "k" || !(event.ctrlKey || event.metaKey) || event.altKey || event.shiftKey) return;
@@ -38,4 +41,20 @@ export function createPaletteLoader(dialog, page) {
     else open();
   });
   return { commands: [{ name: "palette", group: t("groups.help"), keyName: "Ctrl K", now: () => ({ label: t("palette.label"), run: open }) }] };
+}
+
+/** Collects what is typed until it is asked for: who types at once loses no letter. @returns {() => string} */
+function collectKeys() {
+  let typed = "";
+  const collect = (/** @type {KeyboardEvent} */ event) => {
+    if (event.key.length !== 1 || event.ctrlKey || event.metaKey || event.altKey) return;
+    typed += event.key;
+    event.preventDefault();
+    event.stopPropagation();
+  };
+  addEventListener("keydown", collect, { capture: true });
+  return () => {
+    removeEventListener("keydown", collect, { capture: true });
+    return typed;
+  };
 }

@@ -41,9 +41,10 @@ export function createPalette(dialog, page) {
     entry.run();
   }
 
-  async function open() {
+  /** @param {string} [typed]  what is searched for already */
+  async function open(typed = "") {
     if (document.querySelector("dialog[open]")) return;
-    show({ entries: commandsNow(page), typed: "", at: 0 });
+    show({ entries: commandsNow(page), typed, at: 0 });
     dialog.showModal();
     const newest = asking();
     const guidance = await guide().catch(() => null); // the commands alone are useful too
