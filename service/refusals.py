@@ -1,7 +1,7 @@
-"""Refusals in words: a sentence for each code of `sim.codes`, and for what the service itself refuses.
+"""Refusals in words: a sentence for each error code of `sim.codes`, and for what the service itself refuses.
 
-The sentences are data (`prompts/sayings/<language>/refusals.yaml`). Requests that name no language, and
-languages without this file, get English.
+The sentences are in `prompts/sayings/<language>/refusals.yaml`. Requests without a language, and languages
+without this file, get English.
 """
 
 from __future__ import annotations
@@ -30,18 +30,18 @@ def refusals(language: str = DEFAULT_LANGUAGE) -> Refusals:
 
 
 class Refusals:
-    """What is said in one language when something cannot be done."""
+    """The sentences of one language."""
 
     def __init__(self, data: Mapping[str, Any]) -> None:
         """`data`: what `refusals.yaml` holds."""
         self._data = data
 
     def edit(self, error: EditError) -> str:
-        """Why a change of the road cannot be made, as a sentence."""
+        """Why a change of the road is impossible, as a sentence."""
         return self._say("edits", error.code, error.facts)
 
     def problem(self, problem: Problem) -> str:
-        """What is wrong with a field, to follow its name; a sentence for what is not available."""
+        """The problem of a field, to follow its name; a whole sentence if it is unavailable."""
         return self._say("problems", problem.code, problem.facts)
 
     def advice(self, error: NoAdviceError) -> str:
@@ -61,7 +61,7 @@ class Refusals:
         return self._say("session", code, facts)
 
     def playback_speed(self, code: str, facts: Mapping[str, object]) -> str:
-        """Why the clock cannot be set so, as a sentence."""
+        """Why a playback speed is impossible, as a sentence."""
         return self._say("pace", code, facts)
 
     def _say(self, section: str, code: str, facts: Mapping[str, Any]) -> str:

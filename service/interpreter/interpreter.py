@@ -1,8 +1,8 @@
-"""From what was said to what is done: grammar first, then (if there is one) a language model, then refusal.
+"""The interpreter: grammar first, then (if configured) a language model, then a refusal.
 
-A model is asked only where the grammar refuses. What it makes of a sentence is an interpretation: a
-question of it is answered and marked, a change is offered as a choice to be said, and nothing is done
-before that is said.
+A model is asked only when the grammar refuses. Its result is an interpretation: a question is answered and
+marked as read by a model, a change is offered as a sentence to confirm, and nothing is done before that
+sentence is sent.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from service.actions import Action, Forget, Teach
 from service.actions.table import ModelUse, traits_of
 from service.grammar.parse_types import Ambiguous as AmbiguousParse
 from service.grammar.parse_types import Correction, Parse, Refused, Understood
-from service.grammar.references import heard
+from service.grammar.references import parse_in_topic
 from service.grammar.sentences import Unsayable
 from service.grammar.topic import ALONE, Topic
 from service.interpreter.aliases import Aliases
@@ -39,15 +39,15 @@ from sim.session.config_to_actions import UndescribableError, config_to_actions
 MAX_SUGGESTIONS = 3
 
 MAX_INLINE_CHARS = 120
-"""Characters of the longest text that is read where it came in. Longer ones may take some 20 ms and more, in
-which ticks would wait, so a thread reads them."""
+"""Longest text, in characters, that is parsed on the event loop. Longer ones may take 20 ms and more, in
+which ticks would wait, so a thread parses them."""
 
 Source = Literal["grammar", "llm", "typed"]
 
 
 @dataclass(frozen=True, slots=True)
 class ParsedCommand:
-    """What was understood, and by whom."""
+    """The actions of a text, and who parsed it."""
 
     text: str
     actions: tuple[Action, ...]
@@ -58,12 +58,12 @@ class ParsedCommand:
 
     @property
     def utterance(self) -> Utterance:
-        """Ready to be done."""
+        """The utterance to perform."""
         return Utterance(actions=self.actions, text=self.text, supposes=self.supposes, language=self.language)
 
 
 class Interpreter:
-    """Understands and does what is said to sessions."""
+    """Parses text for sessions and performs it."""
 
     def __init__(
         self,
@@ -76,7 +76,7 @@ class Interpreter:
         confirm: bool = True,
         rephrase: bool = False,
     ) -> None:
-        """`confirm`: whether a change that a model made out is asked about before it is done."""
+        """`confirm`: whether changes that a model read have to be confirmed."""
         self.languages = languages
         self.aliases = aliases
         self._narrator = words
@@ -86,21 +86,21 @@ class Interpreter:
         self._rephrase = rephrase
 
     def topic(self, session: Session | None, code: str = DEFAULT_LANGUAGE) -> Topic:
-        """What a sentence may refer to: what the session was told, and what was taught."""
+        """What a sentence may refer to: the session's conversation, and aliases."""
         phrases = self.aliases.phrases(code)
         if session is None:
             return Topic(phrases=phrases)
         return session.conversation.topic(session.run.world, phrases, session.undo_stack.bookmarks)
 
     def sentence_for(self, config: Config) -> str | None:
-        """The sentence that makes such a road; None where nothing that can be said does."""
+        """A sentence that creates a road with this configuration; None if there is none."""
         try:
             return self.languages[DEFAULT_LANGUAGE].sentence(config_to_actions(config) or (Scenario(),))
         except (UndescribableError, Unsayable):
             return None
 
     async def preview(self, text: str, session: Session, code: str = DEFAULT_LANGUAGE) -> Preview | None:
-        """What a sentence would do now; None for one that is empty, or too long to be heard."""
+        """What a sentence would do now; None for an empty or too long one."""
         if not text.strip() or len(text) > self._most_chars:
             return None
         return preview(await self._read(text, session, code), session, code)
@@ -108,13 +108,13 @@ class Interpreter:
     async def _read(self, text: str, session: Session | None, code: str) -> Parse:
         parse, topic = self.languages[code].parse, self.topic(session, code)
         if len(text) <= MAX_INLINE_CHARS:
-            return heard(parse, text, topic)
-        return await to_thread.run_sync(heard, parse, text, topic)
+            return parse_in_topic(parse, text, topic)
+        return await to_thread.run_sync(parse_in_topic, parse, text, topic)
 
     async def interpret(
         self, text: str, session: Session | None = None, code: str = DEFAULT_LANGUAGE, field: str = "text"
     ) -> ParsedCommand:
-        """What a sentence means. Raises `Invalid`, `NotUnderstood` or `Ambiguous`, naming `field`."""
+        """The actions of a text. Raises `Invalid`, `NotUnderstood` or `Ambiguous`, naming `field`."""
         if len(text) > self._most_chars:
             message = f"has {len(text)} characters; at most {self._most_chars} are read"
             raise Invalid("The text is too long.", errors=[FieldProblem(field, message)])
@@ -137,7 +137,7 @@ class Interpreter:
     async def interpret_question(
         self, text: str, session: Session | None, code: str = DEFAULT_LANGUAGE
     ) -> ParsedCommand:
-        """What a question means. Raises also `NotAQuestion` where something else was said."""
+        """The same for a question. Raises also `NotAQuestion` for anything else."""
         found = await self.interpret(text, session, code, "question")
         if not all(traits_of(action).is_question for action in found.actions):
             raise NotAQuestion(
@@ -154,7 +154,7 @@ class Interpreter:
         code: str = DEFAULT_LANGUAGE,
         preconditions: Preconditions = NO_PRECONDITIONS,
     ) -> Outcome:
-        """Do an utterance, all or nothing; a taught phrase is kept with its owner. Raises a problem."""
+        """Perform an utterance, all or nothing; aliases are their owner's. Raises a `ProblemError`."""
         if not any(traits_of(action).changes_aliases for action in utterance.actions):
             outcome = await session.change(utterance, dry_run=dry_run, preconditions=preconditions)
             # An answer that is kept is kept as it was made: in our own words.
@@ -191,7 +191,7 @@ class Interpreter:
         return outcome
 
     async def _rephrase_answer(self, outcome: Outcome) -> Outcome:
-        """The answer in a model's words, where one may reword and its words are true to the facts."""
+        """The outcome with its answer in a model's words, where these claim the same."""
         if self._model is None or not self._rephrase or outcome.answer is None:
             return outcome
         text = outcome.answer["text"]
@@ -219,7 +219,7 @@ class Interpreter:
     async def _ask_model(
         self, model: LanguageModel, text: str, refusal: NotUnderstood, code: str
     ) -> ParsedCommand:
-        """What a model makes of a sentence the grammar refused. Raises the refusal, or asks."""
+        """What a model reads in a sentence that the grammar refused. Raises the refusal, or `Ambiguous`."""
         reading = await model.interpret(text)
         if not reading.actions:
             refusal.detail = f"{refusal.detail} {reading.explanation}".strip()

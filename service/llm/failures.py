@@ -1,7 +1,4 @@
-"""Everything that can go wrong with a model, by the name under which a person is told.
-
-A leaf; the sentences are in `prompts/llm/told.yaml`, one for each reason.
-"""
+"""Failures of a language model, by reason; the sentences for people are in `prompts/llm/told.yaml`."""
 
 from __future__ import annotations
 
@@ -32,7 +29,7 @@ class PromptError(RuntimeError):
 
 
 class ModelFailure(Exception):  # noqa: N818 -- read as what went wrong
-    """A model's answer is not there, or is not fit. `again`: whether asking once more may help."""
+    """The model's answer is missing or unfit. `again`: whether asking once more may help."""
 
     def __init__(self, reason: Reason, *, again: bool = False, **parts: object) -> None:
         super().__init__(reason)

@@ -37,7 +37,7 @@ from service.settings import Settings
 
 _LOG = structlog.get_logger(__name__)
 _OWN_HOST: Final = "api.openai.com"
-"""The one server where the number of tokens has another name; its newer models refuse the old one."""
+"""The one server with another parameter for the number of tokens; its newer models refuse the old one."""
 
 
 class OpenAIModel:

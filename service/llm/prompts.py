@@ -17,7 +17,7 @@ from service.llm.schema import schema
 from service.resources import prompts_folder
 
 SCHEMA_MARK: Final = "{{actions}}"
-"""Stands in a prompt where the actions are described."""
+"""The placeholder for the description of the actions in a prompt."""
 
 
 @dataclass(frozen=True, slots=True)

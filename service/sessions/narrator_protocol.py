@@ -1,4 +1,4 @@
-"""The seam to whoever puts facts into words."""
+"""The interface of the narrator, which puts facts into words."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from sim.state import SimState
 
 
 class NarratorProtocol(Protocol):
-    """Facts → words; nothing is said that is not in the facts."""
+    """Facts → words; a narrator says nothing that is not in the facts."""
 
     def decision(self, decision: Decision, run: SimState, forecast: Forecast | None = None) -> str:
-        """What the vehicle does at a tick and why, `run` being the state it was decided in.
+        """What the vehicle does at a tick and why; `run` is the state in which it decided.
 
-        `forecast`: what it was decided by, where that is known already.
+        `forecast`: what it decided by, where that is known already.
         """
 
     def options(self, decision: Decision) -> list[str]:
@@ -31,13 +31,13 @@ class NarratorProtocol(Protocol):
         """One line of the log."""
 
     def planner(self, name: str) -> str:
-        """A planner as people know it."""
+        """The name of a planner, for people."""
 
     def planner_timeout(self, planner: str, fault: str) -> str:
-        """What is said when a planner did not answer in time and a person is to drive."""
+        """The message for a planner that did not answer in time, so that a person has to drive."""
 
     def reply(self, facts: tuple[Fact, ...]) -> str:
-        """The reply: what was done, in a sentence or two."""
+        """The reply to what was done, in a sentence or two."""
 
     def alias_change(self, lesson: AliasChange) -> str:
         """The reply to a phrase that was taught or forgotten."""

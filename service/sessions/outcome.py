@@ -1,4 +1,4 @@
-"""What an utterance came to, in words and for keeping; and whether making it takes long."""
+"""Outcomes: what an utterance did, in words and as the entry to store."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def make_outcome(
     sequence: int,
     notice: ReachabilityNotice | None = None,
 ) -> Outcome:
-    """The outcome of an utterance that was said in a state; `notice` is told after what was done."""
+    """The outcome of an utterance; `before` is the state it was said in, `notice` follows the reply."""
     if utterance.supposes is not None:
         facts = tuple(
             replace(fact, supposes=utterance.supposes) if isinstance(fact, Asked) else fact for fact in facts
@@ -46,7 +46,7 @@ def make_outcome(
 
 
 def make_entry(outcome: Outcome, tick: int, transaction: Transaction) -> EntryRecord:
-    """What is kept of an outcome, said at a tick, that led to a draft's state."""
+    """The entry to store for an outcome at a tick that led to the state of a transaction."""
     return EntryRecord(
         sequence=outcome.sequence,
         tick=tick,
@@ -64,14 +64,14 @@ def make_entry(outcome: Outcome, tick: int, transaction: Transaction) -> EntryRe
 def compose_reply(
     narrator: NarratorProtocol, facts: tuple[Fact, ...], answers: Sequence[dict[str, Any]]
 ) -> str:
-    """What is said of facts: what was done, then the answers."""
+    """The reply: what was done, then the answers."""
     done = tuple(fact for fact in facts if not isinstance(fact, Answerable))
     said = [narrator.reply(done)] if done else []
     return " ".join([*said, *(answer["text"] for answer in answers)])
 
 
 def is_slow_to_answer(planner: str, facts: tuple[Fact, ...]) -> bool:
-    """Whether a question has a slow planner run many times, or whole episodes."""
+    """Whether a question asks a slow planner many times, or runs whole episodes."""
     asked = {fact.ask.about for fact in facts if isinstance(fact, Asked)}
     if not asked:
         return False

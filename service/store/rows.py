@@ -31,7 +31,7 @@ def session_to_row(record: SessionRecord) -> dict[str, Any]:
 
 
 def session_from_row(row: Row[Any]) -> SessionRecord:
-    """A session of a row."""
+    """A session from a row."""
     branch = None
     if row.parent is not None:
         branch = Branch(
@@ -54,7 +54,7 @@ def session_from_row(row: Row[Any]) -> SessionRecord:
 
 
 def response_to_row(answer: StoredResponse) -> dict[str, Any]:
-    """A kept answer as a row."""
+    """A response as a row."""
     return {
         "key": answer.key,
         "request": answer.request,
@@ -79,7 +79,7 @@ def entry_to_row(session_id: str, entry: EntryRecord) -> dict[str, Any]:
 
 
 def entry_from_row(row: Row[Any]) -> EntryRecord:
-    """An entry of a row."""
+    """An entry from a row."""
     return EntryRecord(
         sequence=row.sequence,
         tick=row.tick,
@@ -103,7 +103,7 @@ def snapshot_to_row(record: SnapshotRecord) -> dict[str, Any]:
 
 
 def snapshot_from_row(row: Row[Any]) -> SnapshotRecord:
-    """A snapshot of a row."""
+    """A snapshot from a row."""
     return SnapshotRecord(
         session=row.session_id,
         sequence=row.sequence,
@@ -115,7 +115,7 @@ def snapshot_from_row(row: Row[Any]) -> SnapshotRecord:
 
 
 def bookmarks_to_rows(session_id: str, entry: EntryRecord) -> list[dict[str, Any]]:
-    """The moments that an entry names as rows."""
+    """The bookmarks that an entry makes, as rows."""
     return [
         {"session_id": session_id, "name": name, "sequence": entry.sequence, "tick": tick}
         for name, tick in entry.names.items()

@@ -1,4 +1,4 @@
-"""The tables as they are now. How older ones become these is told in `migrations`."""
+"""The tables in their current version; `migrations` upgrades older ones."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from sqlalchemy import (
 )
 
 VERSION = 5
-"""Of the schema; the number of the last migration."""
+"""Version of the schema: the number of the last migration."""
 
 METADATA = MetaData()
 

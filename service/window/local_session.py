@@ -96,7 +96,7 @@ class Game:
         if guide is None or not prefix.strip():
             return None
         topic = self._listener.topic(self.session)
-        taught = [each.phrase for each in self._listener.aliases.list()]
+        taught = [each.phrase for each in self._listener.aliases.records()]
         lower = prefix.lower()
         found = guide.completions_here(prefix, self.session, topic, taught)
         return next((each for each in found if each.lower().startswith(lower) and each != prefix), None)

@@ -108,7 +108,7 @@ class _Screen:
     async def _show(self, asked: Subscribe) -> None:
         wanted = frame_stream.Wanted(asked.view, asked.frames, asked.side)
         with suppress(WebSocketDisconnect, RuntimeError):  # the client has gone; the reader hears of it
-            await self._context.reels.pass_on(
+            await self._context.reels.stream_to(
                 self._session, wanted, asked.fps, self._context.drawing, self._socket.send_bytes
             )
 

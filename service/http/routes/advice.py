@@ -13,9 +13,10 @@ from service.contract.encode.advice import advice_json
 from service.http import examples
 from service.http.content_type import JSON_ONLY
 from service.http.deps import Context, Here
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.responses import json_response
-from service.http.route import api_router, policy
+from service.http.route import api_router
+from service.http.route_policy import policy
 from service.http.validation import invalid
 from service.interpreter.interpreter import Source
 from service.problems import (
@@ -44,7 +45,7 @@ _FIGURES = ("hazard", "distance_m", "speed_kmh")
     response_model=Advice,
     summary="Ask what to do about a hazard",
     dependencies=[JSON_ONLY],
-    responses=documented(
+    responses=problem_responses(
         Malformed, Ambiguous, ContentTooLarge, UnsupportedMediaType, Invalid, NotUnderstood, NotAQuestion
     ),
 )

@@ -10,7 +10,7 @@ from fastapi import Query, Response
 from service import actions as contract
 from service.contract.timeline import RoadChanges
 from service.http.deps import Here, TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.responses import json_response
 from service.http.route import api_router
 from service.problems import Invalid, NotRestorable, NotSaved, UnknownSession
@@ -25,7 +25,7 @@ MOST_CHANGES = 1_000
     "/sessions/{session_id}/changes",
     response_model=RoadChanges,
     summary="What was said and stands",
-    responses=documented(UnknownSession, Invalid, NotRestorable, NotSaved),
+    responses=problem_responses(UnknownSession, Invalid, NotRestorable, NotSaved),
 )
 async def list_changes(
     session: TheSession, here: Here, limit: Annotated[int, Query(ge=1, le=MOST_CHANGES)] = 200

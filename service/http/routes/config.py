@@ -21,7 +21,7 @@ from service.http.conditional.etag import TheConditions, respond_once
 from service.http.config_schema import CONFIG_SCHEMA
 from service.http.content_type import require_json
 from service.http.deps import Here, TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.responses import etag, json_response
 from service.http.route import api_router
 from service.http.suggestions import suggest
@@ -78,7 +78,7 @@ async def _require_patch(connection: HTTPConnection) -> None:
     response_model=schemas.ConfigChanged,
     summary="Change settings",
     dependencies=[Depends(_require_patch)],
-    responses=documented(
+    responses=problem_responses(
         Malformed,
         UnknownSession,
         ContentTooLarge,
@@ -124,7 +124,7 @@ async def patch_config(
 def actions_for(config: Config, patch: Mapping[str, Any], most_cells: int) -> list[tuple[str, Set | Prefer]]:
     """What makes a configuration so, each action with its field. Raises `Invalid`, for all bad fields."""
     defaults = asdict(defaults_under(config.rules))
-    wanted = {name: _wanted(value, defaults.get(name)) for name, value in patch.items()}
+    wanted = {name: _normalize(value, defaults.get(name)) for name, value in patch.items()}
     now = asdict(config)
     changed = {
         name: value
@@ -147,7 +147,7 @@ def actions_for(config: Config, patch: Mapping[str, Any], most_cells: int) -> li
     return [step for name in ordered for step in _steps(name, fitting[name])]
 
 
-def _wanted(value: Any, default: Any) -> Any:
+def _normalize(value: Any, default: Any) -> Any:
     """A value as it is meant: null is the default, and 20.0 is a whole number where one is wanted."""
     if value is None:
         return default

@@ -19,7 +19,7 @@ from service.contract.model import Tick
 from service.contract.requests import MAX_ACTIONS, Sent, Strictly
 from service.http.content_type import JSON_ONLY
 from service.http.deps import Here, TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.responses import etag, json_response
 from service.http.route import api_router
 from service.http.validation import invalid
@@ -84,7 +84,7 @@ class Otherwise(Sent):
     response_model=Counterfactual,
     summary="Watch what would have been",
     dependencies=[JSON_ONLY],
-    responses=documented(
+    responses=problem_responses(
         Malformed,
         UnknownSession,
         ContentTooLarge,

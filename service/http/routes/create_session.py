@@ -15,9 +15,10 @@ from service.http import examples
 from service.http.conditional.etag import answer_to_keep, respond_once
 from service.http.content_type import JSON_ONLY
 from service.http.deps import Context, Here
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.responses import etag, json_response
-from service.http.route import api_router, policy
+from service.http.route import api_router
+from service.http.route_policy import policy
 from service.http.routes.links import Named, open_link
 from service.http.session_json import links_json, session_json
 from service.http.validation import invalid
@@ -60,7 +61,7 @@ router = api_router("sessions")
     response_model=schemas.Session,
     summary="Make a session",
     dependencies=[JSON_ONLY],
-    responses=documented(
+    responses=problem_responses(
         Malformed,
         Ambiguous,
         ContentTooLarge,
@@ -108,7 +109,7 @@ async def _create(
     here: Context, body: bodies.NewSession, answer: Callable[[Session], StoredResponse] | None
 ) -> Session:
     """Makes the session; `answer` gives what is stored with it."""
-    recording, named = _linked(here.settings, body)
+    recording, named = _read_link(here.settings, body)
     if named is not None:
         paused = body.paused is not False
         parent = await here.manager.get(named.session)
@@ -123,7 +124,7 @@ async def _create(
             raise invalid(
                 FieldProblem(f"config.{each.field}", refusals().problem(each)) for each in error.problems
             ) from error
-    config, recorded = _recorded(here.settings, body, recording)
+    config, recorded = _read_recording(here.settings, body, recording)
     return await here.manager.create(
         body.name or recording.name,
         config,
@@ -160,7 +161,7 @@ async def _config(here: Context, body: bodies.NewSession) -> Config:
         if missing:
             raise NotAvailable(" ".join(missing), errors=problems) from error
         raise invalid(problems) from error
-    _check_offered(here.settings, config)
+    _check_road_size(here.settings, config)
     return config
 
 
@@ -179,7 +180,7 @@ async def _scenario(here: Context, text: str) -> Scenario:
     return scenario
 
 
-def _check_offered(settings: Settings, config: Config) -> None:
+def _check_road_size(settings: Settings, config: Config) -> None:
     if config.columns * config.rows > settings.max_road_cells:
         message = f"makes a road of more than {settings.max_road_cells} cells, the most there can be here"
         raise invalid([FieldProblem("config.rows", message)])
@@ -191,7 +192,7 @@ def _check_available(missing: Problem | None, field: str) -> None:
         raise NotAvailable(sentence, errors=[FieldProblem(field, sentence)])
 
 
-def _linked(settings: Settings, body: bodies.NewSession) -> tuple[bodies.Recording | None, Named | None]:
+def _read_link(settings: Settings, body: bodies.NewSession) -> tuple[bodies.Recording | None, Named | None]:
     """The recording that was sent or is in a link, or what a link names."""
     if body.link is None:
         return body.recording, None
@@ -211,7 +212,7 @@ def _of_rules(recording: bodies.Recording) -> dict[str, Any]:
     return parts
 
 
-def _recorded(
+def _read_recording(
     settings: Settings, body: bodies.NewSession, recording: bodies.Recording
 ) -> tuple[Config, Recording]:
     """What a recording says, checked as far as can be before it is replayed."""
@@ -234,7 +235,7 @@ def _recorded(
             FieldProblem(f"recording.config.{each.field}", refusals().problem(each))
             for each in error.problems
         ) from error
-    _check_offered(settings, config)
+    _check_road_size(settings, config)
     entries = [
         EntryRecord(
             sequence=entry.sequence,

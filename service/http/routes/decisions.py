@@ -9,7 +9,7 @@ from fastapi import Path, Query, Response
 
 from service.contract import answers as schemas
 from service.http.deps import Here, TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.pagination import MAX_INTEGER
 from service.http.responses import json_response
 from service.http.route import api_router
@@ -23,7 +23,7 @@ router = api_router("watching")
     "/sessions/{session_id}/decisions",
     response_model=schemas.DecisionPage,
     summary="What was decided, and why",
-    responses=documented(UnknownSession, Invalid, NotRestorable),
+    responses=problem_responses(UnknownSession, Invalid, NotRestorable),
 )
 async def list_decisions(
     session: TheSession,
@@ -45,7 +45,7 @@ async def list_decisions(
     "/sessions/{session_id}/decisions/{tick}",
     response_model=schemas.Decision,
     summary="One decision",
-    responses=documented(UnknownSession, UnknownDecision, Invalid, NotRestorable),
+    responses=problem_responses(UnknownSession, UnknownDecision, Invalid, NotRestorable),
 )
 async def read_decision(
     session: TheSession, here: Here, tick: Annotated[int, Path(ge=0, le=MAX_INTEGER)]

@@ -8,7 +8,7 @@ from fastapi import Query, Response
 
 from service.contract.forecast import Expected
 from service.http.deps import Here, TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.pagination import MAX_INTEGER
 from service.http.responses import json_response
 from service.http.route import api_router
@@ -31,7 +31,7 @@ MOST_AHEAD = 16
     "/sessions/{session_id}/forecast",
     response_model=Expected,
     summary="What is about to happen",
-    responses=documented(UnknownSession, Invalid, NotRestorable),
+    responses=problem_responses(UnknownSession, Invalid, NotRestorable),
 )
 async def read_forecast(
     session: TheSession,

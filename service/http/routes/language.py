@@ -10,7 +10,7 @@ from fastapi import Query, Response
 from service import actions as contract
 from service.contract import answers as schemas
 from service.http.deps import Here
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.responses import json_response
 from service.http.route import api_router
 from service.interpreter.guide import Intent
@@ -25,7 +25,7 @@ router = api_router("talking")
     "/language",
     response_model=schemas.LanguageGuide,
     summary="What can be said",
-    responses=documented(UnknownSession, Invalid, NotRestorable),
+    responses=problem_responses(UnknownSession, Invalid, NotRestorable),
 )
 async def read_language(
     here: Here,
@@ -45,7 +45,7 @@ async def read_language(
     interpreter = here.interpreter
     guide = interpreter.languages.guide(language)
     live = None if session is None else await here.manager.get(session)
-    taught = interpreter.aliases.list(language)
+    taught = interpreter.aliases.records(language)
     told: dict[str, Any] = {"language": language, "languages": interpreter.languages.codes, "prefix": prefix}
     if prefix is None:
         intents = () if guide is None else await to_thread.run_sync(lambda: guide.intents)

@@ -20,7 +20,7 @@ from service.contract import answers as schemas
 from service.contract import requests as bodies
 from service.contract.encode.json import encoded
 from service.http.deps import TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.pagination import MAX_INTEGER
 from service.http.responses import etag, json_response
 from service.http.route import api_router
@@ -54,7 +54,7 @@ class Named:
     "/sessions/{session_id}/link",
     response_model=schemas.Link,
     summary="A link to a tick",
-    responses=documented(UnknownSession, Invalid, NotRestorable),
+    responses=problem_responses(UnknownSession, Invalid, NotRestorable),
 )
 async def read_link(
     session: TheSession,

@@ -11,7 +11,7 @@ from fastapi import Query, Response
 from service.contract.encode.state import SessionStatus, state_json
 from service.contract.timeline import Moments
 from service.http.deps import Here, TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.pagination import MAX_INTEGER
 from service.http.responses import json_response
 from service.http.route import api_router
@@ -32,7 +32,7 @@ MOST_MOMENTS = 64
     "/sessions/{session_id}/moments",
     response_model=Moments,
     summary="Several ticks in full",
-    responses=documented(UnknownSession, Invalid, NotRestorable),
+    responses=problem_responses(UnknownSession, Invalid, NotRestorable),
 )
 async def list_moments(
     session: TheSession,

@@ -1,8 +1,9 @@
-"""What a stretch of a sentence is made of: its pieces one after the other, each as what it may stand in for.
+"""Finds spans of a sentence with the same pattern: the same kinds of piece in the same order.
 
-A stretch can be read in very many ways (every sense of every word), so the ways are never listed. Two
-stretches are compared by walking both at once: from all places where the one may be to all places where the
-other may be after the same pieces. That takes time in proportion to the edges, and not to the ways.
+A correction replaces such a span: in "two cars, no, three" both are a number. A span can be read in very many
+ways (every sense of every word), so the ways are never listed. Two spans are compared by walking both at
+once, from all places that one can be at to all places that the other can be at after the same pieces. The
+cost grows with the number of edges, not with the number of readings.
 """
 
 from __future__ import annotations
@@ -13,13 +14,13 @@ from operator import or_
 from service.grammar.lattice import GLUE, NUMBER, Lattice
 from service.grammar.noun_phrases import QUANTITY
 from service.grammar.paths import ALLOWS, SEPARATOR, SPEAKER
-from service.grammar.work_budget import Work
+from service.grammar.work_budget import WorkBudget
 
 REPAIR = "repair"
 """Concept of words that take back what was just said; their value says when they do."""
 
 MAX_PIECES = 6
-"""Pieces of the longest stretch that something is said instead of; longer ones are requests of their own."""
+"""Pieces of the longest span that a correction replaces; longer ones are requests of their own."""
 
 SKIPPED = frozenset((GLUE, SEPARATOR, ALLOWS, SPEAKER, REPAIR, "interjection", "tag"))
 """Concepts that are no pieces."""
@@ -27,11 +28,11 @@ SKIPPED = frozenset((GLUE, SEPARATOR, ALLOWS, SPEAKER, REPAIR, "interjection", "
 _NOWHERE = (0,) * (MAX_PIECES + 1)
 
 Step = tuple[int, str | None]
-"""Where an edge ends, and what it may stand in for; None for one that is no piece."""
+"""Where an edge ends, and its family; None for an edge that is no piece."""
 
 
 def family(concept: str) -> str:
-    """What a concept may stand in for another as."""
+    """The kind of piece a concept is: concepts of one family can replace each other."""
     if concept in (NUMBER, QUANTITY):
         return QUANTITY
     if concept.startswith("noun."):
@@ -51,8 +52,8 @@ def steps_of(lattice: Lattice) -> list[tuple[Step, ...]]:
     ]
 
 
-def ends_of_pieces(steps: Sequence[Sequence[Step]], start: int, work: Work) -> set[int]:
-    """Where a stretch from `start` may end that has a piece, and no more than there may be."""
+def ends_of_pieces(steps: Sequence[Sequence[Step]], start: int, work: WorkBudget) -> set[int]:
+    """Where a span from `start` can end that has between one and `MAX_PIECES` pieces."""
     counts = {start: 1}
     """Place → how many pieces may be before it, as bits."""
     for at in range(start, len(steps)):
@@ -65,10 +66,10 @@ def ends_of_pieces(steps: Sequence[Sequence[Step]], start: int, work: Work) -> s
     return {end for end, found in counts.items() if found > 1}
 
 
-class Make:
-    """What one stretch can be made of, ready to be looked for elsewhere in the sentence."""
+class SpanPattern:
+    """All patterns that one span can have, to be looked for elsewhere in the sentence."""
 
-    def __init__(self, steps: Sequence[Sequence[Step]], start: int, end: int, work: Work) -> None:
+    def __init__(self, steps: Sequence[Sequence[Step]], start: int, end: int, work: WorkBudget) -> None:
         """`steps`: those of the sentence, by token; the stretch is `[start, end)`."""
         self._steps = steps
         self._start, self._end = start, end
@@ -83,8 +84,8 @@ class Make:
     def _is_closing(self, at: int) -> bool:
         return bool(self._closing >> (at - self._start) & 1)
 
-    def first_like(self, at: int, last: int) -> int | None:
-        """The end of the shortest stretch from `at` up to `last` that can be of the same make, if any."""
+    def first_match(self, at: int, last: int) -> int | None:
+        """The end of the shortest span from `at`, up to `last`, that can have the same pattern; else None."""
         states: dict[int, list[int]] = {at: [1] + [0] * MAX_PIECES}
         """Place → for each number of pieces, where in the stretch the same pieces lead, as bits."""
         for here in range(at, last + 1):

@@ -1,8 +1,8 @@
-"""Names: the words after "save this as", kept as they were written.
+"""Free-text slots: the name after "save this as", a taught phrase, kept as they were written.
 
-They are found before anything else is read, so that no typo is "repaired" in a name and no word of
-it is taken for a request. A name ends at a comma, at "then" or at the end; one in quotation marks, at
-the closing mark, whatever is in it (`\\"` is a mark within).
+They are found before anything else is read, so that no typo is corrected in a name and no word of a name is
+read as a request. A name ends at a comma, at "then" or at the end of the text; a name in quotation marks ends
+at the closing mark (`\\"` is a mark within).
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ _LOOSE = "\"' "
 """Marks around a name that are no part of it."""
 
 
-def names(tokens: Sequence[Token], lexicon: Lexicon, said: str, topic: Topic) -> dict[int, Name]:
+def find_names(tokens: Sequence[Token], lexicon: Lexicon, said: str, topic: Topic) -> dict[int, Name]:
     """Start (token) → name, for every name in the sentence.
 
     `said` is the text they are taken from; `topic` has the phrases that were taught and so can be forgotten,
