@@ -23,7 +23,6 @@ import { createPast } from "../timeline/pastBar.js";
 import { createServerVideo } from "../road/serverVideo.js";
 import { createPlan } from "./plan.js";
 import { createRoad } from "../road/road.js";
-import { createRoads } from "../talk/roadFamilies.js";
 import { createSchematic } from "./schematic.js";
 import { createShare } from "../timeline/share.js";
 import { createReader } from "../talk/speech.js";
@@ -78,7 +77,6 @@ export function createPanels(page) {
     createOccupancy(byId("occupancy")),
     createMetrics(byId("metrics"), page),
     createReader(),
-    createRoads(),
     createPalette(/** @type {HTMLDialogElement} */ (byId("palette")), page),
     createHelp(byId("help"), /** @type {HTMLDialogElement} */ (byId("help-dialog")), page),
   ];

@@ -8,6 +8,8 @@ import { LAYOUTS, layoutName } from "../core/words.js";
 import { exchangeTemplate } from "./exchange.js";
 import { shown } from "./exchanges.js";
 
+/** @import { Command } from "../core/commands.js" */
+/** @import { Scenario } from "../core/wire.js" */
 /** @import { Page } from "../core/page.js" */
 /** @import { State } from "../core/state.js" */
 /** @import { Panel } from "../panels/index.js" */
@@ -19,6 +21,8 @@ export function createTalk(host, page) {
   render(template(page.state(), page), host);
 
   return {
+    commands: roadCommands(),
+
     update(state, before) {
       if (state.talk === before.talk && state.steps === before.steps) return;
       render(template(state, page), host);
@@ -66,4 +70,17 @@ function example(text, what, page) {
   return html`<button class="example" type="button" @click=${() => page.say(text)}>
     <span class="example-text">${text}</span><span class="example-what">${what}</span>
   </button>`;
+}
+
+/** New roads to choose from the palette, one of each family. @returns {Command[]} */
+function roadCommands() {
+  return LAYOUTS.map((layout) => ({
+    name: `road-${layout}`,
+    group: t("groups.new_road"),
+    now({ past, world }) {
+      if (world === null || past) return null;
+      const label = t("talk.new_road", { name: layoutName(layout) });
+      return { label, turns: [[{ do: "scenario", layout: /** @type {Scenario["layout"]} */ (layout) }]] };
+    },
+  }));
 }
