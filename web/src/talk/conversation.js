@@ -8,6 +8,8 @@ import { standingOf } from "../core/undoStack.js";
 import { LAYOUTS, layoutName } from "../core/words.js";
 import { shown } from "./exchanges.js";
 
+/** @import { Command } from "../core/commands.js" */
+/** @import { Scenario } from "../core/wire.js" */
 /** @import { Page } from "../core/page.js" */
 /** @import { State } from "../core/state.js" */
 /** @import { Panel } from "../panels/index.js" */
@@ -40,6 +42,8 @@ export function createTalk(host, page) {
   // Who begins to use the page will soon want it.
   addEventListener("focusin", () => wanted((fetched) => (looks ??= fetched)), { once: true });
   return {
+    commands: roadCommands(),
+
     update(state, before) {
       if (state.talk !== before.talk || state.steps !== before.steps) show(state, before);
     },
@@ -83,4 +87,17 @@ function example(text, what, page) {
   return html`<button class="example" type="button" @click=${() => page.say(text)}>
     <span class="example-text">${text}</span><span class="example-what">${what}</span>
   </button>`;
+}
+
+/** New roads to choose from the palette, one of each family. @returns {Command[]} */
+function roadCommands() {
+  return LAYOUTS.map((layout) => ({
+    name: `road-${layout}`,
+    group: t("groups.new_road"),
+    now({ past, world }) {
+      if (world === null || past) return null;
+      const label = t("talk.new_road", { name: layoutName(layout) });
+      return { label, turns: [[{ do: "scenario", layout: /** @type {Scenario["layout"]} */ (layout) }]] };
+    },
+  }));
 }
