@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { watchKeys } from "../../web/src/core/keyboard.js";
+import { watchKeys } from "../../web/src/core/commands.js";
 import { onDemand } from "../../web/src/core/lazy.js";
 import { prefer, preference } from "../../web/src/core/preferences.js";
 import { settle } from "./fakes.mjs";

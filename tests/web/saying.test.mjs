@@ -3,7 +3,7 @@ import { test } from "node:test";
 
 import { foresee, guide, previewWords } from "../../web/src/talk/language.js";
 import { Latest, turns } from "../../web/src/core/latest.js";
-import { rank } from "../../web/src/talk/rank.js";
+import { rank } from "../../web/src/talk/palette.js";
 
 /** A clock that is moved by hand, and answers that come when they are told to. */
 function asking() {

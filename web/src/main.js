@@ -6,22 +6,20 @@
  * frame.
  */
 
-import { COMMANDS } from "./core/commands.js";
+import { COMMANDS, watchKeys } from "./core/commands.js";
 import { Connector } from "./core/connector.js";
-import { watchKeys } from "./core/keyboard.js";
 import { createPage } from "./core/page.js";
 import { createLoop } from "./core/renderLoop.js";
 import { INITIAL, reduce, sceneOf } from "./core/state.js";
-import { browserStorage } from "./core/storage.js";
+import { browserStorage } from "./core/preferences.js";
 import { createStore } from "./core/store.js";
 import { watchPreferences } from "./core/theme.js";
 import { createPanels } from "./panels/index.js";
 import { keepAddress } from "./timeline/momentAddress.js";
 import { TimelineLoader } from "./timeline/timelineLoader.js";
 import { TimeTravel } from "./timeline/timeTravel.js";
-import { byId } from "./ui/slot.js";
+import { byId, fillTexts } from "./ui/dom.js";
 import { RegretLoader } from "./why/regretLoader.js";
-import { fillTexts } from "./ui/shell.js";
 
 fillTexts(document);
 const store = createStore(reduce, INITIAL);

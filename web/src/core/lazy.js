@@ -13,13 +13,13 @@ import { t } from "./texts.js";
  * @template Part
  * @param {Page} page
  * @param {() => Promise<Part>} make
- * @returns {(use: (part: Part) => unknown) => void}
+ * @returns {(use: (part: Part) => unknown) => Promise<unknown>}  done when it has come, or has not
  */
 export function onDemand(page, make) {
   /** @type {Promise<Part> | null} */ let part = null;
   return (use) => {
     part ??= make();
-    part.then(use, (error) => {
+    return part.then(use, (error) => {
       part = null;
       page.tell({ text: t("page.part_not_fetched", { reason: errorText(error) }), tone: "bad" });
     });

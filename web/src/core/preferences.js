@@ -1,8 +1,6 @@
 // @ts-check
 /** What the reader has chosen, kept in the browser where that is allowed, and for this visit where it is not. */
 
-import { browserStorage } from "./storage.js";
-
 const PREFIX = "roadtalk.";
 /** @type {Map<string, string>} */
 const here = new Map();
@@ -23,5 +21,17 @@ export function prefer(name, value) {
     browserStorage()?.setItem(PREFIX + name, value);
   } catch {
     // Full or forbidden: it holds for this visit.
+  }
+}
+
+/**
+ * The browser's storage, or null where reading it is forbidden.
+ * @returns {Storage | null}
+ */
+export function browserStorage() {
+  try {
+    return window.localStorage;
+  } catch {
+    return null;
   }
 }

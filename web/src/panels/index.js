@@ -1,7 +1,7 @@
 // @ts-check
 /** The panels of the page, each in a file of its own; a new panel is a file and a line here. */
 
-import { byId } from "../ui/slot.js";
+import { byId } from "../ui/dom.js";
 import { createAnnouncer } from "../talk/announcer.js";
 import { createCaption } from "../road/caption.js";
 import { createCard } from "../why/bubbleLoader.js";
@@ -22,7 +22,6 @@ import { createPast } from "../timeline/pastBar.js";
 import { createServerVideo } from "../road/serverVideoLoader.js";
 import { createPlan } from "./plan.js";
 import { createRoad } from "../road/road.js";
-import { createRoads } from "../talk/roadFamilies.js";
 import { createSchematic } from "./schematic.js";
 import { createShare } from "../timeline/share.js";
 import { createReader } from "../talk/speech.js";
@@ -77,7 +76,6 @@ export function createPanels(page) {
     createOccupancy(byId("occupancy")),
     createMetrics(byId("metrics"), page),
     createReader(),
-    createRoads(),
     createPaletteLoader(/** @type {HTMLDialogElement} */ (byId("palette")), page),
     createHelpLoader(byId("help"), /** @type {HTMLDialogElement} */ (byId("help-dialog")), page),
   ];

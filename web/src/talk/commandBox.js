@@ -2,7 +2,7 @@
 /** The box to talk in: Enter sends, Tab completes, ↑ and ↓ bring back what was said, Escape clears. */
 
 import { html, live, nothing, render } from "../../vendor/lit-html.js";
-import { browserStorage } from "../core/storage.js";
+import { browserStorage } from "../core/preferences.js";
 import { t } from "../core/texts.js";
 import { icon } from "../ui/icons.js";
 import { find } from "../ui/slot.js";

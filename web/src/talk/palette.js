@@ -6,7 +6,6 @@ import { runCommand } from "../core/commands.js";
 import { turns } from "../core/latest.js";
 import { t } from "../core/texts.js";
 import { guide } from "./language.js";
-import { rank } from "./rank.js";
 
 /** @import { Page } from "../core/page.js" */
 
@@ -41,9 +40,10 @@ export function createPalette(dialog, page) {
     entry.run();
   }
 
-  async function open() {
+  /** @param {string} [typed]  what is searched for already */
+  async function open(typed = "") {
     if (document.querySelector("dialog[open]")) return;
-    show({ entries: commandsNow(page), typed: "", at: 0 });
+    show({ entries: commandsNow(page), typed, at: 0 });
     dialog.showModal();
     const newest = asking();
     const guidance = await guide().catch(() => null); // the commands alone are useful too
@@ -102,4 +102,34 @@ function commandsNow(page) {
     const own = commands.filter((act) => act.group === group);
     return own.filter(({ label }, at) => own.findIndex((act) => act.label === label) === at);
   });
+}
+
+/**
+ * Those that fit what was typed, best first: whole words before beginnings before letters in order.
+ * @template {{label: string}} T
+ * @param {T[]} entries
+ * @param {string} typed
+ * @returns {T[]}
+ */
+export function rank(entries, typed) {
+  const wanted = typed.trim().toLowerCase();
+  if (wanted === "") return entries;
+  return entries
+    .map((entry, order) => ({ entry, order, score: score(entry.label.toLowerCase(), wanted) }))
+    .filter(({ score }) => score > 0)
+    .sort((a, b) => b.score - a.score || a.order - b.order)
+    .map(({ entry }) => entry);
+}
+
+/** @param {string} label @param {string} wanted */
+function score(label, wanted) {
+  const at = label.indexOf(wanted);
+  if (at === 0) return 4;
+  if (at > 0) return label[at - 1] === " " ? 3 : 2;
+  let from = -1;
+  for (const letter of wanted.replaceAll(" ", "")) {
+    from = label.indexOf(letter, from + 1);
+    if (from === -1) return 0;
+  }
+  return 1;
 }

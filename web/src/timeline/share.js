@@ -4,13 +4,12 @@
 import { html, nothing } from "../../vendor/lit-html.js";
 import { hashOf } from "../core/address.js";
 import { onDemand, styled } from "../core/lazy.js";
-import { browserStorage } from "../core/storage.js";
+import { browserStorage } from "../core/preferences.js";
 import { t } from "../core/texts.js";
 import { icon } from "../ui/icons.js";
 import { createMenu } from "../ui/menu.js";
 import { createSlot } from "../ui/slot.js";
 import { forks } from "./links.js";
-import { shareMoment, forkHere, rewindHere } from "./shareMoment.js";
 
 /** @import { Command } from "../core/commands.js" */
 /** @import { Page } from "../core/page.js" */
@@ -32,9 +31,10 @@ export function createShare(host, page) {
     const [{ createDialogs }] = await Promise.all([import("./dialogs.js"), styled("dialog")]);
     return createDialogs(page);
   });
+  const moments = onDemand(page, () => import("./shareMoment.js"));
 
   return {
-    commands: [...momentCommands(page, dialogs), ...forkCommands(), ...keptCommands(page, dialogs)],
+    commands: [...momentCommands(page, moments, dialogs), ...forkCommands(), ...keptCommands(page, dialogs)],
 
     update({ session }, before) {
       if (session !== before.session) origin(originLink(session));
@@ -69,14 +69,19 @@ function originLink(session) {
   </a>`;
 }
 
-/** @param {Page} page @param {(use: (dialogs: Dialogs) => void) => void} dialogs @returns {Command[]} */
-function momentCommands(page, dialogs) {
+/**
+ * @param {Page} page
+ * @param {(use: (module: typeof import("./shareMoment.js")) => void) => void} moments
+ * @param {(use: (dialogs: Dialogs) => void) => void} dialogs
+ * @returns {Command[]}
+ */
+function momentCommands(page, moments, dialogs) {
   const group = t("groups.session");
   const byHand = (/** @type {string} */ url, /** @type {string} */ what) => dialogs(({ link }) => link(url, what));
   return [
-    { name: "share", group, key: "l", keyName: "L", now: ({ past }) => ({ label: past ? t("session.share_tick", past.world) : t("session.share"), run: () => void shareMoment(page, byHand) }) },
-    { name: "fork", group, key: "f", keyName: "F", now: ({ past }) => ({ label: past ? t("session.fork_tick", past.world) : t("session.fork"), run: () => void forkHere(page) }) },
-    { name: "rewind", group, now: ({ past }) => past && { label: t("session.rewind", past.world), run: () => void rewindHere(page) } },
+    { name: "share", group, key: "l", keyName: "L", now: ({ past }) => ({ label: past ? t("session.share_tick", past.world) : t("session.share"), run: () => moments((made) => void made.shareMoment(page, byHand)) }) },
+    { name: "fork", group, key: "f", keyName: "F", now: ({ past }) => ({ label: past ? t("session.fork_tick", past.world) : t("session.fork"), run: () => moments((made) => void made.forkHere(page)) }) },
+    { name: "rewind", group, now: ({ past }) => past && { label: t("session.rewind", past.world), run: () => moments((made) => void made.rewindHere(page)) } },
   ];
 }
 

@@ -4,7 +4,7 @@
 import { hashOf } from "../core/address.js";
 import { askJson, errorText } from "../core/http.js";
 import { sessionPath } from "../core/protocol.js";
-import { browserStorage } from "../core/storage.js";
+import { browserStorage } from "../core/preferences.js";
 import { t } from "../core/texts.js";
 import { forkAt, noteFork, shareLink } from "./links.js";
 

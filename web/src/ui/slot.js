@@ -28,14 +28,6 @@ export function find(host, selector) {
 }
 
 /**
- * The element with an id, which the page is known to have.
- * @param {string} id
- */
-export function byId(id) {
-  return find(document, `#${id}`);
-}
-
-/**
  * A canvas that fills an element, as sharp as the screen, in CSS pixels from here on. Sets its size where that differs.
  * @param {HTMLCanvasElement} canvas
  * @param {number} width
