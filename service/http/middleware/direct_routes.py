@@ -23,7 +23,7 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 from service.http import json
 from service.http.access_control import check_access, count_change
 from service.http.body_limit import read_body, receive_again
-from service.http.conditional.etag import conditions_of
+from service.http.conditional.etag import add_tag, conditions_of, set_check
 from service.http.conditional.handler import handle_conditionally
 from service.http.deps import Context, context_in
 from service.http.errors import respond
@@ -113,9 +113,10 @@ class DirectCall:
 
     async def __call__(self, request: Request, context: Context, body: BaseModel | None) -> Response:
         """The response of the endpoint. Raises what the ordinary way raises."""
+        session_id = request.scope["path_params"]["session_id"]
 
         async def handle(request: Request) -> Response:
-            given: dict[str, Any] = {"session": await context.manager.get(request.path_params["session_id"])}
+            given: dict[str, Any] = {"session": await context.manager.get(session_id)}
             if body is not None:
                 given["body"] = body
             if self._needs_here:
@@ -123,5 +124,10 @@ class DirectCall:
             if self._needs_conditions:
                 given["conditions"] = await conditions_of(request)
             return await self._endpoint(**given)
+
+        if body is None and not self._needs_here:  # the present state: no more than its tag is conditional
+            set_check(None)
+            session = await context.manager.get(session_id)
+            return add_tag(request, await self._endpoint(session=session), session.sequence)
 
         return await handle_conditionally(request, handle, self.route.policy)
