@@ -94,7 +94,7 @@ async def test_the_fake_has_the_same_interface() -> None:
     fake = FakeModel({"one hole": adds}, {"I stayed.": "I stood still."})
     model: LanguageModel = fake
     assert await model.interpret("one hole") == adds
-    assert (await model.interpret("another")).told == "The language model found nothing to do in this."
+    assert (await model.interpret("another")).explanation == "The language model found nothing to do in this."
     assert await model.rephrase("I stayed.", {}) == "I stood still."
     assert await model.rephrase("I moved left.", {}) == "I moved left."
     await model.aclose()
