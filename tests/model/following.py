@@ -35,7 +35,7 @@ class Follower:
         """Take in what has come; answers the latest event."""
         messages = self.wire.messages
         for data in messages[self._read :]:
-            self.take(data, json.loads(data))
+            self._take(data, json.loads(data))
         self._read = len(messages)
         return self._event
 

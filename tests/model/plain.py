@@ -415,7 +415,7 @@ class _Doing:
         step, now.done = now.done[-1], now.done[:-1]
         step = replace(step, after=now.stand) if step.jumped else step
         now.undone = (*now.undone, step)
-        self.take(step, step.before, step.paused_after, step.paused_before)
+        self._take(step, step.before, step.paused_after, step.paused_before)
 
     def _redo(self, _: Action) -> None:
         now = self.now
@@ -425,7 +425,7 @@ class _Doing:
         step, now.undone = now.undone[-1], now.undone[:-1]
         step = replace(step, before=now.stand) if step.jumped else step
         now.done = (*now.done, step)
-        self.take(step, step.after, step.paused_before, step.paused_after)
+        self._take(step, step.after, step.paused_before, step.paused_after)
 
     def _take(self, step: Step, stand: Stand, was: bool, will: bool) -> None:
         now = self.now
