@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import time
-
 import httpx
 import pytest
 from prometheus_client.parser import text_string_to_metric_families
-from service.http.middleware.metrics import LATENESS_S, Histogram, Metrics, timed
 from websockets.asyncio.client import connect
 
 from service import problems
 from service.app import create_app
+from service.http.metrics import Metrics, time_store
 from service.server_timing import PARTS
-from service.sessions.scheduler.clock import WheelClock
+from service.sessions.scheduler.wheel_clock import WheelClock
 from service.settings import Settings
 from service.store import MemoryStore
 from tests.support.fakes import FewSentences, HandClock
@@ -102,17 +100,6 @@ async def test_every_kind_of_refusal_is_there_from_the_start_and_no_other(servic
     assert kinds == {kind.slug for kind in problems.KINDS}
 
 
-def test_the_bounds_of_a_histogram_count_all_below() -> None:
-    histogram = Histogram(LATENESS_S)
-    for seconds in (0.0, 0.001, 0.0011, 9.0):
-        histogram.observe(seconds)
-    samples = {
-        sample.labels.get("le", sample.name): sample.value for sample in histogram.family("x", "x").samples
-    }
-    assert (samples["0.001"], samples["0.002"], samples["1.0"], samples["+Inf"]) == (2, 3, 3, 4)
-    assert samples["x_sum"] == pytest.approx(9.0021)
-
-
 class Still:
     """A ticker that does nothing."""
 
@@ -135,23 +122,11 @@ def test_the_clock_tells_how_late_each_tick_is() -> None:
 
 
 async def test_a_timed_store_is_the_same_store() -> None:
-    histogram = Histogram(LATENESS_S)
-    store = timed(MemoryStore(), histogram)
+    metrics = Metrics()
+    store = time_store(MemoryStore(), metrics.store)
     await store.open()
     assert await store.newest(1) == []
     assert await store.get("nobody") is None
-    samples = {sample.name: sample.value for sample in histogram.family("x", "x").samples}
-    assert samples["x_bucket"] == 3
+    assert metrics.registry.get_sample_value("roadtalk_store_seconds_count") == 3
     with pytest.raises(AttributeError):
         store.nothing  # type: ignore[attr-defined]  # noqa: B018
-
-
-def test_counting_is_cheap() -> None:
-    lateness = Metrics().lateness
-    each = []
-    for _ in range(10):
-        began = time.thread_time()
-        for _ in range(5_000):
-            lateness.observe(0.003)
-        each.append((time.thread_time() - began) / 5_000)
-    assert min(each) < 2e-5, "thousands of ticks a second are counted one by one"

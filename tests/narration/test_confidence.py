@@ -20,9 +20,9 @@ from sim.metrics import Metrics
 from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.types import Mode, Outcome
+from tests.support.narration_checks import ID, looks_like_sentences
 from tests.support.roads import road, run_on
 from tests.support.sensors import Missing, registered
-from tests.support.sentences import ID, looks_like_sentences
 from tools.confidence_calibration import drawn_config
 
 SAYINGS = Sayings.load()

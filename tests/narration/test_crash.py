@@ -11,7 +11,7 @@ from sim.actions import Add, SetMode, Where
 from sim.config import Config
 from sim.session.timeline import Timeline
 from sim.types import Mode, Move, Outcome
-from tests.support.sentences import ids_in, looks_like_sentences
+from tests.support.narration_checks import ids_in, looks_like_sentences
 
 NARRATOR = Narrator.load()
 

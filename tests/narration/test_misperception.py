@@ -13,9 +13,9 @@ from sim.actions import Add, Where
 from sim.config import Config
 from sim.session.timeline import Timeline
 from sim.types import Kind, Move, Outcome, kind_of
+from tests.support.narration_checks import looks_like_sentences
 from tests.support.rides import SENSORS, rides
 from tests.support.sensors import NAMES, Missing, Phantom, registered
-from tests.support.sentences import looks_like_sentences
 
 NARRATOR = Narrator.load()
 AHEAD = (4, 3)

@@ -14,8 +14,8 @@ from sim.state import SimState
 from sim.transition import step
 from sim.types import Mode, Move
 from tests.support.moments import moments
+from tests.support.narration_checks import ids_in, looks_like_sentences
 from tests.support.roads import road, run_on
-from tests.support.sentences import ids_in, looks_like_sentences
 
 NARRATOR = Narrator.load()
 

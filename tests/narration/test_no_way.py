@@ -22,8 +22,8 @@ from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.transition import next_world, step
 from sim.types import Mode, Move, Outcome
+from tests.support.narration_checks import looks_like_sentences
 from tests.support.roads import road, run_on
-from tests.support.sentences import looks_like_sentences
 
 NARRATOR = Narrator.load()
 SAYINGS = Sayings.load()

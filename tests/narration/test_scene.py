@@ -18,8 +18,8 @@ from sim.state import SimState
 from sim.transition import step
 from sim.types import PLACEABLE, Kind, Outcome
 from tests.support.moments import moments
+from tests.support.narration_checks import ID, looks_like_sentences
 from tests.support.roads import road, run_on
-from tests.support.sentences import ID, looks_like_sentences
 
 SCENES = Scenes(Sayings.load())
 

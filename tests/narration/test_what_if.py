@@ -15,8 +15,8 @@ from sim.config import Config
 from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.types import Mode, Outcome
+from tests.support.narration_checks import ids_in, looks_like_sentences
 from tests.support.roads import road, run_on
-from tests.support.sentences import ids_in, looks_like_sentences
 from tools.check_what_if import a_change, sessions
 
 NARRATOR = Narrator.load()
