@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.sentences import sentences
+from tests.support.literals import sentences
 
 SERVICE = Path(__file__).parents[2] / "service"
 FOLDERS = ("sessions", "narration", "interpreter", "grammar", "window", "llm")
@@ -26,6 +26,7 @@ ELSEWHERE = {
     "llm/schema.py": "types, as a model is told them",
     "narration/sayings.py": "an error for who runs the service",
     "sessions/manager.py": "the service's log, recordings that do not fit, limits of the service",
+    "sessions/persistence/recording.py": "recordings that do not fit",
     "sessions/persistence/replay.py": "recordings that do not fit",
     "sessions/persistence/restore.py": "the service's log",
     "sessions/persistence/snapshot_scheduler.py": "the service's log",

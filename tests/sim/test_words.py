@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.sentences import sentences
+from tests.support.literals import sentences
 
 SIM = Path(__file__).parents[2] / "sim"
 ELSEWHERE = {
