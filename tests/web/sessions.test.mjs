@@ -23,6 +23,19 @@ test("a session is missing only when the service says so", async () => {
   assert.equal(await findSession("a", failing), "unreachable");
 });
 
+test("a session is made in the page's language, or in English where the service does not speak it", async () => {
+  const asked = [];
+  const http = (speaks) => async (path, { body }) => {
+    asked.push(JSON.parse(body));
+    const refused = asked.at(-1).language !== undefined && !speaks;
+    return new Response(JSON.stringify({ id: "n", detail: "no" }), { status: refused ? 422 : 201 });
+  };
+  assert.equal((await createSession(http(true), "de")).id, "n");
+  assert.equal((await createSession(http(false), "de")).id, "n");
+  await createSession(http(true), "en");
+  assert.deepEqual(asked, [{ language: "de" }, { language: "de" }, {}, {}]);
+});
+
 test("a new session, or a sentence why not", async () => {
   assert.deepEqual(await createSession(answering(201, { id: "n" })), { id: "n" });
   await assert.rejects(createSession(answering(429, { detail: "Too many sessions." })), /Too many sessions\./);

@@ -5,22 +5,43 @@ import { errorText } from "./http.js";
 import { t } from "./texts.js";
 
 /** @import { Page } from "./page.js" */
+/** @import { State } from "./state.js" */
+/** @import { Panel } from "../panels/index.js" */
 
 /**
  * What makes a part once and hands it to whoever wants it; that it could not be fetched is told, and tried again.
  * @template Part
  * @param {Page} page
  * @param {() => Promise<Part>} make
- * @returns {(use: (part: Part) => unknown) => void}
+ * @returns {(use: (part: Part) => unknown) => Promise<unknown>}  done when it has come, or has not
  */
 export function onDemand(page, make) {
   /** @type {Promise<Part> | null} */ let part = null;
   return (use) => {
     part ??= make();
-    part.then(use, (error) => {
+    return part.then(use, (error) => {
       part = null;
       page.tell({ text: t("page.part_not_fetched", { reason: errorText(error) }), tone: "bad" });
     });
+  };
+}
+
+/**
+ * A panel that is fetched when the state first asks for it.
+ * @param {Page} page
+ * @param {(state: State) => boolean} isWanted
+ * @param {() => Promise<Panel>} make
+ * @returns {Panel}
+ */
+export function lazyPanel(page, isWanted, make) {
+  /** @type {Panel | null} */ let panel = null;
+  const wanted = onDemand(page, async () => (panel = await make()));
+  return {
+    update(state, before) {
+      if (panel) panel.update?.(state, before);
+      else if (isWanted(state)) wanted((made) => made.update?.(page.state(), before));
+    },
+    repaint: () => panel?.repaint?.(),
   };
 }
 

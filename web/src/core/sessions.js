@@ -3,6 +3,7 @@
 
 import { ask, askJson, Refused } from "./http.js";
 import { SESSIONS_PATH, sessionPath } from "./protocol.js";
+import { LANGUAGE } from "./texts.js";
 
 /** @import { Session } from "./protocol.js" */
 
@@ -12,12 +13,19 @@ const MISSING = new Set([404, 410, 422]);
 /** @typedef {"here" | "missing" | "unreachable"} Presence */
 
 /**
- * A new session with everything at its default.
+ * A new session with everything at its default, told in the page's language where the service speaks it.
  * @param {typeof fetch} [http]
+ * @param {string} [language]
  * @returns {Promise<Session>} throws `Refused`
  */
-export function createSession(http) {
-  return askJson(SESSIONS_PATH, { method: "POST", body: {}, http });
+export async function createSession(http, language = LANGUAGE) {
+  if (language === "en") return askJson(SESSIONS_PATH, { method: "POST", body: {}, http });
+  try {
+    return await askJson(SESSIONS_PATH, { method: "POST", body: { language }, http });
+  } catch (error) {
+    if (error instanceof Refused && error.status === 422) return createSession(http, "en");
+    throw error;
+  }
 }
 
 /**

@@ -5,7 +5,7 @@ import { html, live, nothing, render } from "../../vendor/lit-html.js";
 import { COMMANDS, runCommand } from "../core/commands.js";
 import { t } from "../core/texts.js";
 import { paceText } from "../core/words.js";
-import { iconOf } from "../ui/icons.js";
+import { icon } from "../ui/icons.js";
 
 /** @import { Command } from "../core/commands.js" */
 /** @import { Page } from "../core/page.js" */
@@ -41,7 +41,7 @@ export function createControls(host, page) {
 /** @param {Command} act @param {State} state @param {boolean} off @param {Page} page */
 function button(act, state, off, page) {
   const doing = act.now(state);
-  const { label, icon = act.name } = doing ?? { label: t(`clock.${act.name}`) };
+  const { label, icon: picture = act.name } = doing ?? { label: t(`clock.${act.name}`) };
   const title = [label, act.keyName].filter(Boolean).join("  ");
   return html`<button
     class=${act.name === "clock" ? "button strong" : "button"}
@@ -52,7 +52,7 @@ function button(act, state, off, page) {
     data-act=${act.name}
     ?disabled=${off || doing === null}
     @click=${() => runCommand(act, page)}
-  ><span class="control-icon">${iconOf(icon)}</span><span class="control-label">${label}</span></button>`;
+  ><span class="control-icon">${icon(picture)}</span><span class="control-label">${label}</span></button>`;
 }
 
 /** @param {number | "max"} pace @param {boolean} off @param {Page} page */

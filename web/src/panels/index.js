@@ -1,7 +1,7 @@
 // @ts-check
 /** The panels of the page, each in a file of its own; a new panel is a file and a line here. */
 
-import { byId } from "../ui/dom.js";
+import { byId } from "../ui/slot.js";
 import { createAnnouncer } from "../talk/announcer.js";
 import { createCaption } from "../road/caption.js";
 import { createCard } from "../why/bubbleLoader.js";
@@ -9,18 +9,17 @@ import { createCommand } from "../talk/commandBox.js";
 import { createCounterfactual } from "../why/counterfactualLoader.js";
 import { createConnectionBadge } from "./connection.js";
 import { createControls } from "./controls.js";
+import { createHelpLoader, createPaletteLoader } from "../talk/dialogLoader.js";
 import { createExport } from "../timeline/export.js";
 import { createForesight } from "../why/forecastPoller.js";
-import { createHelp } from "../talk/help.js";
 import { createRoadInput } from "../road/roadInput.js";
 import { createLanes } from "../road/laneList.js";
 import { createLog } from "./log.js";
 import { createMetrics } from "./metrics.js";
 import { createNotice } from "../ui/notice.js";
 import { createOccupancy } from "./occupancy.js";
-import { createPalette } from "../talk/palette.js";
 import { createPast } from "../timeline/pastBar.js";
-import { createServerVideo } from "../road/serverVideo.js";
+import { createServerVideo } from "../road/serverVideoLoader.js";
 import { createPlan } from "./plan.js";
 import { createRoad } from "../road/road.js";
 import { createSchematic } from "./schematic.js";
@@ -77,7 +76,7 @@ export function createPanels(page) {
     createOccupancy(byId("occupancy")),
     createMetrics(byId("metrics"), page),
     createReader(),
-    createPalette(/** @type {HTMLDialogElement} */ (byId("palette")), page),
-    createHelp(byId("help"), /** @type {HTMLDialogElement} */ (byId("help-dialog")), page),
+    createPaletteLoader(/** @type {HTMLDialogElement} */ (byId("palette")), page),
+    createHelpLoader(byId("help"), /** @type {HTMLDialogElement} */ (byId("help-dialog")), page),
   ];
 }

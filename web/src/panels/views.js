@@ -3,7 +3,7 @@
 
 import { html, nothing, render } from "../../vendor/lit-html.js";
 import { t } from "../core/texts.js";
-import { iconOf } from "../ui/icons.js";
+import { icon } from "../ui/icons.js";
 import { createMenu } from "../ui/menu.js";
 import { find } from "../ui/slot.js";
 import { keepViews, LAYERS, PARTS, viewsLeft } from "../ui/views.js";
@@ -75,12 +75,12 @@ function headButtons(name, large, { enlarge, hide }) {
   const grow = large ? t("views.shrink") : t("views.enlarge", { name: theName(name) });
   const hides = t("views.hide", { name: theName(name) });
   return html`<button class="head-button" type="button" data-enlarge=${name} title=${large ? `${grow}  Esc` : grow} aria-label=${grow} aria-pressed=${String(large)} @click=${() => enlarge(name)}>
-      ${iconOf(large ? "shrink" : "grow")}
+      ${icon(large ? "shrink" : "grow")}
     </button>
     ${
       name === "road" || name === "talk"
         ? nothing
-        : html`<button class="head-button" type="button" data-hide=${name} aria-label=${hides} title=${hides} @click=${() => hide(name)}>${iconOf("close")}</button>`
+        : html`<button class="head-button" type="button" data-hide=${name} aria-label=${hides} title=${hides} @click=${() => hide(name)}>${icon("close")}</button>`
     }`;
 }
 

@@ -1,7 +1,7 @@
 // @ts-check
 /** Who drives, and by which key that is changed; driving itself (`manualDrive.js`) is fetched when a person first does. */
 
-import { onDemand, styled } from "../core/lazy.js";
+import { lazyPanel, styled } from "../core/lazy.js";
 import { t } from "../core/texts.js";
 
 /** @import { Page } from "../core/page.js" */
@@ -9,11 +9,14 @@ import { t } from "../core/texts.js";
 
 /** @param {HTMLElement} host  the road @param {Page} page @returns {Panel} */
 export function createDriving(host, page) {
-  /** @type {Panel | null} */ let manual = null;
-  const wanted = onDemand(page, async () => {
-    const [{ createManualDrive }] = await Promise.all([import("./manualDrive.js"), styled("wheel")]);
-    return (manual = createManualDrive(host, page));
-  });
+  const manual = lazyPanel(
+    page,
+    ({ world }) => world?.mode === "manual",
+    async () => {
+      const [{ createManualDrive }] = await Promise.all([import("./manualDrive.js"), styled("wheel")]);
+      return createManualDrive(host, page);
+    },
+  );
 
   return {
     commands: [
@@ -39,9 +42,6 @@ export function createDriving(host, page) {
       },
     ],
 
-    update(state, before) {
-      if (manual) manual.update?.(state, before);
-      else if (state.world?.mode === "manual") wanted((made) => made.update?.(page.state(), before));
-    },
+    update: manual.update,
   };
 }

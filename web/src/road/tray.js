@@ -4,7 +4,7 @@
 import { html, nothing } from "../../vendor/lit-html.js";
 import { t } from "../core/texts.js";
 import { readPalette } from "../core/theme.js";
-import { iconOf } from "../ui/icons.js";
+import { icon } from "../ui/icons.js";
 import { createSlot } from "../ui/slot.js";
 import { TOOLS } from "./edit.js";
 import { Sprites } from "./paint/sprites.js";
@@ -32,7 +32,7 @@ export function createTray(host, places, { grab, choose }) {
     host.toggleAttribute("data-tray", open);
     show(
       html`<div class="tray">
-        <button class="tray-open" type="button" aria-expanded=${String(open)} aria-controls="tray-tools" aria-label=${t("road.put_things")} @click=${toggle}>${iconOf("plus")}</button>
+        <button class="tray-open" type="button" aria-expanded=${String(open)} aria-controls="tray-tools" aria-label=${t("road.put_things")} @click=${toggle}>${icon("plus")}</button>
         <div class="tray-tools" id="tray-tools" role="group" aria-label=${t("road.put_on")}>${TOOLS.map(({ kind }) => tool(kind))}</div>
       </div>`,
     );

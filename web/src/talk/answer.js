@@ -4,7 +4,7 @@
 import { html, nothing } from "../../vendor/lit-html.js";
 import { t } from "../core/texts.js";
 import { MOVES, moveName, plain, reasonWords } from "../core/words.js";
-import { iconOf } from "../ui/icons.js";
+import { icon } from "../ui/icons.js";
 import { labelOf } from "../why/alternatives.js";
 
 /** @import { Page } from "../core/page.js" */
@@ -55,7 +55,7 @@ function proofTemplate({ verified }) {
   const shown = PROOFS.filter((property) => verified?.[property]);
   if (shown.length === 0) return nothing;
   return html`<p class="proof">
-    ${iconOf("proof")}<span>${t("answer.proved")}</span>
+    ${icon("proof")}<span>${t("answer.proved")}</span>
     ${shown.map((property) => html`<span class="proof-tag" title=${t(`answer.${property}_for`)}>${t(`answer.${property}`)}</span>`)}
   </p>`;
 }
@@ -63,7 +63,7 @@ function proofTemplate({ verified }) {
 /** Play a change beside the real run. @param {number} tick @param {Action[]} actions @param {Page} page */
 function watchButton(tick, actions, page) {
   const watch = () => page.pick({ kind: "change", tick, actions, label: labelOf(actions) });
-  return html`<button class="button small watch" type="button" @click=${watch}>${iconOf("play")}${t("answer.watch")}</button>`;
+  return html`<button class="button small watch" type="button" @click=${watch}>${icon("play")}${t("answer.watch")}</button>`;
 }
 
 /** @param {Option[]} alternatives @param {number | null} tick @param {Page} page */
@@ -83,7 +83,7 @@ function alternativeTemplate({ move, cell, verdict, reason }, tick, page) {
     <span class="option-reason">${reasonWords(reason)}</span>
     ${
       cell && tick !== null
-        ? html`<button class="option-watch" type="button" aria-label=${t("answer.watch_move", { move: moveName(move) })} title=${t("answer.watch")} @click=${watch}>${iconOf("play")}</button>`
+        ? html`<button class="option-watch" type="button" aria-label=${t("answer.watch_move", { move: moveName(move) })} title=${t("answer.watch")} @click=${watch}>${icon("play")}</button>`
         : nothing
     }
   </li>`;

@@ -4,7 +4,7 @@
 import { html, live, nothing, render } from "../../vendor/lit-html.js";
 import { browserStorage } from "../core/preferences.js";
 import { t } from "../core/texts.js";
-import { iconOf } from "../ui/icons.js";
+import { icon } from "../ui/icons.js";
 import { find } from "../ui/slot.js";
 import { History } from "./history.js";
 import { createMicrophone } from "./speech.js";
@@ -111,6 +111,6 @@ function template(text, suggestions, { input, key, blur }, microphone) {
       <kbd class="hint" aria-hidden="true">/</kbd>
     </div>
     ${microphone?.() ?? nothing}
-    <button class="button strong icon send" type="submit" aria-label=${t("talk.send")}>${iconOf("send")}</button>
+    <button class="button strong icon send" type="submit" aria-label=${t("talk.send")}>${icon("send")}</button>
     ${suggestions.line(t(touch() ? "talk.hint_touch" : "talk.hint"))}`;
 }

@@ -2,10 +2,10 @@
 /** The conversation: what was said and what came back; at first, things to try. */
 
 import { html, render, repeat } from "../../vendor/lit-html.js";
+import { onDemand } from "../core/lazy.js";
 import { t } from "../core/texts.js";
 import { standingOf } from "../core/undoStack.js";
 import { LAYOUTS, layoutName } from "../core/words.js";
-import { exchangeTemplate } from "./exchange.js";
 import { shown } from "./exchanges.js";
 
 /** @import { Command } from "../core/commands.js" */
@@ -16,29 +16,46 @@ import { shown } from "./exchanges.js";
 
 const EXAMPLES = ["change", "why", "road"];
 
+/** @typedef {typeof import("./exchange.js").exchangeTemplate} ExchangeTemplate */
+
 /** @param {HTMLElement} host @param {Page} page @returns {Panel} */
 export function createTalk(host, page) {
-  render(template(page.state(), page), host);
+  // How exchanges look is fetched with the first of them.
+  const wanted = onDemand(page, async () => (await import("./exchange.js")).exchangeTemplate);
+  /** @type {ExchangeTemplate | null} */ let looks = null;
 
+  /** @param {State} state @param {State | null} before */
+  function show(state, before) {
+    if (looks === null && shown(state.talk).length > 0) {
+      return wanted((fetched) => {
+        looks = fetched;
+        show(page.state(), null);
+      });
+    }
+    render(template(state, page, looks), host);
+    const known = new Set(before?.talk);
+    const newest = shown(state.talk).findLast((exchange) => !known.has(exchange));
+    if (newest) host.querySelector(`[data-id="${newest.id}"]`)?.scrollIntoView({ block: "nearest" });
+  }
+
+  show(page.state(), null);
+  // Who begins to use the page will soon want it.
+  addEventListener("focusin", () => wanted((fetched) => (looks ??= fetched)), { once: true });
   return {
     commands: roadCommands(),
 
     update(state, before) {
-      if (state.talk === before.talk && state.steps === before.steps) return;
-      render(template(state, page), host);
-      const known = new Set(before.talk);
-      const newest = shown(state.talk).findLast((exchange) => !known.has(exchange));
-      if (newest) host.querySelector(`[data-id="${newest.id}"]`)?.scrollIntoView({ block: "nearest" });
+      if (state.talk !== before.talk || state.steps !== before.steps) show(state, before);
     },
   };
 }
 
-/** @param {State} state @param {Page} page */
-function template({ talk, steps }, page) {
+/** @param {State} state @param {Page} page @param {ExchangeTemplate | null} exchangeTemplate */
+function template({ talk, steps }, page, exchangeTemplate) {
   const exchanges = shown(talk);
   return html`<div class="exchanges" tabindex="0" role="log" aria-label=${t("talk.label")} aria-live="off">
     ${
-      exchanges.length === 0
+      exchanges.length === 0 || exchangeTemplate === null
         ? welcome(page)
         : repeat(
             exchanges,
@@ -73,7 +90,7 @@ function example(text, what, page) {
 }
 
 /** New roads to choose from the palette, one of each family. @returns {Command[]} */
-function roadCommands() {
+export function roadCommands() {
   return LAYOUTS.map((layout) => ({
     name: `road-${layout}`,
     group: t("groups.new_road"),

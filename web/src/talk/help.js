@@ -12,7 +12,6 @@ import { canSpeak, speak, speaks } from "./speech.js";
 
 /** @import { Page } from "../core/page.js" */
 /** @import { LanguageGuide, TaughtPhrase } from "../core/wire.js" */
-/** @import { Panel } from "../panels/index.js" */
 
 const MOST_EXAMPLES = 3;
 /** Kinds of sentences under people's headings, in the order of a first hour; others follow under their own name. */
@@ -40,8 +39,8 @@ const MORE_KEYS = [
 
 /** @typedef {{guidance: LanguageGuide | null, trouble: string | null}} Known  what the service has told */
 
-/** @param {HTMLElement} button @param {HTMLDialogElement} dialog @param {Page} page @returns {Panel} */
-export function createHelp(button, dialog, page) {
+/** @param {HTMLDialogElement} dialog @param {Page} page */
+export function createHelp(dialog, page) {
   const asking = turns();
   const put = (/** @type {string} */ text) => {
     dialog.close();
@@ -71,13 +70,7 @@ export function createHelp(button, dialog, page) {
   dialog.addEventListener("click", (event) => {
     if (event.target === dialog) dialog.close();
   });
-  button.addEventListener("click", () => void open());
-  return {
-    commands: [
-      { name: "box", group: t("groups.talk"), keyName: "/", now: () => ({ label: t("talk.to_box"), run: () => document.getElementById("words")?.focus() }) },
-      { name: "help", group: t("groups.help"), key: "?", keyName: "?", now: () => ({ label: t("help.title"), run: () => void open() }) },
-    ],
-  };
+  return { open };
 }
 
 /** @param {unknown[]} parts @param {() => void} close */

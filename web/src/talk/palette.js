@@ -8,7 +8,6 @@ import { t } from "../core/texts.js";
 import { guide } from "./language.js";
 
 /** @import { Page } from "../core/page.js" */
-/** @import { Panel } from "../panels/index.js" */
 
 /** @typedef {{label: string, group: string, key?: string, said?: boolean, run: () => void}} Entry  said: a sentence */
 /** @typedef {{entries: Entry[], typed: string, at: number}} Shown */
@@ -17,12 +16,11 @@ const MOST_SHOWN = 60;
 /** Sentences of a kind. */
 const MOST_EXAMPLES = 3;
 
-/** @param {HTMLDialogElement} dialog @param {Page} page @returns {Panel} */
+/** @param {HTMLDialogElement} dialog @param {Page} page */
 export function createPalette(dialog, page) {
   /** @type {Shown} */ let shown = { entries: [], typed: "", at: 0 };
   const asking = turns();
   const found = () => rank(shown.entries, shown.typed).slice(0, MOST_SHOWN);
-  dialog.setAttribute("aria-label", t("palette.label"));
 
   /** @param {Partial<Shown>} change @param {boolean} [scroll] */
   function show(change, scroll = true) {
@@ -42,9 +40,10 @@ export function createPalette(dialog, page) {
     entry.run();
   }
 
-  async function open() {
+  /** @param {string} [typed]  what is searched for already */
+  async function open(typed = "") {
     if (document.querySelector("dialog[open]")) return;
-    show({ entries: commandsNow(page), typed: "", at: 0 });
+    show({ entries: commandsNow(page), typed, at: 0 });
     dialog.showModal();
     const newest = asking();
     const guidance = await guide().catch(() => null); // the commands alone are useful too
@@ -56,12 +55,6 @@ export function createPalette(dialog, page) {
     show({ at: Math.max(0, found().findIndex(({ label }) => label === marked)) });
   }
 
-  addEventListener("keydown", (event) => {
-    if (event.key.toLowerCase() !== "k" || !(event.ctrlKey || event.metaKey) || event.altKey || event.shiftKey) return;
-    event.preventDefault();
-    if (dialog.open) dialog.close();
-    else void open();
-  });
   dialog.addEventListener("click", (event) => {
     if (event.target === dialog) dialog.close(); // beside it
   });
@@ -75,7 +68,7 @@ export function createPalette(dialog, page) {
     event.preventDefault();
   });
 
-  return { commands: [{ name: "palette", group: t("groups.help"), keyName: "Ctrl K", now: () => ({ label: t("palette.label"), run: () => void open() }) }] };
+  return { open };
 }
 
 /**

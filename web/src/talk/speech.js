@@ -8,7 +8,7 @@
 import { html } from "../../vendor/lit-html.js";
 import { prefer, preference } from "../core/preferences.js";
 import { LANGUAGE, t } from "../core/texts.js";
-import { iconOf } from "../ui/icons.js";
+import { icon } from "../ui/icons.js";
 
 /** @import { Command } from "../core/commands.js" */
 /** @import { Panel } from "../panels/index.js" */
@@ -49,7 +49,7 @@ export function createMicrophone(put, changed) {
 
   return () =>
     html`<button class="button quiet icon microphone" type="button" aria-label=${t("talk.speak")} aria-pressed=${String(listening !== null)} title=${title} @click=${press}>
-      ${iconOf("microphone")}
+      ${icon("microphone")}
     </button>`;
 }
 

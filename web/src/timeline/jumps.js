@@ -3,7 +3,7 @@
 
 import { html } from "../../vendor/lit-html.js";
 import { t } from "../core/texts.js";
-import { iconOf } from "../ui/icons.js";
+import { icon } from "../ui/icons.js";
 import { eventText, JUMPS, nextEvent } from "./timelineEvents.js";
 import { allEvents } from "./timelineState.js";
 
@@ -71,7 +71,7 @@ function button({ name, key }, press) {
   const label = t(`timeline.${name}_kind`, { kind: t("timeline.kinds.any") });
   const title = `${t(`timeline.${name}`)}  ${key}`;
   return html`<button class="button icon small" type="button" data-jump=${name} aria-label=${label} title=${title} aria-keyshortcuts=${key} @click=${press}>
-    ${iconOf(name)}
+    ${icon(name)}
   </button>`;
 }
 

@@ -4,7 +4,7 @@
 import { html, nothing, render } from "../../vendor/lit-html.js";
 import { runCommand } from "../core/commands.js";
 import { t } from "../core/texts.js";
-import { iconOf } from "../ui/icons.js";
+import { icon } from "../ui/icons.js";
 
 /** @import { Command } from "../core/commands.js" */
 /** @import { Page } from "../core/page.js" */
@@ -49,7 +49,7 @@ function bar({ look, world }, page) {
       <span class="past-tick">${t("past.tick", { tick: look.tick })}</span><span class="past-now">${t("past.of", { now: world?.tick ?? look.tick })}</span>
     </span>
     <button class="past-do" type="button" data-past="play" data-playing=${String(look.playing)} aria-label=${t("past.play_here")} title=${t("past.play_here")} @click=${() => page.timeTravel.toggle()}>
-      ${iconOf(look.playing ? "pause" : "play")}<span class="past-label">${t(look.playing ? "past.pause" : "past.play")}</span>
+      ${icon(look.playing ? "pause" : "play")}<span class="past-label">${t(look.playing ? "past.pause" : "past.play")}</span>
     </button>
     ${button("fork", t("past.fork"), t("past.fork_here"), run("fork"))}
     ${button("rewind", t("past.rewind"), t("past.rewind_here"), run("rewind"))}
@@ -62,7 +62,7 @@ function bar({ look, world }, page) {
 /** @param {string} name @param {string} text @param {string} label @param {() => void} press */
 function button(name, text, label, press) {
   return html`<button class="past-do" type="button" data-past=${name} aria-label=${label} title=${label} @click=${press}>
-    ${iconOf(name)}<span class="past-label">${text}</span>
+    ${icon(name)}<span class="past-label">${text}</span>
   </button>`;
 }
 

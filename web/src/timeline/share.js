@@ -6,7 +6,7 @@ import { hashOf } from "../core/address.js";
 import { onDemand, styled } from "../core/lazy.js";
 import { browserStorage } from "../core/preferences.js";
 import { t } from "../core/texts.js";
-import { iconOf } from "../ui/icons.js";
+import { icon } from "../ui/icons.js";
 import { createMenu } from "../ui/menu.js";
 import { createSlot } from "../ui/slot.js";
 import { forks } from "./links.js";
@@ -65,7 +65,7 @@ function originLink(session) {
   const text = t("session.origin_tick", { tick: from.tick });
   const title = t("session.origin_title", { text });
   return html`<a class="origin" href=${hashOf(from.parent, from.tick)} title=${title} aria-label=${title}>
-    ${iconOf("fork")}<span class="origin-text">${text}</span>
+    ${icon("fork")}<span class="origin-text">${text}</span>
   </a>`;
 }
 

@@ -3,7 +3,7 @@
 
 import { html, render } from "../../vendor/lit-html.js";
 import { t } from "../core/texts.js";
-import { iconOf } from "./icons.js";
+import { icon } from "./icons.js";
 import { createSlot } from "./slot.js";
 
 let made = 0;
@@ -20,7 +20,7 @@ export function makeDialog(title, ...content) {
     html`<dialog class="dialog" closedby="any" aria-labelledby=${id} @keydown=${(/** @type {Event} */ event) => event.stopPropagation()}>
       <header class="dialog-head">
         <h2 class="dialog-title" id=${id}>${title}</h2>
-        <button class="button quiet icon" type="button" aria-label=${t("page.close")} @click=${() => dialog.close()}>${iconOf("close")}</button>
+        <button class="button quiet icon" type="button" aria-label=${t("page.close")} @click=${() => dialog.close()}>${icon("close")}</button>
       </header>
       <div class="dialog-body">${content}</div>
     </dialog>`,

@@ -26,21 +26,7 @@ const PATHS = /** @type {Record<string, string>} */ ({
   proof: "M10 16.6 5.4 12l1.5-1.5 3.1 3.1 7.1-7.1L18.6 8z",
 });
 
-const SVG = "http://www.w3.org/2000/svg";
-
-/** @param {string} name @returns {SVGSVGElement} */
-export function icon(name) {
-  const picture = document.createElementNS(SVG, "svg");
-  picture.setAttribute("viewBox", "0 0 24 24");
-  picture.setAttribute("aria-hidden", "true");
-  picture.classList.add("icon");
-  const path = document.createElementNS(SVG, "path");
-  path.setAttribute("d", PATHS[name] ?? "");
-  picture.append(path);
-  return picture;
-}
-
 /** An icon as a template. @param {string} name */
-export function iconOf(name) {
+export function icon(name) {
   return html`<svg class="icon" viewBox="0 0 24 24" aria-hidden="true"><path d=${PATHS[name] ?? ""}></path></svg>`;
 }

@@ -2,7 +2,7 @@
 /** A menu behind a button: a native popover, with the keys that menus have: arrows, Home, End, first letters. */
 
 import { html, nothing, render } from "../../vendor/lit-html.js";
-import { iconOf } from "./icons.js";
+import { icon } from "./icons.js";
 import { find } from "./slot.js";
 
 /**
@@ -83,7 +83,7 @@ export function createMenu(host, label, items) {
  */
 function template({ id, label, open, items, pressed, toggles, toggled, opens }) {
   return html`<button class="button quiet menu-button" type="button" popovertarget=${id} aria-haspopup="menu" aria-expanded=${String(open)} @keydown=${opens}>
-      <span class="menu-label">${label}</span>${iconOf("down")}
+      <span class="menu-label">${label}</span>${icon("down")}
     </button>
     <div class="menu-list" id=${id} role="menu" aria-label=${label} popover @beforetoggle=${toggles} @toggle=${toggled}>
       ${items.map((item) => (item ? entry(item, pressed) : html`<div class="menu-line" role="separator"></div>`))}

@@ -3,7 +3,7 @@
 
 import { html, nothing, render } from "../../vendor/lit-html.js";
 import { t } from "../core/texts.js";
-import { iconOf } from "./icons.js";
+import { icon } from "./icons.js";
 
 /** @import { Page } from "../core/page.js" */
 /** @import { Notice } from "../core/state.js" */
@@ -41,6 +41,6 @@ function box({ text, tone, offer }, page) {
   return html`<div class="notice-box" data-tone=${tone ?? "plain"}>
     <span class="notice-text">${text}</span>
     ${offer ? html`<button class="notice-offer" type="button" @click=${take}>${offer.label}</button>` : nothing}
-    <button class="notice-close" type="button" aria-label=${t("page.dismiss")} @click=${() => page.tell(null)}>${iconOf("close")}</button>
+    <button class="notice-close" type="button" aria-label=${t("page.dismiss")} @click=${() => page.tell(null)}>${icon("close")}</button>
   </div>`;
 }

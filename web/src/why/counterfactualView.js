@@ -14,7 +14,7 @@ import { capital, t } from "../core/texts.js";
 import { wantsStillness } from "../core/theme.js";
 import { MOVES } from "../core/words.js";
 import { createRoad } from "../road/road.js";
-import { iconOf } from "../ui/icons.js";
+import { icon } from "../ui/icons.js";
 import { find } from "../ui/slot.js";
 import { fetchBeside, nameOfOther, partOf, titleOf } from "./counterfactual.js";
 
@@ -215,7 +215,7 @@ function template(shown, hands) {
         <h2 class="beside-title" id="beside-title">${other ? titleOf(other, found?.tick) : ""}</h2>
         <p class="beside-summary" role="status">${summary}${found ? html`<span class="unseen"> ${endsText(found, other)}</span>` : nothing}</p>
       </div>
-      <button class="button quiet icon" type="button" aria-label=${t("counterfactual.close")} title="${t("page.close")}  Esc" @click=${hands.leave}>${iconOf("close")}</button>
+      <button class="button quiet icon" type="button" aria-label=${t("counterfactual.close")} title="${t("page.close")}  Esc" @click=${hands.leave}>${icon("close")}</button>
     </header>
     <div class="beside-sides">${SIDES.map((key) => side(key, shown))}</div>
     ${controls(shown, hands)}`;
@@ -246,7 +246,7 @@ function controls({ found, at, last, playing }, { toggle, slide }) {
   const tick = t("counterfactual.tick", { tick: (found?.tick ?? 0) + at });
   return html`<div class="beside-controls">
     <button class="button strong icon" type="button" aria-label=${t(playing ? "counterfactual.pause" : "counterfactual.play")} title="${t(playing ? "clock.pause" : "clock.play")}  ${t("clock.space")}" @click=${toggle}>
-      ${iconOf(playing ? "pause" : "play")}
+      ${icon(playing ? "pause" : "play")}
     </button>
     <div class="beside-track">
       <span class="beside-parting" aria-hidden="true" ?hidden=${!part || last === 0} .style=${part && last > 0 ? `inset-inline-start: ${((part.at - 1) / last) * 100}%` : ""}></span>
