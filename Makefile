@@ -1,33 +1,43 @@
-# One command each; every target sets up what it needs, and does so quickly the second time.
+# Every target sets up what it needs. The second time it starts at once.
 
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 VENV   ?= .venv
 BIN    := $(VENV)/bin
 HOST   ?= 127.0.0.1
-# One more than there are cores: a test that waits for a browser or a process leaves its core to others.
-WORKERS ?= $(shell echo $$(($$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2) + 1)))
 PORT   ?= 8000
+# One test process more than there are cores: tests that wait for a browser leave their core to others.
+WORKERS ?= $(shell echo $$(($$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2) + 1)))
+
+# The site is built aside and moved into place, so that a running service never shows half of it.
+SPHINX := $(BIN)/python -m sphinx -q -W --keep-going -E -b html -d $(VENV)/doctrees docs $(VENV)/site && \
+          rm -rf docs/site && mv $(VENV)/site docs/site
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test check style types types-page format bench clean
+.PHONY: help setup run docs test check style types types-page format bench clean
 
-help: ## what can be made
+help: ## List the targets
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
 
-setup: $(VENV)/.ready-dev node_modules/.ready ## everything for running and for development
+setup: $(VENV)/.ready-dev node_modules/.ready ## Install everything for development
 
-run: $(VENV)/.ready-run ## the service; prints its address
+# The first time, the guide is built in the background while the service already runs.
+run: $(VENV)/.ready-run ## Start the service and print its address (HOST=…, PORT=…)
+	@test -e docs/site/index.html || ( $(SPHINX) ) >$(VENV)/guide.log 2>&1 </dev/null &
 	@$(BIN)/roadtalk serve --host $(HOST) --port $(PORT)
 
-# Types are checked beside the tests, since that takes one core a minute; what comes of it is told last.
-test: style ## all checks and all tests
-	@told=$$(mktemp); trap 'rm -f "$$told"' EXIT; \
-	$(MAKE) --no-print-directory types >"$$told" 2>&1 & types=$$!; \
+docs: $(VENV)/.ready-run ## Build the documentation site; warnings and dead links are errors
+	@$(SPHINX)
+	@echo "The site is in docs/site; a running service shows it at /guide."
+
+# The type checker runs beside the tests, since it needs one core for a minute. Its output comes last.
+test: style docs ## Run all checks and all tests
+	@output=$$(mktemp); trap 'rm -f "$$output"' EXIT; \
+	$(MAKE) --no-print-directory types >"$$output" 2>&1 & types=$$!; \
 	echo "$(BIN)/python -m pytest -n $(WORKERS) --dist loadgroup"; \
 	$(BIN)/python -m pytest -n $(WORKERS) --dist loadgroup; tests=$$?; \
-	wait $$types; types=$$?; cat "$$told"; exit $$((tests || types))
+	wait $$types; types=$$?; cat "$$output"; exit $$((tests || types))
 
-check: style types ## style and types
+check: style types docs ## Check style, types and documentation
 
 style: $(VENV)/.ready-dev node_modules/.ready
 	$(BIN)/ruff check .
@@ -41,32 +51,32 @@ types: $(VENV)/.ready-dev node_modules/.ready
 types-page: $(VENV)/.ready-dev ## write the page's types of the wire from the service's models
 	$(BIN)/python -m tools.wire_types
 
-format: $(VENV)/.ready-dev ## rewrite the code in the project's style
+format: $(VENV)/.ready-dev ## Rewrite the code in the project's style
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
-bench: $(VENV)/.ready-bench ## measured figures, in one run, peers included
+bench: $(VENV)/.ready-bench ## Measure speed, compared with other simulators
 	$(BIN)/python -m bench
 
-clean: ## take away what was set up
-	rm -rf $(VENV) node_modules .pytest_cache .mypy_cache .ruff_cache .hypothesis
+clean: ## Remove everything that was installed or built
+	rm -rf $(VENV) node_modules docs/site .pytest_cache .mypy_cache .ruff_cache .hypothesis
 
-# With uv where it is at hand, else with venv and pip. The stamps make the second time quick.
+# Packages are installed by uv if it is there, by venv and pip otherwise. The stamps make the second time quick.
 $(VENV)/bin/python:
 	@if command -v uv >/dev/null; then uv venv --quiet --python $(PYTHON) $(VENV); else $(PYTHON) -m venv $(VENV); fi
 
 $(VENV)/.ready-run: pyproject.toml | $(VENV)/bin/python
-	@echo "Setting up (once; a minute or less) ..."
-	@$(call install,.)
+	@echo "Installing (once; a minute or less) ..."
+	@$(call install,.[docs])
 	@touch $@
 
 $(VENV)/.ready-dev: pyproject.toml | $(VENV)/bin/python
-	@echo "Setting up for development (once; a minute or less) ..."
+	@echo "Installing for development (once; a minute or less) ..."
 	@$(call install,.[dev])
 	@touch $@ $(VENV)/.ready-run
 
 $(VENV)/.ready-bench: pyproject.toml | $(VENV)/bin/python
-	@echo "Setting up for measuring (once; a minute or two) ..."
+	@echo "Installing for measurements (once; a minute or two) ..."
 	@$(call install,.[dev,bench])
 	@touch $@ $(VENV)/.ready-dev $(VENV)/.ready-run
 

@@ -10,7 +10,7 @@ import orjson
 from bench.timing import timed
 from service.grammar import Language
 
-_DATA = Path(__file__).parent.parent / "tests" / "language" / "data" / "dev.jsonl"
+_DATA = Path(__file__).parent.parent / "tests" / "grammar" / "data" / "dev.jsonl"
 
 
 def main() -> None:

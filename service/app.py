@@ -17,6 +17,7 @@ from service.http.conditional.answers import KeptAnswers
 from service.http.deps import Context
 from service.http.metrics import Metrics, time_store
 from service.http.middleware.cross_site import CrossSiteCheck
+from service.http.middleware.direct_routes import DirectRoutes
 from service.http.middleware.head_method import HeadMethod
 from service.http.middleware.host_check import HostCheck
 from service.http.middleware.request_id import RequestId
@@ -37,6 +38,7 @@ from service.http.routes import (
     forecast,
     forks,
     frame,
+    guide,
     health,
     links,
     metrics,
@@ -111,7 +113,8 @@ _DESCRIPTION = """
 A vehicle that drives itself along a road of obstacles and potholes, live; changed and questioned in
 plain words.
 
-Everything the page does is a call documented here. Errors are problems (RFC 9457). A session is also
+The guide is at [/guide](/guide). Everything the page does is a call documented here.
+Errors are problems (RFC 9457). A session is also
 a stream: open a WebSocket on `/api/v1/sessions/{id}/stream`; it sends `hello`, then `tick` and
 `changed` messages, and takes `{"type": "command", "id": "1", "text": "add five potholes"}`.
 
@@ -188,17 +191,19 @@ def create_app(
         redirect_slashes=False,
     )
     app.state.context = context
+    routes = [route for resource in RESOURCES for route in resource.router.routes]
     # The last one added is the outermost.
+    app.add_middleware(DirectRoutes, routes=routes)
     app.add_middleware(CrossSiteCheck)
     app.add_middleware(HostCheck, hosts=guard.hosts)
     app.add_middleware(SecurityHeaders)
     app.add_middleware(HeadMethod)
     app.add_middleware(RequestId)
     errors.install(app)
-    for resource in RESOURCES:
-        app.router.routes.extend(resource.router.routes)
+    app.router.routes[:0] = routes
     openapi.install(app)
     docs.install(app)
     pages.install(app)
+    guide.install(app)
     app.router.routes.append(NO_WEBSOCKET)
     return app

@@ -1,8 +1,9 @@
-"""Log lines: for people or as JSON, with the id of the request they belong to, and without secrets.
+"""Logging: lines for people or as JSON, with the id of their request, and without secrets.
 
-Configured by whoever runs the service, here and nowhere else: a library does not configure logs. Standard
-error is written by a thread of its own: where it cannot be written (a full disk, a terminal that stands
-still, a pipe that nobody reads), lines are lost, and no request waits or fails for them.
+Configured by the commands that run the service, never by importing it. A thread writes to standard error:
+where that cannot be written (a full disk, a terminal that stands still, a pipe that nobody reads), lines are
+lost and counted, and no request waits or fails for them. Python's `QueueListener` would wait for ever for
+such a terminal when the process ends.
 """
 
 from __future__ import annotations
@@ -22,22 +23,22 @@ import structlog
 from service.settings import Settings
 
 HIDDEN = "[hidden]"
-MOST_WAITING = 10_000
+MAX_WAITING = 10_000
 """Lines that may wait to be written; more are lost."""
 
-LAST_S = 0.5
-"""How long an ending process waits for its last lines to be written."""
+EXIT_WAIT_S = 0.5
+"""How long a process that ends waits for its last lines to be written."""
 
 _SECRET_NAMES = ("key", "authorization", "password", "secret", "ticket", "token")
 
 
 def configure(settings: Settings, to: TextIO | None = None) -> None:
-    """Write log lines as the settings say, on standard error if nothing else is said."""
+    """Configures structlog and logging as the settings say; lines go to standard error by default."""
     lines: Any = sys.stderr if to is None else to
     colours = lines.isatty()
     if to is None:
         with suppress(OSError):  # what has no descriptor stands in memory
-            lines = Beside(sys.stderr.fileno(), settings.log_format)
+            lines = BackgroundWriter(sys.stderr.fileno(), settings.log_format)
             atexit.register(lines.close)
     secret = [each.get_secret_value() for each in (settings.api_key, settings.llm_api_key) if each]
     structlog.configure(
@@ -48,7 +49,7 @@ def configure(settings: Settings, to: TextIO | None = None) -> None:
             # As text before anything is hidden: a traceback may quote what must not be written. Never with
             # the values of local names, which richer renderers print.
             structlog.processors.format_exc_info,
-            _Hiding(secret),
+            _HideSecrets(secret),
             _renderer(settings.log_format, colours),
         ],
         wrapper_class=structlog.make_filtering_bound_logger(logging.INFO),
@@ -57,15 +58,15 @@ def configure(settings: Settings, to: TextIO | None = None) -> None:
     )
     # The server's and all libraries' own lines go the same way, in the same form.
     everybody = logging.getLogger()
-    if not any(isinstance(each, Passing) for each in everybody.handlers):
-        everybody.addHandler(Passing())
+    if not any(isinstance(each, ForwardHandler) for each in everybody.handlers):
+        everybody.addHandler(ForwardHandler())
 
 
-class Passing(logging.Handler):
-    """Hands on what others log as their own line."""
+class ForwardHandler(logging.Handler):
+    """Passes what libraries log through structlog."""
 
     def emit(self, record: logging.LogRecord) -> None:
-        """One line of theirs."""
+        """Logs one record."""
         told = record.exc_info or None
         structlog.get_logger(record.name).log(
             record.levelno, record.getMessage(), logger=record.name, exc_info=told
@@ -78,10 +79,10 @@ def _renderer(form: Literal["console", "json"], colours: bool) -> Any:
     return structlog.dev.ConsoleRenderer(colors=colours, exception_formatter=structlog.dev.plain_traceback)
 
 
-class Beside:
-    """A file that is written by a thread of its own; whoever writes never waits, and never fails."""
+class BackgroundWriter:
+    """A file that a thread writes; `write` never waits and never fails."""
 
-    def __init__(self, to: int, form: Literal["console", "json"], most: int = MOST_WAITING) -> None:
+    def __init__(self, to: int, form: Literal["console", "json"], most: int = MAX_WAITING) -> None:
         """`to` is the descriptor of an open file."""
         self._to = to
         self._form = form
@@ -92,22 +93,22 @@ class Beside:
         self._thread.start()
 
     def write(self, text: str) -> None:
-        """Have it written when that can be done."""
+        """Queues a line."""
         try:
             self._waiting.put_nowait(text)
         except queue.Full:
             self._count(1)
 
     def flush(self) -> None:
-        """Nothing is waited for."""
+        """Does nothing: lines are written as soon as they can be."""
 
     def close(self) -> None:
-        """Let what waits be written, if that does not take long."""
+        """Waits up to `EXIT_WAIT_S` for the lines that are queued."""
         try:
             self._waiting.put_nowait(None)
         except queue.Full:
             return
-        self._thread.join(LAST_S)
+        self._thread.join(EXIT_WAIT_S)
 
     def _run(self) -> None:
         while (text := self._waiting.get()) is not None:
@@ -135,8 +136,8 @@ def _lost_line(form: Literal["console", "json"], lost: int) -> str:
     return f'{{"event": "{said}", "level": "warning"}}\n' if form == "json" else f"[warning  ] {said}\n"
 
 
-class _Hiding:
-    """Takes out what is secret, by its name and by its value, however deep."""
+class _HideSecrets:
+    """Replaces secrets, found by name and by value, however deep."""
 
     def __init__(self, values: Collection[str]) -> None:
         self._values = [value for value in values if value]
@@ -144,18 +145,18 @@ class _Hiding:
     def __call__(
         self, _logger: Any, _method: str, event: MutableMapping[str, Any]
     ) -> MutableMapping[str, Any]:
-        """One line."""
+        """Handles one line."""
         for name, value in event.items():
-            event[name] = self._hidden(name, value)
+            event[name] = self._hide(name, value)
         return event
 
-    def _hidden(self, name: str, value: Any) -> Any:
+    def _hide(self, name: str, value: Any) -> Any:
         if any(part in _SECRET_NAMES for part in name.lower().split("_")):
             return HIDDEN
         if isinstance(value, dict):
-            return {key: self._hidden(str(key), each) for key, each in value.items()}
+            return {key: self._hide(str(key), each) for key, each in value.items()}
         if isinstance(value, list | tuple):
-            return [self._hidden("", each) for each in value]
+            return [self._hide("", each) for each in value]
         text = value if isinstance(value, str) else str(value)
         if not any(secret in text for secret in self._values):
             return value

@@ -53,7 +53,7 @@ class FieldProblem:
 
 
 class ProblemError(Exception):
-    """Base of the tree; `detail` is a sentence a person can act on."""
+    """Base class of all problems; `detail` is a sentence that a person can act on."""
 
     status: ClassVar[int] = 500
     slug: ClassVar[str] = "internal"
@@ -74,7 +74,7 @@ class ProblemError(Exception):
         self.more = more
 
     def document(self) -> dict[str, Any]:
-        """The problem as JSON values."""
+        """The problem document as JSON values."""
         return {
             "type": f"/problems/{self.slug}",
             "title": self.title,
@@ -86,13 +86,13 @@ class ProblemError(Exception):
 
 
 class Malformed(ProblemError):
-    """The body is not JSON at all."""
+    """The body is not JSON."""
 
     status, slug, title = 400, "malformed", "Not readable as JSON"
 
 
 class Unauthorized(ProblemError):
-    """The service has a key, and the request has not."""
+    """The service has a key, and the request has none or another."""
 
     status, slug, title = 401, "key-needed", "A key is needed"
 
@@ -104,7 +104,7 @@ class Unauthorized(ProblemError):
 
 
 class CrossSite(ProblemError):
-    """A page of another site asks for something, tries to change it, or to open the stream."""
+    """A page of another site sends a request, or opens the stream."""
 
     status, slug, title = 403, "cross-site", "Refused to a page of another site"
 
@@ -133,19 +133,19 @@ class UnknownDecision(NotFound):
 
 
 class MethodNotAllowed(ProblemError):
-    """The route exists, the method does not."""
+    """The route exists, but not with this method."""
 
     status, slug, title = 405, "method-not-allowed", "Method not allowed"
 
 
 class Ambiguous(ProblemError):
-    """What was said could mean several things; `choices` are ready sentences."""
+    """A text could mean several things; `choices` are sentences to choose from."""
 
     status, slug, title = 409, "ambiguous", "This could mean several things"
 
 
 class PreconditionFailed(ProblemError):
-    """The session was changed since the caller saw it; `sequence` is where it stands."""
+    """The session has changed since the client saw it; `sequence` is where it is now."""
 
     status, slug, title = 412, "stale", "Changed meanwhile"
 
@@ -159,7 +159,7 @@ class PreconditionFailed(ProblemError):
 
 
 class ContentTooLarge(ProblemError):
-    """More bytes than are read."""
+    """The body has more bytes than the limit."""
 
     status, slug, title = 413, "too-large", "Too large"
 
@@ -171,7 +171,7 @@ class UnsupportedMediaType(ProblemError):
 
 
 class MisdirectedRequest(ProblemError):
-    """The `Host` header names something else than this service."""
+    """The `Host` header names another host."""
 
     status, slug, title = 421, "foreign-host", "Not the name of this service"
 
@@ -189,7 +189,7 @@ class Invalid(ProblemError):
 
 
 class DoesNotFit(Invalid):
-    """The road has no room for it, or holds no such thing."""
+    """The road has no room for it, or has no such thing."""
 
     slug, title = "does-not-fit", "Does not fit the road"
 
@@ -201,37 +201,37 @@ class NotAvailable(Invalid):
 
 
 class NothingToUndo(Invalid):
-    """There is no change left to take back, or none to say again."""
+    """There is no change to undo, or none to redo."""
 
     slug, title = "nothing-to-undo", "Nothing to take back"
 
 
 class UnknownName(Invalid):
-    """Nothing was saved under this name; `suggestions` are the nearest."""
+    """No bookmark has this name; `suggestions` are the most similar ones."""
 
     slug, title = "unknown-name", "Nothing saved under this name"
 
 
 class NotUnderstood(Invalid):
-    """Words that could not be accounted for; nothing was applied."""
+    """Words that the grammar cannot account for; nothing was done."""
 
     slug, title = "not-understood", "Not understood"
 
 
 class NotAQuestion(Invalid):
-    """Understood, but something to do rather than to answer."""
+    """Understood, but an action and not a question."""
 
     slug, title = "not-a-question", "Not a question"
 
 
 class NotTeachable(Invalid):
-    """A phrase that cannot be taught, or forgotten."""
+    """A phrase that cannot be taught or forgotten."""
 
     slug, title = "not-teachable", "Cannot be taught"
 
 
 class IdempotencyKeyReused(Invalid):
-    """An idempotency key under which something else was asked before."""
+    """An idempotency key that was used for another request."""
 
     slug, title = "key-reused", "This key was another request's"
 
@@ -244,7 +244,7 @@ class IdempotencyKeyReused(Invalid):
 
 
 class RecordingMismatch(Invalid):
-    """A recording that does not replay to the digest it names."""
+    """A recording whose replay leads to another digest than it names."""
 
     slug, title = "recording-mismatch", "The recording does not replay to its digest"
 
@@ -256,7 +256,7 @@ class TooManySessions(ProblemError):
 
 
 class RateLimited(ProblemError):
-    """One client changes things faster than is let through."""
+    """A client sends changes faster than its rate limit."""
 
     status, slug, title = 429, "too-many-changes", "Too many changes"
 
@@ -268,13 +268,13 @@ class RateLimited(ProblemError):
 
 
 class QuotaExceeded(ProblemError):
-    """One client has as many sessions, or as much road, as it may have."""
+    """A client has as many sessions, or as much road, as its quota allows."""
 
     status, slug, title = 429, "over-quota", "Quota reached"
 
 
 class Internal(ProblemError):
-    """A defect of the service; never says more than that."""
+    """A defect of the service; the document says nothing of its inside."""
 
     def __init__(self, headers: Mapping[str, str] | None = None) -> None:
         super().__init__(
@@ -295,7 +295,7 @@ class NotSaved(ProblemError):
 
 
 class NotRestorable(ProblemError):
-    """What is kept of a session cannot be replayed."""
+    """A stored session cannot be replayed."""
 
     status, slug, title = 503, "not-restorable", "Could not be brought back"
 

@@ -1,14 +1,16 @@
-"""Refusals in words: a sentence for each code of `sim.codes`, and for what the service itself refuses.
+"""Refusals in words: a sentence for each error code of `sim.codes`, and for what the service itself refuses.
 
-The sentences are data (`prompts/sayings/<language>/refusals.yaml`). Requests that name no language, and
-languages without this file, get English.
+The sentences are in `prompts/sayings/<language>/refusals.yaml`. Requests without a language, and languages
+without this file, get English.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from functools import lru_cache
-from typing import Any, Literal
+from types import MappingProxyType
+from typing import Any, Final, Literal
 
 from service.resources import DEFAULT_LANGUAGE, prompts_folder
 from service.yaml_files import read_cached_yaml
@@ -18,6 +20,8 @@ from sim.rules.versions import NewerRulesError
 from sim.session.errors import EditError
 from sim.types import KINDS, Kind
 
+_NO_FAULTS: Final[Mapping[str, Any]] = MappingProxyType({})
+
 
 @lru_cache(maxsize=16)
 def refusals(language: str = DEFAULT_LANGUAGE) -> Refusals:
@@ -26,22 +30,62 @@ def refusals(language: str = DEFAULT_LANGUAGE) -> Refusals:
     path = folder / language / "refusals.yaml"
     if language not in {each.name for each in folder.iterdir()} or not path.is_file():
         path = folder / DEFAULT_LANGUAGE / "refusals.yaml"
-    return Refusals(read_cached_yaml([path])[0])
+    held, words = read_cached_yaml([path, path.with_name("words.yaml")])
+    return Refusals(held, words["faults"])
+
+
+@lru_cache(maxsize=1)
+def _fault_patterns() -> tuple[tuple[str, re.Pattern[str]], ...]:
+    """How the simulator words each fault of a planner: patterns that find its code and what it names."""
+    path = prompts_folder() / "sayings" / DEFAULT_LANGUAGE / "words.yaml"
+    known: dict[str, str] = read_cached_yaml([path])[0]["faults"]
+    return tuple(
+        (code, re.compile(re.sub(r"\\{(\w+)\\}", r"(?P<\1>.+)", re.escape(said))))
+        for code, said in known.items()
+        if code != "other"
+    )
+
+
+def fault_of(text: str) -> tuple[str, dict[str, str]]:
+    """The code of a fault that the simulator has worded, `other` for none that is known, and its parts."""
+    for code, pattern in _fault_patterns():
+        if found := pattern.fullmatch(text):
+            return code, found.groupdict()
+    return "other", {"text": text}
+
+
+class Decimal(float):
+    """A number that is written with the marks of a language."""
+
+    marks: Mapping[int, str]
+
+    def __new__(cls, value: float, marks: Mapping[int, str]) -> Decimal:
+        """`marks`: what stands for the point and the comma."""
+        new = super().__new__(cls, value)
+        new.marks = marks
+        return new
+
+    def __format__(self, spec: str) -> str:
+        """As Python formats it, with these marks."""
+        return super().__format__(spec).translate(self.marks)
 
 
 class Refusals:
-    """What is said in one language when something cannot be done."""
+    """The sentences of one language."""
 
-    def __init__(self, data: Mapping[str, Any]) -> None:
-        """`data`: what `refusals.yaml` holds."""
+    def __init__(self, data: Mapping[str, Any], faults: Mapping[str, Any] = _NO_FAULTS) -> None:
+        """`data`: what `refusals.yaml` holds; `faults`: what planners do instead of answering."""
         self._data = data
+        self._faults = faults
+        numbers = data["numbers"]
+        self._marks = str.maketrans({",": numbers["thousands"], ".": numbers["decimal"]})
 
     def edit(self, error: EditError) -> str:
-        """Why a change of the road cannot be made, as a sentence."""
+        """Why a change of the road is impossible, as a sentence."""
         return self._say("edits", error.code, error.facts)
 
     def problem(self, problem: Problem) -> str:
-        """What is wrong with a field, to follow its name; a sentence for what is not available."""
+        """The problem of a field, to follow its name; a whole sentence if it is unavailable."""
         return self._say("problems", problem.code, problem.facts)
 
     def advice(self, error: NoAdviceError) -> str:
@@ -56,12 +100,28 @@ class Refusals:
         """That something was made under older rules."""
         return self._say("rules", "older", {"rules": rules})
 
-    def session(self, code: str, **facts: object) -> str:
+    def session(self, code: str, /, **facts: object) -> str:
         """What a session cannot do, as a sentence."""
         return self._say("session", code, facts)
 
+    def said(self, code: str, /, **facts: object) -> str:
+        """What is wrong with something that was said or taught."""
+        return self._say("said", code, facts)
+
+    def beside(self, code: str, facts: Mapping[str, object]) -> str:
+        """Why another run cannot be shown beside the real one, as a sentence."""
+        return self._say("beside", code, facts)
+
+    def model(self, reason: str, facts: Mapping[str, object]) -> str:
+        """Why a language model was of no use, as a sentence."""
+        return self._say("model", reason, facts)
+
+    def action(self, name: str) -> str:
+        """What an action is called where no sentence means it."""
+        return str(self._data["actions"].get(name, name))
+
     def playback_speed(self, code: str, facts: Mapping[str, object]) -> str:
-        """Why the clock cannot be set so, as a sentence."""
+        """Why a playback speed is impossible, as a sentence."""
         return self._say("pace", code, facts)
 
     def _say(self, section: str, code: str, facts: Mapping[str, Any]) -> str:
@@ -83,10 +143,23 @@ class Refusals:
         if name == "kind":
             return self._nouns(str(value))
         if isinstance(value, tuple):
-            return ", ".join(map(str, value))
+            return ", ".join(str(self._worded(each)) for each in value)
+        if name == "fault":
+            return self._fault(str(value))
         if name in ("low", "high") and isinstance(value, float) and value.is_integer():
             return int(value)
-        return value
+        if isinstance(value, float):
+            return Decimal(value, self._marks)
+        return self._worded(value)
+
+    def _worded(self, value: object) -> object:
+        """A value as it is called, where it is a word."""
+        return self._data["values"].get(value, value) if isinstance(value, str) else value
+
+    def _fault(self, text: str) -> str:
+        code, parts = fault_of(text)
+        said = self._faults.get(code, "{text}" if code == "other" else text)
+        return str(next(iter(said.values())) if isinstance(said, dict) else said).format(**parts)
 
     def _nouns(self, kind: str) -> Mapping[str, str]:
         """The words for a kind, made from its names where the language has none of its own."""

@@ -23,6 +23,13 @@ def web_folder() -> Path:
     return _folder("web")
 
 
+def guide_folder() -> Path | None:
+    """The built documentation site; None if it was not built."""
+    checkout = (_CHECKOUT / "pyproject.toml").is_file()
+    folder = _CHECKOUT / "docs" / "site" if checkout else _BUNDLED / "guide"
+    return folder if (folder / "index.html").is_file() else None
+
+
 def _folder(name: str) -> Path:
     """A checkout's folder wins, so that an edit shows at once. Raises `FileNotFoundError`."""
     roots = (_CHECKOUT, _BUNDLED) if (_CHECKOUT / "pyproject.toml").is_file() else (_BUNDLED,)

@@ -1,7 +1,7 @@
-"""What whoever runs the service may choose, each with its default and its reason.
+"""Settings of the service, with their defaults and meanings.
 
-Read from the environment (`ROADTALK_PORT=9000`) or given by the command line; nothing else in the
-project reads the environment.
+They come from the environment (`ROADTALK_PORT=9000`) or the command line. Nothing else in the project
+reads the environment. The table in the documentation is made from the descriptions below.
 """
 
 from __future__ import annotations
@@ -21,111 +21,122 @@ class Settings(BaseSettings):
 
     host: str = Field(
         default="127.0.0.1",
-        description="Address to listen on; the default is reachable from this machine only.",
+        description="Address to listen on. The default is reachable from this machine only.",
     )
-    port: int = Field(default=8000, ge=0, le=65535, description="Port to listen on; 0 takes any free one.")
+    port: int = Field(default=8000, ge=0, le=65535, description="Port to listen on. 0 takes any free port.")
     database: str = Field(
         default="sqlite:///roadtalk.db",
         description="Where sessions are kept: `sqlite:///<file>`, `postgresql://<host>/<name>` or `memory:`.",
     )
     max_sessions: int = Field(
-        default=1_000, ge=1, description="Sessions that may be live at once; one more is refused."
+        default=1_000, ge=1, description="Maximum number of live sessions. Further ones are refused."
     )
     max_text_chars: int = Field(
-        default=500, ge=1, le=10_000, description="Length of what may be said at once."
+        default=500, ge=1, le=10_000, description="Maximum length of one utterance, in characters."
     )
     max_body_bytes: int = Field(
-        default=65_536, ge=1_024, description="Size of a request body or a stream message."
+        default=65_536, ge=1_024, description="Maximum size of a request body or a stream message, in bytes."
     )
     max_recording_bytes: int = Field(
         default=1_048_576,
         ge=1_024,
-        description="Size of a body that makes a session: it may carry a recording.",
+        description="Maximum size of a request that creates a session (it may carry a recording), in bytes.",
     )
     max_recording_ticks: int = Field(
-        default=200_000, ge=1, description="Length of a recording that is replayed."
+        default=200_000, ge=1, description="Maximum length of a recording that is replayed, in ticks."
     )
-    max_road_cells: int = Field(default=10_000, ge=12, description="Columns times rows of a session's road.")
+    max_road_cells: int = Field(default=10_000, ge=12, description="Maximum size of a road: columns × rows.")
     max_step_ticks: int = Field(
-        default=1_000, ge=1, le=10_000, description="Ticks one call to `step` may run."
+        default=1_000, ge=1, le=10_000, description="Maximum number of ticks that one call to `step` runs."
     )
-    log_events: int = Field(default=400, ge=10, description="Events a live session keeps for reading back.")
-    max_film_frames: int = Field(default=600, ge=1, le=10_000, description="Frames, and ticks, of one film.")
+    log_events: int = Field(
+        default=400, ge=10, description="Number of log events that a live session keeps in memory."
+    )
+    max_film_frames: int = Field(
+        default=600, ge=1, le=10_000, description="Maximum number of frames, and of ticks, in one video."
+    )
     sleep_after_s: float = Field(
         default=600.0,
         ge=1,
-        description="Seconds after which a paused session that nobody watches or asks for sleeps.",
+        description="Idle timeout in seconds, after which paused sessions without subscribers leave memory.",
     )
     sleep_running: bool = Field(
         default=False,
-        description="Whether running sessions that nobody watches sleep as well; they wake up paused.",
+        description="Whether running sessions without subscribers leave memory too. They return paused.",
     )
     snapshot_work: int = Field(
         default=4_000,
         ge=1,
-        description="Work on a session, about in ticks, after which another snapshot of it is kept; it saves "
-        "time when the session comes back, and nothing else.",
+        description="Snapshot interval, in ticks (approximate). Affects restore time only.",
     )
     max_malformed_messages: int = Field(
-        default=20, ge=1, description="Malformed stream messages before the socket is closed."
+        default=20, ge=1, description="Number of malformed messages after which a socket is closed."
     )
     llm_base_url: str | None = Field(
         default=None,
-        description="Address of an OpenAI-compatible server, `/v1` included; without it none is asked.",
+        description="Base URL of an OpenAI-compatible server, including `/v1`. Unset: no language model.",
     )
-    llm_model: str | None = Field(default=None, description="Name of the language model asked there.")
+    llm_model: str | None = Field(default=None, description="Name of the language model.")
     llm_api_key: SecretStr | None = Field(
-        default=None, description="Key sent to that server, if it wants one."
+        default=None, description="API key for that server, if it needs one."
     )
     llm_timeout_s: float = Field(
-        default=10.0, gt=0, le=120, description="Seconds a language model may take, a second try included."
+        default=10.0,
+        gt=0,
+        le=120,
+        description="Timeout for the language model in seconds, including one retry.",
     )
     llm_max_tokens: int = Field(
-        default=600, ge=16, le=16_384, description="Tokens a language model may answer with."
+        default=600, ge=16, le=16_384, description="Maximum number of tokens in a language model's answer."
     )
     llm_per_minute: int = Field(
         default=20,
         ge=1,
         le=6_000,
-        description="Requests to a language model in a minute, of all sessions together.",
+        description="Maximum number of requests to the language model per minute, for all sessions together.",
     )
     llm_confirm: bool = Field(
         default=True,
-        description="Whether what a language model understood is shown before it changes anything.",
+        description="Whether the user confirms what a language model understood before it changes anything.",
     )
     llm_rephrase: bool = Field(
-        default=False, description="Whether a language model may put explanations in other words."
+        default=False, description="Whether a language model may rephrase explanations."
     )
 
     api_key: SecretStr | None = Field(
-        default=None, description="Key that is asked of everyone; needed to listen beyond this machine."
+        default=None,
+        description="API key that every client must send. Required to listen beyond this machine.",
     )
     allowed_hosts: str | None = Field(
-        default=None, description="Further names to be asked under, by commas; loopback names always are."
+        default=None,
+        description="Comma-separated host names under which the service answers. Loopback names always work.",
     )
     trusted_proxies: str | None = Field(
         default=None,
-        description="Addresses, by commas, whose word on whom they ask for is taken (`X-Forwarded-For`); "
-        "without it nobody's.",
+        description="Comma-separated addresses of proxies whose `X-Forwarded-For` is trusted. Default: none.",
     )
     changes_per_minute: int | None = Field(
         default=None,
         ge=1,
-        description="Changing calls of one client in a minute; unset, 600 with a key and any number without.",
+        description="Rate limit: changes per client and minute. Unset: 600 with an API key, none without.",
     )
     max_client_sessions: int | None = Field(
-        default=None, ge=1, description="Sessions one client may have; unset, only the limit of all holds."
+        default=None,
+        ge=1,
+        description="Maximum number of sessions per client. Unset: only `ROADTALK_MAX_SESSIONS` applies.",
     )
     max_client_cells: int | None = Field(
-        default=None, ge=12, description="Cells of all roads of one client together; unset, any number."
+        default=None,
+        ge=12,
+        description="Maximum number of cells of all roads of one client. Unset: no limit.",
     )
     log_format: Literal["console", "json"] = Field(
-        default="console", description="How log lines are written: `console` for people, or `json`."
+        default="console", description="Format of log lines: `console` or `json`."
     )
     workers: int = Field(
         default=1,
         validation_alias=AliasChoices("roadtalk_workers", "web_concurrency", "workers"),
-        description="Processes; only 1 is taken, since each would hold some of the sessions.",
+        description="Number of processes. Must be 1: sessions live in the memory of one process.",
     )
 
     @field_validator("workers")

@@ -132,3 +132,11 @@ def test_a_live_session_needs_nothing_heavy() -> None:
         [sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True, check=True, timeout=60
     )
     assert done.stdout.strip() == "[]"
+
+
+def test_only_the_protocol_package_reads_what_uvicorn_does_not_document() -> None:
+    undocumented = ("uvicorn.protocols", "uvicorn.server", "websockets.protocol", "websockets.frames")
+    for name in MODULES:
+        if not f"{name}.".startswith("service.http.protocol."):
+            reached = {each for each in imports(MODULES[name], whole=True) if each.startswith(undocumented)}
+            assert not reached, name

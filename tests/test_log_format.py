@@ -34,7 +34,7 @@ def as_before() -> Iterator[None]:
     yield
     structlog.configure(**before)
     everybody = logging.getLogger()
-    for handler in [each for each in everybody.handlers if isinstance(each, logs.Passing)]:
+    for handler in [each for each in everybody.handlers if isinstance(each, logs.ForwardHandler)]:
         everybody.removeHandler(handler)
 
 
@@ -111,7 +111,7 @@ async def test_every_answer_has_an_id_of_its_own(service: Service) -> None:
 def test_lines_that_cannot_be_written_fail_nobody_and_are_told_of(tmp_path: Path) -> None:
     """A disk that is full, then not."""
     full, end = os.open("/dev/full", os.O_WRONLY), tmp_path / "log"
-    beside = logs.Beside(full, "json")
+    beside = logs.BackgroundWriter(full, "json")
     for number in range(3):
         beside.write(f"{number}\n")
     until(lambda: beside._lost == 3)
@@ -129,7 +129,7 @@ def test_lines_that_cannot_be_written_fail_nobody_and_are_told_of(tmp_path: Path
 def test_nobody_waits_for_a_reader_that_does_not_read() -> None:
     reading, writing = os.pipe()
     fill(writing)
-    beside = logs.Beside(writing, "console", most=10)
+    beside = logs.BackgroundWriter(writing, "console", most=10)
     began = time.monotonic()
     for _ in range(5_000):
         beside.write("x" * 100 + "\n")

@@ -36,6 +36,8 @@ def test_it_carries_all_there_is(wheel: Path) -> None:
     assert needed - inside == set()
     assert len([name for name in inside if name.startswith("service/store/migrations/versions/v")]) >= 4
     assert {f"{BUNDLED}/web/index.html", f"{BUNDLED}/prompts/README.md"} <= inside
+    guide = ROOT / "docs" / "site" / "index.html"
+    assert (f"{BUNDLED}/guide/index.html" in inside) == guide.is_file()
 
 
 def test_it_carries_nothing_else(wheel: Path) -> None:

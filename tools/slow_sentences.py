@@ -24,7 +24,7 @@ from service.grammar import Language
 from service.grammar.completion import MOST_COMPLETING, Completer
 from service.grammar.corpus import sentences
 from service.grammar.topic import ALONE
-from service.grammar.work_budget import MOST_STEPS, Work
+from service.grammar.work_budget import MOST_STEPS, WorkBudget
 
 HERE = Path(__file__).parents[1] / "tests" / "grammar" / "data"
 LONGEST = 500
@@ -94,14 +94,14 @@ class Texts:
         size = self._chance.choice((60, 120, 200, 300, 400, LONGEST))
         few = self._chance.sample(self._joiners, self._chance.choice((1, 1, 2, 3, len(self._joiners))))
         if kind < 0.6:
-            return self._joined(lambda: self._chance.choice(self._said), few, size)
+            return self._join(lambda: self._chance.choice(self._said), few, size)
         if kind < 0.75:
             again = self._chance.sample(self._said, self._chance.choice((1, 2)))
-            return self._joined(lambda: self._chance.choice(again), few, size)
+            return self._join(lambda: self._chance.choice(again), few, size)
         if kind < 0.9:
             some = self._chance.sample(self._words, self._chance.choice((1, 2, 3, 5, 8, 60)))
-            return self._joined(lambda: self._chance.choice(some), (" ", *few), size)
-        return self._joined(self._piece, few, size)
+            return self._join(lambda: self._chance.choice(some), (" ", *few), size)
+        return self._join(self._piece, few, size)
 
     def worse(self, text: str) -> str:
         """A mutation of a text."""
@@ -141,7 +141,7 @@ class Texts:
             word[:at] + self._chance.choice(string.ascii_lowercase) + word[at + self._chance.randrange(2) :]
         )
 
-    def _joined(self, one: Callable[[], str], joiners: Sequence[str], size: int) -> str:
+    def _join(self, one: Callable[[], str], joiners: Sequence[str], size: int) -> str:
         text = one()
         while len(text) < size:
             text = text.rstrip(".!?") + self._chance.choice(joiners) + one()
@@ -152,7 +152,7 @@ def reading(language: Language, most: int = MOST_STEPS) -> Callable[[str], Cost]
     """What reading a text costs."""
 
     def cost(text: str) -> Cost:
-        work, before = Work(most), time.process_time()
+        work, before = WorkBudget(most), time.process_time()
         language.parse(text, ALONE, work)
         return Cost(work.spent, 1e3 * (time.process_time() - before), text)
 
@@ -165,7 +165,7 @@ def completing(language: Language, most: int = MOST_COMPLETING) -> Callable[[str
     completer = Completer(language, [*made, *(say for frame in language.data.frames for say in frame.says)])
 
     def cost(text: str) -> Cost:
-        work, before = Work(most), time.process_time()
+        work, before = WorkBudget(most), time.process_time()
         completer.complete(text, possible=lambda _: False, work=work)
         return Cost(work.spent, 1e3 * (time.process_time() - before), text)
 

@@ -31,7 +31,7 @@ def say(
         typer.Argument(help="What to say, for instance: add five potholes. With - each line of the input."),
     ],
     session: SessionId = None,
-    language: Annotated[str, typer.Option(help="The language's code.")] = "en",
+    language: Annotated[str | None, typer.Option(help="The language's code. Default: the session's.")] = None,
     as_json: AsJson = False,
     url: Url = URL,
     api_key: ApiKey = None,
@@ -60,7 +60,7 @@ def _sentences(text: str) -> Iterator[str]:
     yield from (line.strip() for line in sys.stdin if line.strip())
 
 
-def _told(session: Session, text: str, language: str) -> None:
+def _told(session: Session, text: str, language: str | None) -> None:
     """The answer for a program; the problem, where it is refused."""
     try:
         echo_json(session.say(text, language=language).raw)
@@ -69,7 +69,7 @@ def _told(session: Session, text: str, language: str) -> None:
         raise typer.Exit(1) from None
 
 
-def _said(session: Session, text: str, language: str, *, asking: bool) -> str:
+def _said(session: Session, text: str, language: str | None, *, asking: bool) -> str:
     try:
         return session.say(text, language=language).reply
     except NotUnderstood as refused:

@@ -23,7 +23,7 @@ from service.grammar import LanguageDataError
 from service.http.protocol import protocol_options
 from service.llm import MissingExtraError
 from service.llm.failures import PromptError
-from service.security.guard import exposed
+from service.security.guard import exposure_problem
 from service.settings import Settings
 from service.shutdown import Deadline, stop_when_hung_up
 from service.store import Store, StoreError, open_store
@@ -71,7 +71,7 @@ def serve(
     logs.configure(settings)
     for stray in strays(os.environ):
         typer.echo(stray, err=True)
-    reason = exposed(settings)
+    reason = exposure_problem(settings)
     if reason is not None:
         _fail(reason)
     listener = _listener(settings.host, settings.port)

@@ -95,7 +95,7 @@ class AsyncClient:
         return await self._send(endpoints.ask_advice(text, hazard, distance_m, speed_kmh, weather, language))
 
     async def guide(
-        self, prefix: str | None = None, *, session: str | None = None, language: str = "en"
+        self, prefix: str | None = None, *, session: str | None = None, language: str | None = None
     ) -> answers.LanguageGuide:
         """What can be said; with `prefix`, how a sentence that was begun could go on, there or anywhere."""
         return await self._send(endpoints.read_language(prefix, session, language))
@@ -113,11 +113,14 @@ class AsyncClient:
         seed: int | None = None,
         planner: str | None = None,
         paused: bool | None = None,
+        language: str | None = None,
         recording: Recording | Json | None = None,
         link: answers.Link | str | None = None,
     ) -> AsyncSession:
         """A new session, from a sentence, from figures, from a recording or from a link."""
-        call = endpoints.create_session(name, scenario, config, seed, planner, paused, recording, link)
+        call = endpoints.create_session(
+            name, scenario, config, seed, planner, paused, recording, link, language
+        )
         return await self._send(call.then(lambda info: AsyncSession(self, info.id)))
 
     async def list(self, *, after: str | None = None, limit: int = 50) -> answers.SessionPage:

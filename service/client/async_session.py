@@ -31,7 +31,9 @@ class AsyncSession(AsyncInNotebook):
         """The session as it stands."""
         return await self._client._send(endpoints.read_session(self.id))
 
-    async def say(self, text: str, *, dry_run: bool = False, language: str = "en") -> answers.CommandResult:
+    async def say(
+        self, text: str, *, dry_run: bool = False, language: str | None = None
+    ) -> answers.CommandResult:
         """Say something; done as a whole or not at all. Raises `NotUnderstood`, `Ambiguous`."""
         return await self._client._send(endpoints.run_command(self.id, text, dry_run, language))
 
@@ -43,7 +45,7 @@ class AsyncSession(AsyncInNotebook):
         """Other settings, all or nothing: `configure(traffic="heavy")`; None asks for the default."""
         return await self._client._send(endpoints.patch_config(self.id, parts))
 
-    async def ask(self, question: str, *, language: str = "en") -> answers.Answer:
+    async def ask(self, question: str, *, language: str | None = None) -> answers.Answer:
         """Ask something; nothing is changed."""
         return await self._client._send(endpoints.ask_question(self.id, question, language))
 

@@ -75,6 +75,7 @@ def create_session(
     paused: bool | None,
     recording: Recording | Json | None,
     link: answers.Link | str | None,
+    language: str | None,
 ) -> Call[answers.Session]:
     """Makes a session."""
     file = recording.raw if isinstance(recording, Recording) else recording
@@ -85,6 +86,7 @@ def create_session(
         seed=seed,
         planner=planner,
         paused=paused,
+        language=language,
         recording=file,
         link=link.link if isinstance(link, answers.Link) else link,
     )
@@ -108,9 +110,9 @@ def delete_session(session: str) -> Call[None]:
     return Call("DELETE", _session_path(session), lambda _: None, key=new_key())
 
 
-def run_command(session: str, text: str, dry_run: bool, language: str) -> Call[answers.CommandResult]:
+def run_command(session: str, text: str, dry_run: bool, language: str | None) -> Call[answers.CommandResult]:
     """Says something to a session."""
-    body = {"text": text, "dry_run": dry_run, "language": language}
+    body = _without_none(text=text, dry_run=dry_run, language=language)
     path = _session_path(session, "/commands")
     return Call("POST", path, _json(answers.CommandResult), body, said="text", key=new_key())
 
@@ -128,9 +130,9 @@ def patch_config(session: str, parts: Json) -> Call[answers.ConfigChanged]:
     )
 
 
-def ask_question(session: str, question: str, language: str) -> Call[answers.Answer]:
+def ask_question(session: str, question: str, language: str | None) -> Call[answers.Answer]:
     """Asks a question."""
-    body = {"question": question, "language": language}
+    body = _without_none(question=question, language=language)
     return Call("POST", _session_path(session, "/ask"), _json(answers.Answer), body, said="question")
 
 
@@ -268,7 +270,9 @@ def ask_advice(
     return Call("POST", f"{PREFIX}/advice", _json(answers.Advice), body, said="text")
 
 
-def read_language(prefix: str | None, session: str | None, language: str) -> Call[answers.LanguageGuide]:
+def read_language(
+    prefix: str | None, session: str | None, language: str | None
+) -> Call[answers.LanguageGuide]:
     """What can be said."""
     params = {"prefix": prefix, "session": session, "language": language}
     return Call("GET", f"{PREFIX}/language", _json(answers.LanguageGuide), params=params)

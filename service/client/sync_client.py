@@ -96,7 +96,7 @@ class Client:
         return self._send(endpoints.ask_advice(text, hazard, distance_m, speed_kmh, weather, language))
 
     def guide(
-        self, prefix: str | None = None, *, session: str | None = None, language: str = "en"
+        self, prefix: str | None = None, *, session: str | None = None, language: str | None = None
     ) -> answers.LanguageGuide:
         """What can be said; with `prefix`, how a sentence that was begun could go on, there or anywhere."""
         return self._send(endpoints.read_language(prefix, session, language))
@@ -114,11 +114,14 @@ class Client:
         seed: int | None = None,
         planner: str | None = None,
         paused: bool | None = None,
+        language: str | None = None,
         recording: Recording | Json | None = None,
         link: answers.Link | str | None = None,
     ) -> Session:
         """A new session, from a sentence, from figures, from a recording or from a link."""
-        call = endpoints.create_session(name, scenario, config, seed, planner, paused, recording, link)
+        call = endpoints.create_session(
+            name, scenario, config, seed, planner, paused, recording, link, language
+        )
         return self._send(call.then(lambda info: Session(self, info.id)))
 
     def list(self, *, after: str | None = None, limit: int = 50) -> answers.SessionPage:

@@ -32,7 +32,7 @@ class Session(InNotebook):
         """The session as it stands."""
         return self._client._send(endpoints.read_session(self.id))
 
-    def say(self, text: str, *, dry_run: bool = False, language: str = "en") -> answers.CommandResult:
+    def say(self, text: str, *, dry_run: bool = False, language: str | None = None) -> answers.CommandResult:
         """Say something; done as a whole or not at all. Raises `NotUnderstood`, `Ambiguous`."""
         return self._client._send(endpoints.run_command(self.id, text, dry_run, language))
 
@@ -44,7 +44,7 @@ class Session(InNotebook):
         """Other settings, all or nothing: `configure(traffic="heavy")`; None asks for the default."""
         return self._client._send(endpoints.patch_config(self.id, parts))
 
-    def ask(self, question: str, *, language: str = "en") -> answers.Answer:
+    def ask(self, question: str, *, language: str | None = None) -> answers.Answer:
         """Ask something; nothing is changed."""
         return self._client._send(endpoints.ask_question(self.id, question, language))
 

@@ -32,6 +32,8 @@ def _strictly(values: Any) -> Any:
 Value = TypeVar("Value")
 Strictly = Annotated[Value, BeforeValidator(_strictly)]
 
+_LANGUAGE = "In which language; `GET /language` names them. Default: the session's."
+
 MAX_ACTIONS = 100
 """Actions that may be sent at once."""
 
@@ -71,6 +73,7 @@ class Recording(Sent):
     config: ConfigParts
     entries: list[RecordedEntry] = Field(max_length=10_000)
     tick: Tick = Field(description="Where it ends.")
+    language: str | None = Field(None, max_length=16, description="Of its log; en where none is named.")
     digest: str = Field(description="What the world at its end must be.", max_length=64)
 
 
@@ -86,6 +89,12 @@ class NewSession(Sent):
         None, description="Default: running, or paused when replayed from a recording."
     )
     recording: Recording | None = Field(None, description="Replay this; alone but for name and paused.")
+    language: str | None = Field(
+        None,
+        max_length=16,
+        description="Of its log, narration and replies, and of `scenario`; `GET /language` names them. "
+        "Default: a recording's own, else en. A link that names a session keeps that session's.",
+    )
     link: str | None = Field(
         None, max_length=4_096, description="Open this; alone but for name and paused. See `link`."
     )
@@ -113,7 +122,7 @@ class Said(Sent):
 
     text: Letters = Field(description="At most 500 characters, unless the service is set otherwise.")
     dry_run: bool = Field(False, description="Say what would be done, and do nothing.")
-    language: str = Field("en", max_length=16, description="In which language; `GET /language` names them.")
+    language: str | None = Field(None, max_length=16, description=_LANGUAGE)
 
 
 class TypedActions(Sent):
@@ -133,7 +142,7 @@ class Question(Sent):
     """A question, and nothing but one."""
 
     question: Letters
-    language: str = Field("en", max_length=16, description="In which language; `GET /language` names them.")
+    language: str | None = Field(None, max_length=16, description=_LANGUAGE)
 
 
 class Text(Sent):

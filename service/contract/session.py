@@ -38,6 +38,8 @@ class Session(Answered):
     """Changes the session has accepted."""
     seed: int
     config: Mapping[str, Any]
+    language: str
+    """The code of the language that its log and narration are in."""
     rules: Annotated[int, Field(examples=[2])]
     """The version of the rules that it runs under."""
     rules_note: Annotated[str | None, Field(examples=["Made under rules 1: it replays as it did then."])]

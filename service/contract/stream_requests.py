@@ -9,7 +9,6 @@ from pydantic import Discriminator, Field
 from service.actions import Action
 from service.contract.requests import MAX_ACTIONS, Sent, Strictly
 from service.contract.text import Letters
-from service.resources import DEFAULT_LANGUAGE
 
 Id = Annotated[str, Field(max_length=100, description="Chosen by the client, given back with the answer.")]
 
@@ -21,7 +20,7 @@ class Command(Sent):
     id: Id
     text: Letters
     dry_run: bool = False
-    language: str = Field(DEFAULT_LANGUAGE, max_length=16)
+    language: str | None = Field(None, max_length=16)
 
 
 class Actions(Sent):

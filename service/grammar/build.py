@@ -1,4 +1,4 @@
-"""A filled frame → the actions it stands for, as JSON values.
+"""Builds the actions of a filled frame, as JSON values.
 
 Templates come from the data: `$thing.count` is a value said, `$where` the place made of all its parts,
 `$amount` the number in the unit of the parameter it is for. A key whose value was not said is left out.

@@ -1,10 +1,10 @@
-"""Sentences that were just read, read again: the same text, of the same things, means the same.
+"""A cache of parses: the same text about the same things means the same.
 
-Reading is a pure function of a text and of what it looks at in the topic. What it looked at is noted, with
-the values found there; the meaning is given again only where all of those are the same. So "add a pothole"
-is known again although others were added meanwhile, and "remove it" only while "it" is the same. A sentence
-is read while it is typed, when it is sent, and by scripts a hundred times. Leaves out what was not
-understood: nobody says that again, and whoever sends rubbish must fill nothing.
+Parsing is a pure function of the text and of the attributes of the topic that it reads. The cache records
+those attributes and their values, and answers only while all of them are equal. So "add a pothole" is
+answered although other things were added meanwhile, and "remove it" only while "it" is the same. The same
+sentence is parsed while it is typed, when it is sent, and many times by scripts.
+Refusals are not cached: nobody repeats them, and rubbish must not fill the cache.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from typing import Any, NamedTuple, cast
 
 from service.grammar.parse_types import Parse, Understood
 from service.grammar.topic import Phrases, Topic
-from service.grammar.work_budget import Work
+from service.grammar.work_budget import WorkBudget
 
 MOST = 512
 """How many sentences are remembered, and how long one may be in letters."""
@@ -28,14 +28,14 @@ _VALUES = frozenset(("actions", "where"))
 
 
 class _Read(NamedTuple):
-    """What a sentence meant, and what of the topic was looked at."""
+    """What a sentence meant, and the attributes of the topic that were read."""
 
     meant: Understood
     seen: dict[str, Any]
 
 
-class _Noting:
-    """A topic that notes what is looked at."""
+class _TopicRecorder:
+    """A topic that records which of its attributes are read."""
 
     def __init__(self, topic: Topic) -> None:
         self._topic = topic
@@ -46,23 +46,23 @@ class _Noting:
         return found
 
 
-class Remembered:
-    """A reader with a memory of the sentences it has understood. For any thread."""
+class ParseCache:
+    """Parses that were understood, by their text. For any thread."""
 
-    def __init__(self, read: Callable[[str, Topic, Work], Parse]) -> None:
+    def __init__(self, read: Callable[[str, Topic, WorkBudget], Parse]) -> None:
         """`read`: looks at a topic through its attributes, and at nothing else that could change."""
         self._read = read
         self._known: OrderedDict[str, _Read] = OrderedDict()
         self._changing = Lock()
 
-    def parse(self, text: str, topic: Topic, work: Work) -> Parse:
+    def parse(self, text: str, topic: Topic, work: WorkBudget) -> Parse:
         """What a sentence means; one that is remembered costs no work."""
         known = self._known.get(text)
         if known is not None and all(_same(getattr(topic, name), seen) for name, seen in known.seen.items()):
             return known.meant
         if len(text) > LONGEST:
             return self._read(text, topic, work)
-        noting = _Noting(topic)
+        noting = _TopicRecorder(topic)
         meant = self._read(text, cast(Topic, noting), work)
         if isinstance(meant, Understood) and _VALUES.isdisjoint(noting.seen):
             with self._changing:

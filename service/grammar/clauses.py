@@ -18,7 +18,7 @@ from service.grammar.lattice import NUMBER, Edge, Lattice
 from service.grammar.lexicon import Sense
 from service.grammar.noun_phrases import QUANTITY, Amount, understood_nouns
 from service.grammar.paths import ALLOWS, NEGATION, Stretch
-from service.grammar.work_budget import Work
+from service.grammar.work_budget import WorkBudget
 
 MAX_JOINED = 16
 """How many fragments one listing clause may have."""
@@ -96,7 +96,7 @@ class Divider:
     """Divides the fragments of one sentence into clauses."""
 
     def __init__(
-        self, matcher: Matcher, lattice: Lattice, vague: int, moods: frozenset[str], work: Work
+        self, matcher: Matcher, lattice: Lattice, vague: int, moods: frozenset[str], work: WorkBudget
     ) -> None:
         self._matcher = matcher
         self._lattice = lattice
@@ -117,7 +117,7 @@ class Divider:
             context = Context(noun=spoken, distant=True)
         at = 0
         while at < len(parts):
-            clause, used = self._joined(parts, at, context)
+            clause, used = self._join(parts, at, context)
             if clause is None:
                 clause, used = self._single(parts[at], context), 1
             if clause is None:
@@ -128,7 +128,7 @@ class Divider:
             at += used
         return divided
 
-    def _joined(self, parts: Sequence[Fragment], at: int, context: Context) -> tuple[Clause | None, int]:
+    def _join(self, parts: Sequence[Fragment], at: int, context: Context) -> tuple[Clause | None, int]:
         """The longest listing clause that starts here, of two fragments or more."""
         last = at + 1
         while last < min(len(parts), at + MAX_JOINED) and parts[last].after in _TOGETHER:
@@ -173,7 +173,7 @@ class Divider:
         if found is not None:
             return Clause(start, end, *found, negated=found[0].frame.leaves_out)
         if NEGATION in plain.concepts:
-            return self._negated(part, context)
+            return self._negate(part, context)
         if part.after == BUT or (context.verb and self._says_again(part)):
             return None
         if context.placed and self._only_number(start, end):
@@ -240,7 +240,7 @@ class Divider:
             for edge in self._lattice.between(start, end)
         )
 
-    def _negated(self, part: Fragment, context: Context) -> Clause | None:
+    def _negate(self, part: Fragment, context: Context) -> Clause | None:
         """A fragment that says what not to do: understood, then left out."""
         start, end = part.start, part.end
         if self._excepts(part, context):

@@ -39,13 +39,13 @@ def load_language(folder: Path) -> LanguageData:
         documents, lexicon = cached
         return language_data(Documents(**documents), unpack(lexicon))
     read = read_parts(folder)
-    data = checked(language_data(*read))
+    data = check_fit(language_data(*read))
     kept = {field.name: getattr(read[0], field.name) for field in fields(Documents)}
     write_cached(name, sources, (kept, pack(read[1])))
     return data
 
 
-def checked(data: LanguageData) -> LanguageData:
+def check_fit(data: LanguageData) -> LanguageData:
     """The data of a language, if they are fit. Raises `LanguageDataError`, naming every defect."""
     if found := flaws(data):
         raise LanguageDataError("; ".join(found))

@@ -1,9 +1,8 @@
-"""Help while typing: how a sentence that has been begun could go on.
+"""Completes a sentence while it is typed.
 
-Every completion is a whole sentence the grammar understands. They are found in a tree of sentences that
-the language itself makes (`sentences.yaml`, and the sayings of its frames), in which any number stands
-for any other: so a prefix is completed within its frame, and never guessed at. A first verb may be any
-that means the same.
+Every completion is a whole sentence that the grammar understands. Completions come from a prefix tree of the
+sentences that the language generates (`sentences.yaml`, and the sayings of its frames). Any number in it
+stands for any other number, and a first verb for every verb that means the same.
 """
 
 from __future__ import annotations
@@ -17,9 +16,9 @@ from itertools import chain, islice
 from service.actions import Action
 from service.grammar.engine import Language
 from service.grammar.parse_types import Understood
-from service.grammar.references import heard
+from service.grammar.references import parse_in_topic
 from service.grammar.topic import ALONE, Topic
-from service.grammar.work_budget import Work
+from service.grammar.work_budget import WorkBudget
 
 MOST = 8
 TRIED = 40
@@ -45,7 +44,7 @@ class _Node:
     """the whole sentences that end here or below, the plainest first"""
 
 
-def _slotted(word: str) -> str:
+def _slot_kind(word: str) -> str:
     """A word with its number open; one stays one, for what follows it is singular."""
     return word if word == "1" else _NUMBER.sub(_ANY, word)
 
@@ -67,14 +66,14 @@ class Completer:
         *,
         extra: Sequence[str] = (),
         possible: Callable[[tuple[Action, ...]], bool] = lambda _: True,
-        work: Work | None = None,
+        work: WorkBudget | None = None,
     ) -> list[str]:
         """Up to eight whole sentences that begin with `prefix`, the plainest and most different first.
 
         `extra` are sentences of this moment (taught phrases, ids); `possible` says whether actions
         would work now. `work` is what all of it may cost: what was found by then is answered.
         """
-        work = work or Work(MOST_COMPLETING)
+        work = work or WorkBudget(MOST_COMPLETING)
         parse = partial(self._language.parse, work=work)
         head, tail = self._last_request(prefix, topic, work)
         found: list[str] = []
@@ -82,7 +81,7 @@ class Completer:
             whole = head + candidate
             if whole in found:
                 continue
-            parsed = heard(parse, whole, topic)
+            parsed = parse_in_topic(parse, whole, topic)
             if isinstance(parsed, Understood) and not parsed.corrections and possible(parsed.actions):
                 found.append(whole)
             if len(found) == MOST or work.left < 0:
@@ -93,10 +92,10 @@ class Completer:
         node = self._root
         node.sentences.append(sentence)
         for word in _WORD.findall(sentence.lower()):
-            node = node.next.setdefault(_slotted(word), _Node())
+            node = node.next.setdefault(_slot_kind(word), _Node())
             node.sentences.append(sentence)
 
-    def _last_request(self, prefix: str, topic: Topic, work: Work) -> tuple[str, str]:
+    def _last_request(self, prefix: str, topic: Topic, work: WorkBudget) -> tuple[str, str]:
         """What stands before the last request of a compound, and that request's beginning."""
         for match in islice(reversed(list(_GAP.finditer(prefix))), GAPS):
             head = prefix[: match.end()]
@@ -119,7 +118,7 @@ class Completer:
     def _from_tree(self, prefix: str) -> Iterator[str]:
         """Sentences of the tree, the one typed so far kept as it was typed; different next words first."""
         spans = [match.span() for match in _WORD.finditer(prefix)]
-        words = [_slotted(prefix[start:end].lower()) for start, end in spans]
+        words = [_slot_kind(prefix[start:end].lower()) for start, end in spans]
         open_word = words.pop() if words and not prefix[-1:].isspace() else ""
         start = spans[-1][0] if open_word else len(prefix)
         for node, depth in self._walks(words):

@@ -1,4 +1,4 @@
-"""Parts of one utterance that cannot both hold: "make it sunny and rainy", "five potholes, no potholes".
+"""Finds parts of an utterance that cannot both hold: "make it sunny and rainy", "five cones, no cones".
 
 What is said in order ("pause, then resume") is done in order, and so is all between which time passes. Two
 values for one setting without that are asked about; where something is left out that another part

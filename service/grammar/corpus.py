@@ -1,6 +1,6 @@
-"""Sentences that a language makes of itself: one for every action with every word it can hold.
+"""Generates sentences from a language: one for every action with every word it can hold.
 
-What help while typing is found in, and what the guide of all that can be said is made of.
+Completion searches them, and the guide to the language lists them.
 """
 
 from __future__ import annotations

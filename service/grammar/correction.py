@@ -1,9 +1,8 @@
-"""What corrects an earlier utterance: "no, three" after "add five potholes" was done.
+"""Corrections of an earlier utterance: "no, three" after "add five potholes" was done.
 
-Nothing done is ever changed by a later word for it. Where it is known what was done, and what that would
-have been with the correction in it, both are offered: to take it back and do it anew, or to do it as
-well. Otherwise the refusal says that "undo" comes first. Leaves out corrections in the same breath:
-those are `repairs`.
+A correction never changes what was done. Where the corrected request is known, two sentences are offered:
+undo and do it anew, or do it as well. Otherwise the refusal says to undo first. Corrections within one
+utterance are in `repairs`.
 """
 
 from __future__ import annotations
@@ -14,27 +13,27 @@ from typing import Any, Protocol
 from service.actions import Action, Undo
 from service.actions.table import traits_of
 from service.grammar.data import LanguageData
-from service.grammar.makes import REPAIR
 from service.grammar.parse_types import Ambiguous, Choice, Parse, Refused, Understood
 from service.grammar.repairs import DROPPED
 from service.grammar.sentences import Unsayable
+from service.grammar.span_patterns import REPAIR
 from service.grammar.topic import ALONE, Topic
-from service.grammar.work_budget import Work
+from service.grammar.work_budget import WorkBudget
 
 
-class Tongue(Protocol):
+class LanguageReader(Protocol):
     """What reading a correction takes from its language."""
 
     data: LanguageData
 
-    def read(self, text: str, topic: Topic, work: Work, *, asking: bool) -> Parse:
+    def read(self, text: str, topic: Topic, work: WorkBudget, *, asking: bool) -> Parse:
         """Another sentence read."""
 
     def sentence(self, actions: Sequence[Action]) -> str:
         """One sentence that means exactly these actions. Raises `Unsayable`."""
 
 
-def takes_back(data: LanguageData) -> frozenset[str]:
+def opening_words(data: LanguageData) -> frozenset[str]:
     """The words that a correction may begin with."""
     found: set[str] = set()
     for words, senses in data.lexicon.phrases_of(REPAIR):
@@ -43,55 +42,62 @@ def takes_back(data: LanguageData) -> frozenset[str]:
     return frozenset(found)
 
 
-def corrected(
-    tongue: Tongue, text: str, plain: str, topic: Topic, parsed: Parse, work: Work, *, sure: bool
+def answer_correction(
+    language: LanguageReader,
+    text: str,
+    plain: str,
+    topic: Topic,
+    parsed: Parse,
+    work: WorkBudget,
+    *,
+    sure: bool,
 ) -> Parse:
-    """The answer to a sentence that begins with such a word; `sure`: one that always takes something back."""
+    """The answer to a sentence that begins as a correction does; `sure`: with words that are nothing else."""
     if isinstance(parsed, Refused) and parsed.reason == "not_understood":
-        if (actions := _as_it_should_have_been(tongue, plain, topic, work)) is not None:
-            return _question(tongue, text, actions) or _refusal(tongue, text, parsed)
-        return _refusal(tongue, text, parsed) if sure else parsed
+        if (actions := _redo_with_correction(language, plain, topic, work)) is not None:
+            return _question(language, text, actions) or _refusal(language, text, parsed)
+        return _refusal(language, text, parsed) if sure else parsed
     if (
         isinstance(parsed, Understood)
         and sure
         and _on_top(topic.actions, parsed.actions)
         and not topic.undone
     ):
-        return _question(tongue, text, parsed.actions) or parsed
+        return _question(language, text, parsed.actions) or parsed
     return parsed
 
 
-def _as_it_should_have_been(
-    tongue: Tongue, plain: str, topic: Topic, work: Work
+def _redo_with_correction(
+    language: LanguageReader, plain: str, topic: Topic, work: WorkBudget
 ) -> tuple[Action, ...] | None:
-    """What was done last, as it would be with the correction in it; None where that cannot be told."""
+    """The last actions with the correction applied; None where that is not known."""
     done = topic.actions
     if not done or topic.undone or not all(traits_of(action).amendable for action in done):
         return None
     try:
-        said = tongue.sentence(done)
+        said = language.sentence(done)
     except Unsayable:
         return None
-    parsed = tongue.read(f"{said}, {plain}", ALONE, work, asking=False)
+    parsed = language.read(f"{said}, {plain}", ALONE, work, asking=False)
     if not isinstance(parsed, Understood) or len(parsed.actions) != len(done) or parsed.actions == done:
         return None
     return parsed.actions
 
 
-def _question(tongue: Tongue, text: str, actions: tuple[Action, ...]) -> Ambiguous | None:
+def _question(language: LanguageReader, text: str, actions: tuple[Action, ...]) -> Ambiguous | None:
     """Whether what was done shall be taken back before this is done."""
     try:
         choices = tuple(
-            Choice(tongue.sentence(each), each) for each in ((Undo(do="undo"), *actions), actions)
+            Choice(language.sentence(each), each) for each in ((Undo(do="undo"), *actions), actions)
         )
     except Unsayable:
         return None
-    return Ambiguous(text, tongue.data.messages["instead"], choices)
+    return Ambiguous(text, language.data.messages["instead"], choices)
 
 
-def _refusal(tongue: Tongue, text: str, parsed: Refused) -> Refused:
+def _refusal(language: LanguageReader, text: str, parsed: Refused) -> Refused:
     """The refusal that says what can be done instead."""
-    message = tongue.data.messages["earlier"].format(phrase=text.strip())
+    message = language.data.messages["earlier"].format(phrase=text.strip())
     return Refused(text, parsed.reason, message, parsed.unparsed, parsed.understood, parsed.suggestions)
 
 

@@ -15,27 +15,27 @@ from pathlib import Path
 from typing import Any
 
 from service.actions import Action, dump
-from service.grammar.cache import Remembered
-from service.grammar.capture import names
-from service.grammar.compiled import checked, load_language
-from service.grammar.correction import corrected, takes_back
+from service.grammar.cache import ParseCache
+from service.grammar.compiled import check_fit, load_language
+from service.grammar.correction import answer_correction, opening_words
 from service.grammar.data import LanguageData, read_language
+from service.grammar.free_text import find_names
 from service.grammar.lattice import Lattice, Name, Scanner
 from service.grammar.linter import defects
-from service.grammar.makes import REPAIR
 from service.grammar.matching import Frames
 from service.grammar.noun_phrases import NOUN
 from service.grammar.parse_types import Ambiguous, Choice, Correction, Parse, Refused, Understood
 from service.grammar.parser import Reading, content_of
 from service.grammar.paths import SEPARATOR
 from service.grammar.references import add_known
-from service.grammar.repairs import ALWAYS, DROPPED, Repaired
+from service.grammar.repairs import ALWAYS, DROPPED, Repair
 from service.grammar.sentences import Sentences
+from service.grammar.span_patterns import REPAIR
 from service.grammar.suggestions import Suggestions
-from service.grammar.tokens import Token, as_said, normalise, renamed, tokenise
+from service.grammar.tokens import Token, normalise, restore_marks, tokenise, with_text
 from service.grammar.topic import ALONE, Phrases, Topic
 from service.grammar.typos import Typos
-from service.grammar.work_budget import READ_STEPS, TOKEN_STEPS, SpentError, Work
+from service.grammar.work_budget import READ_STEPS, TOKEN_STEPS, BudgetExceededError, WorkBudget
 from service.resources import prompts_folder
 
 MAX_TOKENS = 300
@@ -52,7 +52,7 @@ class Language:
         self._scanner = Scanner(data.lexicon, data.numbers)
         self.frames = Frames(data.frames, data.parameters)
         self.sentences = Sentences(data.sentences)
-        self._remembered = Remembered(self._heard)
+        self._cache = ParseCache(self._parse_uncached)
 
     @classmethod
     def load(
@@ -67,28 +67,28 @@ class Language:
         Raises `LanguageDataError`, naming every defect, when the files are unfit.
         """
         if folder is not None:
-            return cls(checked(read_language(folder / code)), offered)
+            return cls(check_fit(read_language(folder / code)), offered)
         return cls(load_language(prompts_folder() / "language" / code), offered)
 
-    def parse(self, text: str, topic: Topic = ALONE, work: Work | None = None) -> Parse:
+    def parse(self, text: str, topic: Topic = ALONE, work: WorkBudget | None = None) -> Parse:
         """What a person said: `Understood`, `Refused` or `Ambiguous`. Never raises.
 
         `topic` is what it may refer to; without one it is read as a sentence that stands alone. `work` is
         what it may cost, where several texts share that.
         """
-        return self._remembered.parse(text, topic, work or Work())
+        return self._cache.parse(text, topic, work or WorkBudget())
 
-    def _heard(self, text: str, topic: Topic, work: Work) -> Parse:
+    def _parse_uncached(self, text: str, topic: Topic, work: WorkBudget) -> Parse:
         work.known.clear()
         try:
             return self.read(text, topic, work, asking=True)
-        except SpentError:
+        except BudgetExceededError:
             return Refused(text, "not_understood", self.data.messages["too_involved"])
 
-    def read(self, text: str, topic: Topic, work: Work, *, asking: bool) -> Parse:
+    def read(self, text: str, topic: Topic, work: WorkBudget, *, asking: bool) -> Parse:
         """`parse`; unless `asking`, what would be asked about is refused, and nothing is suggested.
 
-        Raises `SpentError` where the work does not suffice.
+        Raises `BudgetExceededError` where the work does not suffice.
         """
         if asking:
             return self._read(text, topic, work, asking=True)
@@ -98,7 +98,7 @@ class Language:
             known = work.known[key] = self._read(text, topic, work, asking=False)
         return known
 
-    def _read(self, text: str, topic: Topic, work: Work, *, asking: bool) -> Parse:
+    def _read(self, text: str, topic: Topic, work: WorkBudget, *, asking: bool) -> Parse:
         messages = self.data.messages
         plain = normalise(text)
         tokens = tokenise(plain, self.data.contractions)
@@ -107,26 +107,28 @@ class Language:
         if len(tokens) > MAX_TOKENS:
             return Refused(text, "not_understood", messages["too_long"].format(words=MAX_TOKENS))
         work.spend(READ_STEPS + TOKEN_STEPS * len(tokens))
-        kept = names(tokens, self._lexicon, as_said(text, plain), topic)
-        tokens, corrections = self._repaired(plain, tokens, kept, topic)
+        kept = find_names(tokens, self._lexicon, restore_marks(text, plain), topic)
+        tokens, corrections = self._fix_typos(plain, tokens, kept, topic)
         lattice = self._scanner.scan(tokens, kept)
         lattice.keep_whole(self.data.nouns)
         add_known(lattice, tokens, topic)
         uncovered = bool(lattice.uncovered())
-        if not (kept or uncovered) and (repaired := Repaired.found(plain, tokens, lattice, work)) is not None:
-            readings = repaired.readings(lambda each: self.read(each, topic, work, asking=False))
+        if not (kept or uncovered) and (repair := Repair.find(plain, tokens, lattice, work)) is not None:
+            readings = repair.readings(lambda each: self.read(each, topic, work, asking=False))
             if readings is not None:
-                return self._put_right(text, repaired.phrase, readings, lattice, asking=asking)
+                return self._answer_repair(text, repair.phrase, readings, lattice, asking=asking)
         reading = Reading(self, text, plain, tokens, lattice, corrections, topic, work)
         parsed = reading.parse(asking=asking)
-        if not asking or uncovered or tokens[0].text not in self._takes_back:
+        if not asking or uncovered or tokens[0].text not in self._correction_openings:
             return parsed
         sure = self._corrects(tokens)
-        return parsed if sure is None else corrected(self, text, plain, topic, parsed, work, sure=sure)
+        return (
+            parsed if sure is None else answer_correction(self, text, plain, topic, parsed, work, sure=sure)
+        )
 
     @cached_property
-    def _takes_back(self) -> frozenset[str]:
-        return takes_back(self.data)
+    def _correction_openings(self) -> frozenset[str]:
+        return opening_words(self.data)
 
     def _corrects(self, tokens: Sequence[Token]) -> bool | None:
         """Whether a sentence begins by taking something back for sure; None where it does not at all."""
@@ -140,7 +142,7 @@ class Language:
     def _comma(self) -> Token:
         return tokenise(",", self.data.contractions)[0]
 
-    def _put_right(
+    def _answer_repair(
         self, text: str, phrase: str, readings: list[Choice], lattice: Lattice, *, asking: bool
     ) -> Parse:
         """What a sentence means in which something was taken back."""
@@ -219,7 +221,7 @@ class Language:
         senses = self._lexicon.senses_of((word,))
         return frozenset(str(sense.value) for sense in senses if sense.concept.startswith(NOUN))
 
-    def _repaired(
+    def _fix_typos(
         self, plain: str, tokens: list[Token], kept: Mapping[int, Name], topic: Topic
     ) -> tuple[list[Token], tuple[Correction, ...]]:
         """The tokens with one-edit typos read as meant, and the list of what was changed."""
@@ -236,7 +238,7 @@ class Language:
                 continue
             meant = self.typos.repair(word)
             if meant is not None:
-                tokens[at] = renamed(token, meant)
+                tokens[at] = with_text(token, meant)
                 corrections.append(Correction(plain[token.start : token.end], meant))
         return tokens, tuple(corrections)
 
@@ -251,8 +253,8 @@ class Language:
             return True
         try:
             # Not `parse`: a refusal there names suggestions, which are what is being made here.
-            parse = self.read(say, ALONE, Work(), asking=False)
-        except SpentError:
+            parse = self.read(say, ALONE, WorkBudget(), asking=False)
+        except BudgetExceededError:
             return False
         return isinstance(parse, Understood) and all(map(self._offered, parse.actions))
 

@@ -1,4 +1,4 @@
-"""How well a language does on labelled sentences: exact, wrong, refused, asked, intent by intent.
+"""Evaluates a language on labelled sentences: exact, wrong, refused, asked, intent by intent.
 
 A sentence's label is the list of its actions (empty: it must be refused) or that it must be asked
 about. Actions are compared as JSON values, numbers to a relative 1e-6. A wrong action counts as

@@ -1,6 +1,6 @@
-"""Where a sentence is cut: at "and", "then" and marks; what only calls or asks for consent is left off.
+"""Cuts a sentence into fragments at "and", "then" and marks; leaves off calls ("hey, …") and tags ("…, ok?").
 
-What the parts mean is not looked at here; that is for `clauses`.
+What the fragments mean is for `clauses`.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""Defects of a language's data, found before anyone speaks: at loading, and all by `Language.check()`.
+"""Finds defects of a language's data: most of them whenever it is loaded, all of them by `Language.check()`.
 
-It looks for what makes a phrase useless or dangerous: one phrase with two values of one concept, a frame
-that nothing can reach, a concept no frame takes, an example saying that does not parse, a choice or
-question that offers nothing. It does not judge whether the words are good English.
+A defect is a phrase with two values of one concept, a phrase that is there already, a frame that nothing can
+reach, a concept that no frame takes, an example saying that does not parse, or a question with fewer than two
+choices. Whether the words are good English is not checked.
 """
 
 from __future__ import annotations

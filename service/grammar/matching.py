@@ -1,4 +1,4 @@
-"""Which frame a stretch of tokens is: the highest-ranking that fits, and none when two disagree."""
+"""Finds the frame that fits a span of tokens: the one of the highest rank; none when two of them disagree."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """One utterance read: its lattice → clauses → actions, a question with choices, or a refusal with words.
 
-What reading one sentence takes from its language is the protocol `Tongue`; so the engine knows this file
-and not the reverse. No word of any language is here either.
+What reading one sentence needs of its language is the protocol `LanguageReader`, so that the engine imports
+this file and not the reverse. No word of any language is here either.
 """
 
 from __future__ import annotations
@@ -28,17 +28,17 @@ from service.grammar.subordinate import read_all
 from service.grammar.suggestions import Suggestions
 from service.grammar.tokens import Token
 from service.grammar.topic import Topic
-from service.grammar.work_budget import Work
+from service.grammar.work_budget import WorkBudget
 from sim.actions import Add, Remove
 
 CHOICE_STEPS = 10
-"""What one action of a choice costs: it is checked, and said back."""
+"""What one action of a choice costs: it is validated, and said back."""
 
 MAX_UNPARSED = 8
 """How many stretches not understood a refusal names."""
 
 
-class Tongue(Protocol):
+class LanguageReader(Protocol):
     """What a reading takes from its language."""
 
     data: LanguageData
@@ -49,7 +49,7 @@ class Tongue(Protocol):
     def suggestions(self) -> Suggestions:
         """The sayings that a refusal may offer."""
 
-    def read(self, text: str, topic: Topic, work: Work, *, asking: bool) -> Parse:
+    def read(self, text: str, topic: Topic, work: WorkBudget, *, asking: bool) -> Parse:
         """Another sentence read: this one with a choice in the place of what was asked about."""
 
     def sentence(self, actions: Sequence[Action]) -> str:
@@ -89,14 +89,14 @@ class Reading:
 
     def __init__(
         self,
-        language: Tongue,
+        language: LanguageReader,
         text: str,
         plain: str,
         tokens: list[Token],
         lattice: Lattice,
         corrections: tuple[Correction, ...],
         topic: Topic,
-        work: Work,
+        work: WorkBudget,
     ) -> None:
         self._language = language
         self._topic = topic
@@ -115,22 +115,22 @@ class Reading:
         self._suggests = asking
         unknown = self._lattice.uncovered()
         if unknown:
-            return self._refused(self._stretches(unknown), ())
+            return self._refuse(self._stretches(unknown), ())
         add_noun_phrases(self._lattice, self._language.data.vague)
         self._unclear = add_referents(self._lattice, self._topic)
         divided = read_all(self._lattice, 0, self._lattice.size, self._divide)
         if isinstance(divided, Fragment):
-            return self._refused([self._written(divided.start, divided.end)], (), asking=asking)
+            return self._refuse([self._written(divided.start, divided.end)], (), asking=asking)
         clauses = divided.clauses
         if divided.failed is not None or not clauses:
-            return self._refused_after(divided, asking=asking)
+            return self._refuse_after(divided, asking=asking)
         question = next(
             (clause for clause in clauses if clause.filled.frame.ask and not clause.negated), None
         )
         if question is not None:
-            return self._asked(question) if asking else self._refused([self._plain], ())
+            return self._ask(question) if asking else self._refuse([self._plain], ())
         if (both := contradiction(clauses, self._lattice)) is not None:
-            return self._contradicted(both, asking=asking)
+            return self._answer_contradiction(both, asking=asking)
         values = _once(clauses)
         if not values:
             return self._refusal("negation", self._messages["negation"])
@@ -139,7 +139,7 @@ class Reading:
         except ValidationError:
             return self._impossible(clauses)
         if self._topic.removed and clauses[0].leans:
-            return self._more_of_what(actions) if asking else self._refused([self._plain], ())
+            return self._more_of_what(actions) if asking else self._refuse([self._plain], ())
         supposes = next((each.supposes for each in clauses if each.actions and each.supposes), None)
         return Understood(self._text, actions, self._corrections, supposes)
 
@@ -152,17 +152,17 @@ class Reading:
         """The question after "two more" when the last amount was taken away."""
         first = actions[0]
         if not isinstance(first, Add):
-            return self._refused([self._plain], ())
+            return self._refuse([self._plain], ())
         away = Remove(kind=first.kind, count=first.count, where=first.where)
         try:
             choices = tuple(
                 Choice(self._language.sentence(each), each) for each in ((away, *actions[1:]), actions)
             )
         except Unsayable:  # a language that says nothing back has no sentences to choose from
-            return self._refused([self._plain], ())
+            return self._refuse([self._plain], ())
         return Ambiguous(self._text, self._messages["more_of_what"], choices)
 
-    def _contradicted(self, both: Contradiction, *, asking: bool) -> Parse:
+    def _answer_contradiction(self, both: Contradiction, *, asking: bool) -> Parse:
         """The question which of two values is meant, or the refusal of parts that cannot both hold."""
         try:
             choices = [self._choice(alternative) for alternative in both.alternatives]
@@ -171,7 +171,7 @@ class Reading:
         if asking and len(choices) > 1:
             return Ambiguous(self._text, self._messages["which"], tuple(choices))
         phrases = tuple(dict.fromkeys(self._written(each.start, each.end) for each in both.clauses))
-        quoted = self._messages["both"].join(f'"{_shortened(phrase)}"' for phrase in phrases)
+        quoted = self._messages["both"].join(f'"{_shorten(phrase)}"' for phrase in phrases)
         return self._refusal("impossible", self._messages["contradiction"].format(phrases=quoted), phrases)
 
     def _choice(self, values: list[dict[str, Any]]) -> Choice:
@@ -206,11 +206,11 @@ class Reading:
         start, end = self._tokens[unclear.start].start, self._tokens[unclear.end - 1].end
         return self._plain[:start] + phrase + self._plain[end:]
 
-    def _asked(self, clause: Clause) -> Parse:
+    def _ask(self, clause: Clause) -> Parse:
         """The question of an ambiguous clause; each choice is the whole utterance with it replaced."""
         ask = clause.filled.frame.ask
         if ask is None:
-            return self._refused([self._plain], ())
+            return self._refuse([self._plain], ())
         said: dict[str, str] = {}
         for edge in clause.filled.slots:
             written = self._written(edge.start, edge.end)
@@ -234,7 +234,7 @@ class Reading:
             if isinstance(parsed, Understood) and all(c.actions != parsed.actions for c in choices):
                 choices.append(Choice(whole.strip(), parsed.actions))
         if len(choices) < 2:
-            return self._refused([self._written(clause.start, clause.end)], ())
+            return self._refuse([self._written(clause.start, clause.end)], ())
         return Ambiguous(self._text, ask.question, tuple(choices))
 
     def _impossible(self, clauses: Sequence[Clause]) -> Refused:
@@ -249,22 +249,22 @@ class Reading:
                 )
         return self._refusal("impossible", self._messages["impossible"].format(phrase=self._text))
 
-    def _refused_after(self, divided: Divided, *, asking: bool) -> Parse:
+    def _refuse_after(self, divided: Divided, *, asking: bool) -> Parse:
         """The refusal of a sentence of known words that make no request; or a question about one of them."""
         understood = tuple(self._written(clause.start, clause.end) for clause in divided.clauses)
         part = divided.failed
         if part is None:
-            return self._refused([self._plain.strip()], understood)
+            return self._refuse([self._plain.strip()], understood)
         failed = self._written(part.start, part.end)
         if any(_impossible_number(edge.sense.value) for edge in self._lattice.between(part.start, part.end)):
             return self._refusal("impossible", self._messages["impossible"].format(phrase=failed), (failed,))
-        return self._refused([failed], understood, asking=asking)
+        return self._refuse([failed], understood, asking=asking)
 
-    def _refused(self, unparsed: list[str], understood: tuple[str, ...], *, asking: bool = False) -> Parse:
+    def _refuse(self, unparsed: list[str], understood: tuple[str, ...], *, asking: bool = False) -> Parse:
         if asking and (which := self._which()) is not None:
             return which
         shown = unparsed[:MAX_UNPARSED]
-        quoted = self._messages["and"].join(f'"{_shortened(phrase)}"' for phrase in shown)
+        quoted = self._messages["and"].join(f'"{_shorten(phrase)}"' for phrase in shown)
         message = self._messages["not_understood"].format(phrases=quoted)
         return self._refusal("not_understood", message, tuple(shown), understood)
 
@@ -309,5 +309,5 @@ def _impossible_number(value: object) -> bool:
     return isinstance(value, int | float) and value < 0
 
 
-def _shortened(phrase: str, limit: int = 80) -> str:
+def _shorten(phrase: str, limit: int = 80) -> str:
     return phrase if len(phrase) <= limit else phrase[: limit - 1] + "…"

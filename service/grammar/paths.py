@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from service.grammar.frames import Filled, Frame
 from service.grammar.lattice import GLUE, Edge
 from service.grammar.lexicon import SECOND
-from service.grammar.work_budget import Work
+from service.grammar.work_budget import WorkBudget
 
 ALLOWS = "allows"
 """Concept of phrases that put a form in place: "would you mind" allows `ing`."""
@@ -45,7 +45,7 @@ class Stretch:
     negated: bool = False
     lenient: bool = False
     """Whether any frame that fits will do: nothing will be done anyway."""
-    work: Work = field(default_factory=Work)
+    work: WorkBudget = field(default_factory=WorkBudget)
     """What the searches are paid from."""
     longest: int = sys.maxsize
     """No edge has more tokens."""

@@ -1,8 +1,8 @@
-"""Words that mean something only after what was said before: "it", "those", "again", "the other lane".
+"""Resolves references to what was said before: "it", "those", "again", "the other lane".
 
-Each is given the edges of what it refers to; frames then treat "it" like "pothole-3". Where more than one
-thing could be meant nothing is guessed: the reference is handed back with its candidates, to be asked
-about. "That pothole" with no pothole spoken of is the nearest one, which is for its frame to say.
+A reference gets the edges of its referent, so frames treat "it" like "pothole-3". Nothing is guessed where
+there are several candidates: they are returned, and asked about. "That pothole" is the nearest pothole where
+none was spoken of; its frame says so.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ class Unclear:
     lane: bool = False
 
 
-def heard(parse: Callable[[str, Topic], Parse], text: str, topic: Topic) -> Parse:
+def parse_in_topic(parse: Callable[[str, Topic], Parse], text: str, topic: Topic) -> Parse:
     """What a text means; a taught phrase counts only where the language has no meaning of its own for it.
 
     So "carry on" stays what it is when "carry" was taught.

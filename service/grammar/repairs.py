@@ -1,10 +1,10 @@
-"""Slips of the tongue put right in the same breath: "add two cars, no, three", "turn left, I mean right".
+"""Self-repairs within one utterance: "add two cars, no, three", "turn left, I mean right".
 
-What comes after the words that take something back stands in the place of the part of the same make before
-them: a number for a number, a lane for a lane, a whole request for the one before it. The sentence is read
-again with it there, so the engine learns nothing new. Where it fits in several places it is asked about;
-where in none, all is refused: what was taken back must never be done. Words that only may take back
-("sorry", "actually") do so where both parts are about the same; otherwise they are the fillers they were.
+What follows the repair words ("no", "I mean") replaces the span of the same pattern before them: a number
+replaces a number, a lane a lane, a whole request the request before it. The sentence is read again with the
+replacement, so nothing else in the engine knows of repairs. Several places where it fits are a question; no
+place is a refusal, because what was taken back must never be done. Words that are also fillers ("sorry",
+"actually") repair only where both parts are about the same.
 """
 
 from __future__ import annotations
@@ -13,11 +13,11 @@ from collections.abc import Callable, Iterator, Sequence
 
 from service.actions import Action
 from service.grammar.lattice import GLUE, NUMBER, Edge, Lattice
-from service.grammar.makes import REPAIR, SKIPPED, Make, ends_of_pieces, steps_of
 from service.grammar.parse_types import Choice, Understood
 from service.grammar.paths import SEPARATOR
+from service.grammar.span_patterns import REPAIR, SKIPPED, SpanPattern, ends_of_pieces, steps_of
 from service.grammar.tokens import Token
-from service.grammar.work_budget import Work
+from service.grammar.work_budget import WorkBudget
 
 ALWAYS = "always"
 """Value of those that do wherever they stand: "I mean"."""
@@ -47,10 +47,12 @@ _ALIKE = (
 Read = Callable[[str], object]
 
 
-class Repaired:
+class Repair:
     """A sentence in which something was taken back."""
 
-    def __init__(self, plain: str, tokens: Sequence[Token], lattice: Lattice, edge: Edge, work: Work) -> None:
+    def __init__(
+        self, plain: str, tokens: Sequence[Token], lattice: Lattice, edge: Edge, work: WorkBudget
+    ) -> None:
         """`edge`: the words that take back."""
         self._work = work
         self._plain = plain
@@ -64,7 +66,7 @@ class Repaired:
         self._tail = min(cuts, default=lattice.size)
 
     @classmethod
-    def found(cls, plain: str, tokens: Sequence[Token], lattice: Lattice, work: Work) -> Repaired | None:
+    def find(cls, plain: str, tokens: Sequence[Token], lattice: Lattice, work: WorkBudget) -> Repair | None:
         """The first thing taken back with something in its place, if any."""
         if REPAIR not in lattice.concepts:
             return None
@@ -93,7 +95,7 @@ class Repaired:
         return [] if self._value != PERHAPS or self._alike(read) is not False else None
 
     def _without(self, read: Read) -> list[Choice]:
-        """That without what shall not be: "use Dijkstra instead of A*", "instead of A* use Dijkstra"."""
+        """The reading without what is not wanted: "use Dijkstra instead of A*", in either order."""
         before = self._written(0, self._end)
         last = self._lattice.size
         ends = range(last, self._again, -1) if self._tail == last else (self._tail,)
@@ -108,17 +110,17 @@ class Repaired:
         return []
 
     def _in_place(self, read: Read) -> list[Choice]:
-        """Those with a part of the same make replaced, in the last request before any other."""
+        """The readings with a span of the same pattern replaced; the last request is tried first."""
         steps = steps_of(self._lattice)
         if self._tail not in ends_of_pieces(steps, self._again, self._work):
             return []
-        make = Make(steps, self._again, self._tail, self._work)
+        pattern = SpanPattern(steps, self._again, self._tail, self._work)
         start = self._last_part()
         as_said = read(self._written(0, self._end))
         for begin in dict.fromkeys((start, 0)):
             found: list[Choice] = []
             alike: list[Choice] = []
-            for at, end in self._places(begin, make):
+            for at, end in self._places(begin, pattern):
                 text = self._with(at, end)
                 parsed = read(text)
                 same = isinstance(as_said, Understood) and isinstance(parsed, Understood)
@@ -132,7 +134,7 @@ class Repaired:
         return []
 
     def _instead_of_all(self, read: Read) -> list[Choice]:
-        """That with the whole last request replaced, where both are about the same."""
+        """The reading with the whole last request replaced, where both are about the same."""
         if self._alike(read) is not True:
             return []
         text = self._with(self._last_part(), self._end)
@@ -148,11 +150,11 @@ class Repaired:
             return None
         return bool(_groups(before.actions) & _groups(after.actions))
 
-    def _places(self, begin: int, make: Make) -> Iterator[tuple[int, int]]:
-        """Stretches of the same make; a longer one from the same token has only fillers more."""
+    def _places(self, begin: int, pattern: SpanPattern) -> Iterator[tuple[int, int]]:
+        """The spans of the same pattern; a longer one from the same token has only fillers more."""
         tried = 0
         for at in range(begin, self._end):
-            if (end := make.first_like(at, self._end)) is not None:
+            if (end := pattern.first_match(at, self._end)) is not None:
                 tried += 1
                 if tried > MAX_TRIED:
                     return

@@ -1,4 +1,4 @@
-"""Sentences around other sentences: "what if …", "when I say …, I mean …"."""
+"""Sentences with another sentence inside: "what if …", "when I say …, I mean …"."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ TEACH = "teach"
 MEANS = "means"
 
 _OPENING = frozenset((WHAT_IF, IF, THEN_WHAT, TEACH))
-"""Where none of these is said, nothing is wrapped."""
+"""Where none of these is said, there is no subordinate clause."""
 
 TEACHING = verbs_where(lambda traits: traits.changes_aliases)
 NO_CHANGE = verbs_where(lambda traits: traits.what_if is WhatIf.INVALID)
@@ -31,14 +31,14 @@ CONDITIONAL = frozenset({"cond", "past"})
 Divide = Callable[[int, int, frozenset[str]], Divided]
 """Reads tokens `[start, end)` as clauses, with these forms in place."""
 
-_FRAME = Frame("wrapper", (), frozenset(), frozenset())
+_FRAME = Frame("subordinate", (), frozenset(), frozenset())
 
 
 def read_all(lattice: Lattice, start: int, end: int, divide: Divide) -> Divided | Fragment:
-    """The clauses of all sentences in `[start, end)`, or the part of a wrapped one that nothing fits."""
+    """The clauses of all sentences in `[start, end)`, or the part of one that nothing fits."""
     whole = Divided()
     for first, last in _sentences(lattice, start, end):
-        result = _wrapped(lattice, first, last, divide)
+        result = _read_subordinate(lattice, first, last, divide)
         if isinstance(result, Fragment):
             return result
         divided = Divided([result]) if result else divide(first, last, frozenset())
@@ -65,8 +65,8 @@ def _sentences(lattice: Lattice, start: int, end: int) -> list[tuple[int, int]]:
     return parts if asked and not taught else [(start, end)]
 
 
-def _wrapped(lattice: Lattice, start: int, end: int, divide: Divide) -> Clause | Fragment | None:
-    """The clause a wrapped sentence is, the part of it that nothing fits, or None when it is not wrapped."""
+def _read_subordinate(lattice: Lattice, start: int, end: int, divide: Divide) -> Clause | Fragment | None:
+    """The clause of such a sentence, the part of it that nothing fits, or None for an ordinary sentence."""
     if lattice.concepts.isdisjoint(_OPENING):
         return None
     begin, start = start, _past_glue(lattice, start, end)

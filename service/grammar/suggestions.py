@@ -1,4 +1,4 @@
-"""The nearest things that can be said, for a sentence that could not be understood."""
+"""Suggests the nearest sentences that can be said, for one that was not understood."""
 
 from __future__ import annotations
 

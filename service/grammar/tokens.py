@@ -88,7 +88,7 @@ def normalise(text: str) -> str:
     return text if text.isascii() else unicodedata.normalize("NFKC", text)
 
 
-def as_said(text: str, plain: str) -> str:
+def restore_marks(text: str, plain: str) -> str:
     """The text with marks as they were written, character by character beside its normal form.
 
     Where the normal form is of another length ("ﬁ" is two letters) it is the normal form itself.
@@ -146,6 +146,6 @@ def written(text: str, tokens: Sequence[Token]) -> str:
     return text[tokens[0].start : tokens[-1].end] if tokens else ""
 
 
-def renamed(token: Token, word: str) -> Token:
+def with_text(token: Token, word: str) -> Token:
     """The same place in the text, read as another word."""
     return token._replace(text=word)

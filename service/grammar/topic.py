@@ -1,4 +1,4 @@
-"""What a conversation is about: all that a sentence may refer to without naming it. A leaf.
+"""The topic of a conversation: all that a sentence may refer to without naming it.
 
 The engine is a pure function of a sentence and a topic; whoever holds the conversation makes the
 topic. An empty one is that of a sentence that stands alone.

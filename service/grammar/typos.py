@@ -1,4 +1,4 @@
-"""One-edit typos in long words, read as the word meant, and every one of them reported.
+"""Corrects one-edit typos in long words, and reports each.
 
 The distance is Damerau's (one letter wrong, missing, extra, or two swapped). A word is only repaired when it
 is unknown, long enough, not a real word that merely looks like one of ours (`typos.yaml` lists those), and

@@ -1,8 +1,8 @@
-"""How much work one utterance may cost, counted in steps of the engine and never in time.
+"""The work budget of one utterance, counted in steps of the engine and not in time.
 
-The same sentence costs the same steps on every machine, so whether it is read depends on nothing but
-the sentence. A sentence that needs more is refused as too involved; no labelled sentence comes near the bound
-(`tests/grammar/test_work_budget.py`). Leaves out what a step is: each stage counts its own innermost loop.
+A sentence costs the same number of steps on every machine, so the machine does not decide what is understood.
+A sentence that exceeds the budget is refused as too involved; no labelled sentence comes near it
+(`tests/grammar/test_work_budget.py`). Each stage counts the rounds of its innermost loop as steps.
 """
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ TOKEN_STEPS = 10
 """What each of its words costs to be looked up."""
 
 
-class SpentError(Exception):
-    """The work is used up."""
+class BudgetExceededError(Exception):
+    """The steps are used up."""
 
 
-class Work:
-    """What is left of one utterance's work, and the readings it has paid for."""
+class WorkBudget:
+    """The steps that one utterance has left, and the readings it has paid for."""
 
     __slots__ = ("_most", "known", "left")
 
@@ -41,7 +41,7 @@ class Work:
         return self._most - self.left
 
     def spend(self, steps: int) -> None:
-        """Take away some steps. Raises `SpentError` where there are not as many."""
+        """Take away some steps. Raises `BudgetExceededError` where there are not as many."""
         self.left -= steps
         if self.left < 0:
-            raise SpentError
+            raise BudgetExceededError

@@ -20,13 +20,16 @@ _GETTING = frozenset(("GET", "HEAD"))
 
 
 def check_access(scope: Scope, guard: Guard) -> None:
-    """Raises `CrossSite`, `Unauthorized` or `RateLimited`; counts a change."""
-    method = scope["method"]
-    if method in _GETTING:
+    """Raises `CrossSite` or `Unauthorized`."""
+    if scope["method"] in _GETTING:
         _check_cross_site_get(scope)
     if not guard.key.admits(first_header(scope, b"authorization")):
         raise Unauthorized
-    if method not in READING:
+
+
+def count_change(scope: Scope, guard: Guard) -> None:
+    """Counts a request that may change something. Raises `RateLimited`."""
+    if scope["method"] not in READING:
         guard.count_change(client_of(scope))
 
 

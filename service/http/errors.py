@@ -59,7 +59,7 @@ def respond(request: Request, error: Exception) -> Response:
             return ProblemResponse(Internal(headers=SECURITY_HEADERS | request_id_header()))
 
 
-def documented(*kinds: type[ProblemError]) -> dict[int | str, dict[str, Any]]:
+def problem_responses(*kinds: type[ProblemError]) -> dict[int | str, dict[str, Any]]:
     """The problems that a route can answer, by status, for its documentation."""
     by_status: dict[int | str, dict[str, Any]] = {}
     for kind in kinds:

@@ -30,7 +30,7 @@ CHANNELS: tuple[Channel, ...] = ("rest", "socket")
 
 _SLUGS = frozenset(kind.slug for kind in KINDS)
 
-disable_created_metrics()  # type: ignore[no-untyped-call]  # a second series for each
+disable_created_metrics()  # type: ignore[no-untyped-call] # a second series for each, of no use here
 
 
 class CommandTimer:

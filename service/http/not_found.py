@@ -10,7 +10,7 @@ from starlette.websockets import WebSocket
 from service.http.responses import send_problem
 from service.http.session_json import PREFIX
 from service.problems import NotFound
-from service.suggestions import nearest
+from service.suggestions import MAX_CHARS, nearest
 
 _LEAST = 0.8
 _IN_SESSION = "/sessions/"
@@ -18,6 +18,8 @@ _IN_SESSION = "/sessions/"
 
 def suggest_address(path: str, routes: Iterable[BaseRoute]) -> str | None:
     """A sentence about what may have been meant by a path; None if nothing is near."""
+    if len(path) > MAX_CHARS:
+        return None
     routes = list(routes)
     asked, session = _as_template(path.rstrip("/"))
     if any(isinstance(route, WebSocketRoute) and route.path == asked for route in routes):

@@ -16,8 +16,9 @@ from fastapi.routing import APIRoute
 from service.contract.problem import ProblemDocument
 from service.http import access_control, openapi_links
 from service.http.conditional import etag, idempotency
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.route import ApiRoute, GuardedRoute
+from service.http.route_policy import policy_of
 from service.problems import KINDS, MEDIA_TYPE
 
 _PROBLEM = {"$ref": "#/components/schemas/ProblemDocument"}
@@ -70,14 +71,13 @@ def _operations(
 
 def _document_route(route: APIRoute, method: str, operation: dict[str, Any]) -> None:
     """Adds what holds for every call alike."""
-    is_api = isinstance(route, ApiRoute)
-    policy = route.policy if isinstance(route, GuardedRoute) else None
-    if is_api:
+    guarded = isinstance(route, GuardedRoute)
+    policy = policy_of(route.endpoint)
+    if isinstance(route, ApiRoute):
         _add_problems(operation, "invalid")  # parameters in the URL
-    idempotency.document(method, policy is not None and policy.idempotency_key, operation, _add_problems)
-    tagged = policy is not None and policy.entity_tag
-    etag.document(method, route.path_format, tagged, operation, _add_problems)
-    access_control.document(method, policy is not None, operation, _add_problems)
+    idempotency.document(method, policy.idempotency_key, operation, _add_problems)
+    etag.document(method, route.path_format, policy.entity_tag, operation, _add_problems)
+    access_control.document(method, guarded, operation, _add_problems)
 
 
 def _name_languages(document: dict[str, Any], languages: Sequence[str]) -> None:
@@ -96,7 +96,7 @@ def _name_languages(document: dict[str, Any], languages: Sequence[str]) -> None:
 def _add_problems(operation: dict[str, Any], *slugs: str) -> None:
     """Adds problems that a call can answer beside its own."""
     kinds = {kind.slug: kind for kind in KINDS}
-    for status, new in documented(*(kinds[slug] for slug in slugs)).items():
+    for status, new in problem_responses(*(kinds[slug] for slug in slugs)).items():
         new["content"][MEDIA_TYPE]["schema"] = _PROBLEM
         del new["model"]
         entry = operation["responses"].setdefault(str(status), new)

@@ -10,10 +10,9 @@ its path.
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable
+from collections.abc import Callable
 from contextlib import nullcontext
-from dataclasses import dataclass
-from typing import Annotated, Any, TypeVar, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 from fastapi import APIRouter, Request, Response
 from fastapi.params import Path, Query
@@ -22,97 +21,46 @@ from starlette.requests import ClientDisconnect
 from starlette.types import Receive, Scope, Send
 
 from service.http import json
-from service.http.access_control import check_access
+from service.http.access_control import check_access, count_change
 from service.http.body_limit import read_body, receive_again
 from service.http.conditional.etag import check_before_call
 from service.http.conditional.handler import handle_conditionally
 from service.http.content_type import check_encoding
 from service.http.deps import context_in
-from service.http.direct_call import DirectCall
 from service.http.query_params import check_numbers, check_query
+from service.http.route_policy import policy_of
 from service.http.session_json import PREFIX
+from service.settings import Settings
 
 _WITHOUT_BODY = ("GET", "HEAD")
 _WITH_JSON = ("POST", "PATCH")
-
-Endpoint = TypeVar("Endpoint", bound=Callable[..., Awaitable[Response]])
-
-
-@dataclass(frozen=True, slots=True)
-class RoutePolicy:
-    """What is special about a route. The defaults are those of an ordinary call."""
-
-    idempotency_key: bool = True
-    """whether POST and PATCH heed `Idempotency-Key`; false where nothing changes"""
-    entity_tag: bool = True
-    """whether an answer about a session has an `ETag`"""
-    recording: bool = False
-    """whether the body may hold a recording, which has a larger limit"""
-    timed: bool = False
-    """whether it is a command, whose time is in the metrics"""
-    direct: bool = False
-    """whether it is called without FastAPI where possible (`service.http.direct_call`)"""
-
-
-_ORDINARY = RoutePolicy()
-
-
-def policy(**options: bool) -> Callable[[Endpoint], Endpoint]:
-    """Decorates an endpoint with its `RoutePolicy`."""
-
-    def decorate(endpoint: Endpoint) -> Endpoint:
-        endpoint.policy = RoutePolicy(**options)  # type: ignore[attr-defined]
-        return endpoint
-
-    return decorate
 
 
 class GuardedRoute(APIRoute):
     """A route with access control and a body limit."""
 
     def __init__(self, path: str, endpoint: Callable[..., Any], **options: Any) -> None:
-        self.policy: RoutePolicy = getattr(endpoint, "policy", _ORDINARY)
-        self._direct = DirectCall(endpoint) if self.policy.direct else None
+        self.policy = policy_of(endpoint)
         super().__init__(path, endpoint, **options)
 
     async def handle(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answers a request that matches the path. Raises a `ProblemError`."""
         context = context_in(scope)
+        check_access(scope, context.guard)
+        count_change(scope, context.guard)
+        if scope["method"] not in _WITHOUT_BODY:
+            try:
+                body = await read_body(scope, receive, self.body_limit(context.settings))
+            except ClientDisconnect:
+                return
+            receive = receive_again(body, receive)
         timed = self.policy.timed and scope["method"] in (self.methods or ())
         with context.metrics.command("rest") if timed else nullcontext():
-            check_access(scope, context.guard)
-            body = b""
-            if scope["method"] not in _WITHOUT_BODY:
-                settings = context.settings
-                limit = settings.max_recording_bytes if self.policy.recording else settings.max_body_bytes
-                try:
-                    body = await read_body(scope, receive, limit)
-                except ClientDisconnect:
-                    return
-                receive = receive_again(body, receive)
-            if self._direct is not None and scope["method"] in (self.methods or ()):
-                read = self._direct.read(scope, body)
-                if read is not None:
-                    await self._call_directly(self._direct, read[0], scope, receive, send)
-                    return
             await super().handle(scope, receive, send)
 
-    async def _call_directly(
-        self, call: DirectCall, body: Any, scope: Scope, receive: Receive, send: Send
-    ) -> None:
-        response = await self.handle_request(Request(scope, receive), lambda request: call(request, body))
-        await response(scope, receive, send)
-
-    async def handle_request(
-        self, request: Request, handler: Callable[[Request], Awaitable[Response]]
-    ) -> Response:
-        """Answers a request by its handler, if its conditions hold."""
-        return await handle_conditionally(
-            request,
-            handler,
-            entity_tag=self.policy.entity_tag,
-            idempotency_key=self.policy.idempotency_key,
-        )
+    def body_limit(self, settings: Settings) -> int:
+        """How many bytes a body may have."""
+        return settings.max_recording_bytes if self.policy.recording else settings.max_body_bytes
 
 
 class _StrictRequest(Request):
@@ -142,7 +90,8 @@ class ApiRoute(GuardedRoute):
             check_numbers(request.path_params.items(), self._integers)
             if request.method in _WITH_JSON:
                 check_encoding(request)
-            return await self.handle_request(_StrictRequest(request.scope, request.receive), handler)
+            strict = _StrictRequest(request.scope, request.receive)
+            return await handle_conditionally(strict, handler, self.policy)
 
         return handle
 

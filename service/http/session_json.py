@@ -65,12 +65,17 @@ def session_json(session: Session, sentence: str | None) -> dict[str, Any]:
         "sequence": session.sequence,
         "seed": run.config.seed,
         "config": asdict(run.config),
+        "language": record.language,
         "rules": run.config.rules,
-        "rules_note": None if run.config.rules >= RULES else refusals().older_rules(run.config.rules),
+        "rules_note": _rules_note(run.config.rules, record.language),
         "sentence": sentence,
         "parent": parent_json(record),
         "links": links_json(session.id),
     }
+
+
+def _rules_note(rules: int, language: str) -> str | None:
+    return None if rules >= RULES else refusals(language).older_rules(rules)
 
 
 def parent_json(record: SessionRecord) -> dict[str, Any] | None:

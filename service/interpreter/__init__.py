@@ -1,1 +1,1 @@
-"""Listening: from what was said in a session to actions that may be done, taught phrases included."""
+"""The interpreter: from text to actions and their outcome, taught phrases included."""

@@ -1,8 +1,8 @@
-"""Taught phrases: "when I say rush hour, I mean heavy traffic and ten more cars".
+"""Aliases: taught phrases ("when I say rush hour, I mean heavy traffic and ten more cars").
 
-A phrase is kept with its owner and holds in every session of theirs. What it means is fixed when it
-is taught: actions, checked like any others. It never hides anything the language says by itself.
-There is one owner as long as the service does not tell its users apart.
+An alias belongs to its owner and works in all of the owner's sessions. Its meaning is fixed when it is
+taught: actions, validated like any others. An alias never hides anything that the language says by itself.
+There is one owner until the service has user accounts.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from service.grammar.sentences import Unsayable
 from service.grammar.topic import Phrases, Topic
 from service.interpreter.languages import Languages
 from service.problems import FieldProblem, NotAvailable, NotSaved, NotTeachable
+from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE
 from service.sessions.availability import refusal_of
 from service.sessions.facts import AliasChange
@@ -35,11 +36,11 @@ RICH_TOPIC = Topic(
     kind=Kind.POTHOLE.value,
     where=Where(lane="left"),
 )
-"""A talk in which "again", "two more" or "remove them" mean something: they cannot be taught either."""
+"""A conversation in which "again", "two more" and "remove them" mean something, so they cannot be taught."""
 
 
 class Aliases:
-    """The phrases of the service's owner, in every language."""
+    """The aliases of the service's owner, in every language."""
 
     def __init__(self, store: Store, languages: Languages) -> None:
         self._store = store
@@ -48,19 +49,19 @@ class Aliases:
         self._ready: dict[str, Phrases] = {}
 
     async def open(self) -> None:
-        """Read what was taught before. Raises `StoreError`."""
+        """Read the stored aliases. Raises `StoreError`."""
         self._kept = {(each.language, each.key): each for each in await self._store.phrases(OWNER)}
         self._ready.clear()
 
     def phrases(self, code: str = DEFAULT_LANGUAGE) -> Phrases:
-        """The phrases of a language, ready to be found in sentences."""
+        """The aliases of a language, compiled for the parser."""
         if code not in self._ready:
-            taught = {each.phrase: contract.load(each.meaning) for each in self.list(code)}
+            taught = {each.phrase: contract.load(each.meaning) for each in self.records(code)}
             self._ready[code] = self._languages[code].phrases(taught)
         return self._ready[code]
 
-    def list(self, code: str = DEFAULT_LANGUAGE) -> list[PhraseRecord]:
-        """What was taught in a language, in the order of the alphabet."""
+    def records(self, code: str = DEFAULT_LANGUAGE) -> list[PhraseRecord]:
+        """The stored aliases of a language, in alphabetical order."""
         return sorted((each for each in self._kept.values() if each.language == code), key=lambda e: e.key)
 
     async def update(
@@ -71,16 +72,16 @@ class Aliases:
         dry_run: bool,
         answer: Callable[[AliasChange], StoredResponse] | None = None,
     ) -> AliasChange:
-        """Teach or forget, and keep an `answer` with it.
+        """Teach or forget a phrase, and store a response with it.
 
-        Raises `NotTeachable`, `NotAvailable` or `NotSaved`; nothing is then changed.
+        Raises `NotTeachable`, `NotAvailable` or `NotSaved`; nothing changes then.
         """
         key = " ".join(self._languages[code].words_of(action.phrase))
         before = self._kept.get((code, key))
         told = None if before is None else self.describe(contract.load(before.meaning), code)
         if isinstance(action, Forget):
             if before is None:
-                raise _not_teachable(f"No phrase “{action.phrase}” was ever taught.")
+                raise _not_teachable(refusals(code).said("never_taught", phrase=action.phrase))
             lesson = AliasChange(action.phrase, told or "", taught=False, before=told)
             if not dry_run:
                 await self._forget(before, None if answer is None else answer(lesson))
@@ -95,25 +96,25 @@ class Aliases:
         return lesson
 
     def describe(self, actions: tuple[Action, ...], code: str) -> str:
-        """The actions as a sentence, or by their names where the language has none."""
+        """The actions as a sentence, or their names where the language has no sentence for them."""
         try:
             return self._languages[code].sentence(actions)
         except Unsayable:
-            return ", ".join(action.do for action in actions)
+            return ", ".join(refusals(code).action(action.do) for action in actions)
 
     def _check(self, action: Teach, code: str, key: str, *, new: bool) -> None:
-        words = key.split()
+        words, said = key.split(), refusals(code).said
         if not any(word.isalpha() for word in words):
-            raise _not_teachable("A phrase needs a word in it.")
+            raise _not_teachable(said("no_word"))
         if len(words) > MAX_WORDS:
-            raise _not_teachable(f"A phrase may have at most {MAX_WORDS} words.")
+            raise _not_teachable(said("too_many_words", most=MAX_WORDS))
         if new and len(self._kept) >= MAX_PHRASES:
-            raise _not_teachable(f"{MAX_PHRASES} phrases are taught, which is the limit: forget one first.")
-        others = {each.phrase: contract.load(each.meaning) for each in self.list(code) if each.key != key}
+            raise _not_teachable(said("too_many_phrases", most=MAX_PHRASES))
+        others = {each.phrase: contract.load(each.meaning) for each in self.records(code) if each.key != key}
         amid = replace(RICH_TOPIC, phrases=self._languages[code].phrases(others))
         alone = self._languages[code].parse(action.phrase, amid)
         if not isinstance(alone, Refused) or alone.reason != "not_understood":
-            raise _not_teachable(f"“{action.phrase}” means something already, and that stays.")
+            raise _not_teachable(said("means_something", phrase=action.phrase))
         for meant in action.meaning:
             if (sentence := refusal_of(meant, code)) is not None:
                 raise NotAvailable(sentence, errors=[FieldProblem("meaning", sentence)])

@@ -1,6 +1,6 @@
-"""What can be said: every intent with examples, and how a sentence that was begun could go on.
+"""The guide to a language: every intent with examples, and completions of a sentence that was begun.
 
-Made from the language's own data, so it cannot say what the grammar does not understand.
+It is made from the language's own data, so it lists nothing that the grammar does not understand.
 """
 
 from __future__ import annotations
@@ -32,15 +32,15 @@ from sim.session.errors import EditError
 from sim.session.settings import change_setting
 
 MAX_INLINE_CHARS = 40
-"""Characters of the longest prefix that is completed where it came in: each completion is read as a whole."""
+"""Longest prefix, in characters, that is completed on the event loop; longer ones in a thread."""
 
 EXAMPLES = 6
-"""How many examples an intent is shown with."""
+"""Number of examples of an intent."""
 
 
 @dataclass(frozen=True, slots=True)
 class Example:
-    """A sentence and what it means."""
+    """A sentence and its actions."""
 
     text: str
     actions: tuple[Action, ...]
@@ -60,13 +60,13 @@ class Guide:
     """The guide to one language."""
 
     def __init__(self, grammar: Grammar, language: str = DEFAULT_LANGUAGE) -> None:
-        """`language`: its code; what is not available is said in it."""
+        """`language`: its code; reasons for unavailable intents are in it."""
         self._grammar = grammar
         self._language = language
 
     @cached_property
     def intents(self) -> tuple[Intent, ...]:
-        """Every intent that has an example, those that work first. Takes a tenth of a second, once."""
+        """Every intent that has an example, available ones first. Takes a tenth of a second, once."""
         by_name: dict[str, list[Example]] = {}
         for text in self._sayings:
             parsed = self._grammar.parse(text)
@@ -78,14 +78,14 @@ class Guide:
     def completions_here(
         self, prefix: str, session: Session | None, topic: Topic, taught: list[str]
     ) -> list[str]:
-        """Whole sentences that begin with `prefix` and would work, in the session if one is given."""
+        """Sentences that begin with `prefix` and would work (in the session, if one is given); blocking."""
         extra = [*taught, *self._by_id(topic)]
         return self._completer.complete(prefix, topic, extra=extra, possible=partial(_possible, session))
 
     async def completions(
         self, prefix: str, session: Session | None, topic: Topic, taught: list[str]
     ) -> list[str]:
-        """`completions`; those of a longer prefix are looked for in a thread, and the session asked here."""
+        """`completions_here`, with long prefixes completed in a thread."""
         if len(prefix) <= MAX_INLINE_CHARS:
             return self.completions_here(prefix, session, topic, taught)
         extra = [*taught, *self._by_id(topic)]
@@ -99,7 +99,7 @@ class Guide:
         return await to_thread.run_sync(complete)
 
     def _by_id(self, topic: Topic) -> Iterator[str]:
-        """What may be said of the things that were spoken of."""
+        """Sentences about the things that the conversation is about."""
         for typical in self._grammar.ways_to_say("v.remove")[:1]:
             for name in reversed(topic.things):
                 yield f"{typical} {name}"
@@ -119,7 +119,7 @@ class Guide:
 
 
 def _possible(session: Session | None, actions: tuple[Action, ...]) -> bool:
-    """Whether actions would work now, in the session if one is given."""
+    """Whether the actions would work now, in the session if one is given."""
     if session is not None:
         return session.is_possible(actions) and _settable(actions, session.run.config, session.playback_speed)
     return all(refusal_of(action) is None for action in actions)
@@ -130,7 +130,7 @@ def _name(action: Action) -> str:
 
 
 def _settable(actions: tuple[Action, ...], config: Config, speed: PlaybackSpeed) -> bool:
-    """Whether settings can be set so, one after the other; cheap, where a new road would not be."""
+    """Whether the settings can be set one after another; cheap, unlike a new road."""
     try:
         for action in actions:
             if isinstance(action, Set | Adjust):

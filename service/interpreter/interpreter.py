@@ -1,8 +1,8 @@
-"""From what was said to what is done: grammar first, then (if there is one) a language model, then refusal.
+"""The interpreter: grammar first, then (if configured) a language model, then a refusal.
 
-A model is asked only where the grammar refuses. What it makes of a sentence is an interpretation: a
-question of it is answered and marked, a change is offered as a choice to be said, and nothing is done
-before that is said.
+A model is asked only when the grammar refuses. Its result is an interpretation: a question is answered and
+marked as read by a model, a change is offered as a sentence to confirm, and nothing is done before that
+sentence is sent.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from service.actions import Action, Forget, Teach
 from service.actions.table import ModelUse, traits_of
 from service.grammar.parse_types import Ambiguous as AmbiguousParse
 from service.grammar.parse_types import Correction, Parse, Refused, Understood
-from service.grammar.references import heard
+from service.grammar.references import parse_in_topic
 from service.grammar.sentences import Unsayable
 from service.grammar.topic import ALONE, Topic
 from service.interpreter.aliases import Aliases
@@ -25,6 +25,7 @@ from service.interpreter.languages import Languages
 from service.interpreter.preview import Preview, preview
 from service.llm.protocol import LanguageModel
 from service.problems import Ambiguous, FieldProblem, Invalid, NotAQuestion, NotUnderstood
+from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE
 from service.server_timing import part
 from service.sessions.facts import AliasChange
@@ -39,15 +40,15 @@ from sim.session.config_to_actions import UndescribableError, config_to_actions
 MAX_SUGGESTIONS = 3
 
 MAX_INLINE_CHARS = 120
-"""Characters of the longest text that is read where it came in. Longer ones may take some 20 ms and more, in
-which ticks would wait, so a thread reads them."""
+"""Longest text, in characters, that is parsed on the event loop. Longer ones may take 20 ms and more, so
+a thread parses them."""
 
 Source = Literal["grammar", "llm", "typed"]
 
 
 @dataclass(frozen=True, slots=True)
 class ParsedCommand:
-    """What was understood, and by whom."""
+    """The actions of a text, and who parsed it."""
 
     text: str
     actions: tuple[Action, ...]
@@ -58,12 +59,12 @@ class ParsedCommand:
 
     @property
     def utterance(self) -> Utterance:
-        """Ready to be done."""
+        """The utterance to perform."""
         return Utterance(actions=self.actions, text=self.text, supposes=self.supposes, language=self.language)
 
 
 class Interpreter:
-    """Understands and does what is said to sessions."""
+    """Parses text for sessions and performs it."""
 
     def __init__(
         self,
@@ -76,7 +77,7 @@ class Interpreter:
         confirm: bool = True,
         rephrase: bool = False,
     ) -> None:
-        """`confirm`: whether a change that a model made out is asked about before it is done."""
+        """`confirm`: whether changes that a model read have to be confirmed."""
         self.languages = languages
         self.aliases = aliases
         self._narrator = words
@@ -86,38 +87,44 @@ class Interpreter:
         self._rephrase = rephrase
 
     def topic(self, session: Session | None, code: str = DEFAULT_LANGUAGE) -> Topic:
-        """What a sentence may refer to: what the session was told, and what was taught."""
+        """What a sentence may refer to: the session's conversation, and aliases."""
         phrases = self.aliases.phrases(code)
         if session is None:
             return Topic(phrases=phrases)
         return session.conversation.topic(session.run.world, phrases, session.undo_stack.bookmarks)
 
-    def sentence_for(self, config: Config) -> str | None:
-        """The sentence that makes such a road; None where nothing that can be said does."""
+    def sentence_for(self, config: Config, code: str = DEFAULT_LANGUAGE) -> str | None:
+        """The sentence that makes such a road; None where nothing that can be said in the language does."""
         try:
-            return self.languages[DEFAULT_LANGUAGE].sentence(config_to_actions(config) or (Scenario(),))
+            return self.languages[code].sentence(config_to_actions(config) or (Scenario(),))
         except (UndescribableError, Unsayable):
             return None
 
-    async def preview(self, text: str, session: Session, code: str = DEFAULT_LANGUAGE) -> Preview | None:
-        """What a sentence would do now; None for one that is empty, or too long to be heard."""
+    async def preview(self, text: str, session: Session, code: str | None = None) -> Preview | None:
+        """What a sentence would do now; None for one that is empty, or too long to be read."""
         if not text.strip() or len(text) > self._most_chars:
             return None
+        code = code or session.language
         return preview(await self._read(text, session, code), session, code)
 
     async def _read(self, text: str, session: Session | None, code: str) -> Parse:
         parse, topic = self.languages[code].parse, self.topic(session, code)
         if len(text) <= MAX_INLINE_CHARS:
-            return heard(parse, text, topic)
-        return await to_thread.run_sync(heard, parse, text, topic)
+            return parse_in_topic(parse, text, topic)
+        return await to_thread.run_sync(parse_in_topic, parse, text, topic)
 
     async def interpret(
-        self, text: str, session: Session | None = None, code: str = DEFAULT_LANGUAGE, field: str = "text"
+        self, text: str, session: Session | None = None, code: str | None = None, field: str = "text"
     ) -> ParsedCommand:
-        """What a sentence means. Raises `Invalid`, `NotUnderstood` or `Ambiguous`, naming `field`."""
+        """What a sentence means, in a language (by default the session's).
+
+        Raises `Invalid`, `NotUnderstood` or `Ambiguous`, naming `field`.
+        """
+        code = code or language_of(session)
         if len(text) > self._most_chars:
-            message = f"has {len(text)} characters; at most {self._most_chars} are read"
-            raise Invalid("The text is too long.", errors=[FieldProblem(field, message)])
+            words = refusals(code)
+            message = words.said("too_many_characters", length=len(text), most=self._most_chars)
+            raise Invalid(words.said("too_long"), errors=[FieldProblem(field, message)])
         with part("parse"):
             parse = await self._read(text, session, code)
         match parse:
@@ -135,14 +142,12 @@ class Interpreter:
                 return await self._ask_model(self._model, text, refusal, code)
 
     async def interpret_question(
-        self, text: str, session: Session | None, code: str = DEFAULT_LANGUAGE
+        self, text: str, session: Session | None, code: str | None = None
     ) -> ParsedCommand:
-        """What a question means. Raises also `NotAQuestion` where something else was said."""
+        """The same for a question. Raises also `NotAQuestion` for anything else."""
         found = await self.interpret(text, session, code, "question")
         if not all(traits_of(action).is_question for action in found.actions):
-            raise NotAQuestion(
-                "This is understood, but it is not a question. Send it to `commands` to have it done."
-            )
+            raise NotAQuestion(refusals(found.language).said("no_question"))
         return found
 
     async def execute(
@@ -151,16 +156,16 @@ class Interpreter:
         utterance: Utterance,
         *,
         dry_run: bool = False,
-        code: str = DEFAULT_LANGUAGE,
         preconditions: Preconditions = NO_PRECONDITIONS,
     ) -> Outcome:
-        """Do an utterance, all or nothing; a taught phrase is kept with its owner. Raises a problem."""
+        """Perform an utterance, all or nothing; aliases are their owner's. Raises a `ProblemError`."""
         if not any(traits_of(action).changes_aliases for action in utterance.actions):
             outcome = await session.change(utterance, dry_run=dry_run, preconditions=preconditions)
             # An answer that is kept is kept as it was made: in our own words.
-            return outcome if preconditions.answer else await self._rephrase_answer(outcome)
+            return outcome if preconditions.answer else await self._rephrase_answer(outcome, session)
+        code = utterance.language or session.language
         if len(utterance.actions) > 1:
-            sentence = "A phrase is taught or forgotten by itself, with nothing else in the same breath."
+            sentence = refusals(code).said("taught_alone")
             raise Invalid(sentence, errors=[FieldProblem("actions", sentence)])
         (action,) = utterance.actions
         assert isinstance(action, Teach | Forget)
@@ -169,7 +174,7 @@ class Interpreter:
 
         def outcome_of(lesson: AliasChange) -> Outcome:
             if not made:
-                reply = self._narrator.alias_change(lesson)
+                reply = self._narrator.in_language(code).alias_change(lesson)
                 made.append(
                     Outcome(
                         utterance=utterance,
@@ -190,9 +195,13 @@ class Interpreter:
             session.announce("taught" if lesson.taught else "forgotten", utterance.text, outcome.reply)
         return outcome
 
-    async def _rephrase_answer(self, outcome: Outcome) -> Outcome:
-        """The answer in a model's words, where one may reword and its words are true to the facts."""
-        if self._model is None or not self._rephrase or outcome.answer is None:
+    async def _rephrase_answer(self, outcome: Outcome, session: Session) -> Outcome:
+        """The answer in a model's words, where one may reword and its words are true to the facts.
+
+        Only where it is English: what a text claims is known for no other language.
+        """
+        english = (outcome.utterance.language or session.language) == DEFAULT_LANGUAGE
+        if self._model is None or not self._rephrase or outcome.answer is None or not english:
             return outcome
         text = outcome.answer["text"]
         other = await self._model.rephrase(text, outcome.answer)
@@ -220,21 +229,27 @@ class Interpreter:
         self, model: LanguageModel, text: str, refusal: NotUnderstood, code: str
     ) -> ParsedCommand:
         """What a model makes of a sentence the grammar refused. Raises the refusal, or asks."""
-        reading = await model.interpret(text)
+        reading, words = await model.interpret(text), refusals(code)
         if not reading.actions:
-            refusal.detail = f"{refusal.detail} {reading.explanation}".strip()
+            failure, told = reading.failure, reading.explanation
+            if failure is not None:
+                told = words.model(failure.reason, failure.parts)
+            refusal.detail = f"{refusal.detail} {told}".strip()
             raise refusal
         at_once = {ModelUse.ALWAYS} if self._confirm else {ModelUse.ALWAYS, ModelUse.UNCONFIRMED}
         if all(traits_of(action).model in at_once for action in reading.actions):
             return ParsedCommand(text, reading.actions, source="llm", language=code)
         try:
-            said = self.languages[DEFAULT_LANGUAGE].sentence(reading.actions)
+            said = self.languages[code].sentence(reading.actions)
         except Unsayable:
-            refusal.detail += " A language model read it as something that has no sentence to confirm it by."
+            refusal.detail += f" {words.said('not_confirmable')}"
             raise refusal from None
-        raise _ambiguous(
-            "A language model read this as follows. Is that what you mean?", [(said, reading.actions)], "llm"
-        )
+        raise _ambiguous(words.said("confirm"), [(said, reading.actions)], "llm")
+
+
+def language_of(session: Session | None) -> str:
+    """The language of a sentence that names none: the session's, or the default outside of any."""
+    return DEFAULT_LANGUAGE if session is None else session.language
 
 
 def _ambiguous(question: str, choices: list[tuple[str, tuple[Action, ...]]], source: Source) -> Ambiguous:

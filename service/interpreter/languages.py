@@ -1,4 +1,4 @@
-"""The languages the service understands: every folder of `prompts/language` that holds one."""
+"""The languages of the service: every folder of `prompts/language`."""
 
 from __future__ import annotations
 
@@ -17,30 +17,30 @@ from service.sessions.availability import refusal_of
 
 
 class Language(Protocol):
-    """What is needed of a language."""
+    """The interface of a language."""
 
     def parse(self, text: str, topic: Topic = ALONE) -> Parse:
-        """What a sentence means; never raises for anything said."""
+        """The meaning of a sentence; never raises, whatever the text."""
 
     def sentence(self, actions: Sequence[Action]) -> str:
-        """One sentence that means exactly these actions. Raises `Unsayable`."""
+        """A sentence that means exactly these actions. Raises `Unsayable`."""
 
     def phrases(self, taught: Mapping[str, Sequence[Action]]) -> Phrases:
-        """Taught phrases, ready to be found."""
+        """Taught phrases, compiled for the parser."""
 
     def words_of(self, text: str) -> tuple[str, ...]:
         """The words of a text, as they are compared."""
 
 
 class Languages:
-    """Languages by their code; each is read once, at the start."""
+    """Languages by code; each is read once, at the start."""
 
     def __init__(self, by_code: Mapping[str, Language]) -> None:
         self._by_code = dict(by_code)
         self._guides: dict[str, Guide] = {}
 
     def guide(self, code: str) -> Guide | None:
-        """The guide to a language; None where it is not made of data. Raises `Invalid` for no language."""
+        """The guide to a language; None if it is not made of data. Raises `Invalid` if unknown."""
         language = self[code]
         if code not in self._guides and isinstance(language, Grammar):
             self._guides[code] = Guide(language, code)
@@ -48,7 +48,7 @@ class Languages:
 
     @classmethod
     def load(cls) -> Languages:
-        """All there are. Raises `LanguageDataError`, naming every defect, when one is unfit."""
+        """All languages. Raises `LanguageDataError`, naming every defect."""
         codes = sorted(path.name for path in (prompts_folder() / "language").iterdir() if path.is_dir())
         loaded = {
             code: Grammar.load(code, offered=lambda action: refusal_of(action) is None) for code in codes
@@ -68,10 +68,15 @@ class Languages:
         """The codes, the default first."""
         return tuple(sorted(self._by_code, key=lambda code: (code != DEFAULT_LANGUAGE, code)))
 
+    def check(self, code: str) -> None:
+        """Raises `Invalid` for a language that is not spoken here; the default always is."""
+        if code != DEFAULT_LANGUAGE:
+            self[code]
+
     def __getitem__(self, code: str) -> Language:
         """Raises `Invalid` for a language that is not spoken here."""
         try:
             return self._by_code[code]
         except KeyError:
-            sentence = f"There is no language {code!r} here; there are: {', '.join(self.codes)}."
+            sentence = refusals().said("no_language", code=code, codes=self.codes)
             raise Invalid(sentence, errors=[FieldProblem("language", sentence)]) from None

@@ -1,8 +1,8 @@
-"""What a sentence would do if it were sent now: for whoever is still typing it.
+"""Previews: what a sentence would do, for someone who is still typing it.
 
-Read by the grammar alone, tried on a copy, and thrown away: no model is asked, no question answered
-and no long work begun. What chance decides (where a pothole falls) may fall otherwise when it is
-sent, so only figures are told.
+The grammar alone reads the sentence and a copy of the session performs it: no model is asked, no question
+answered and no long work started. Random choices (where a pothole falls) may differ when the sentence is
+sent, so a preview has changes of figures only.
 """
 
 from __future__ import annotations
@@ -21,16 +21,16 @@ from service.sessions.transaction import Transaction
 from sim.session.edits import Change
 
 MAX_TICKS = 64
-"""More ticks than this are not run for a preview."""
+"""A preview that would run more ticks is not tried."""
 
 PreviewStatus = Literal["does", "asks", "ambiguous", "not_understood", "refused"]
 
 
 @dataclass(frozen=True, slots=True)
 class Preview:
-    """How a sentence stands: what it would change, or why it would not be done.
+    """What a sentence would change, or why it would not be done.
 
-    `actions` is what it means; `detail` the sentence it would be refused or asked about with.
+    `actions` is its meaning; `detail` is the sentence of the refusal or of the question to the user.
     """
 
     standing: PreviewStatus
@@ -41,7 +41,7 @@ class Preview:
 
 
 def preview(parse: Parse, session: Session, language: str = DEFAULT_LANGUAGE) -> Preview:
-    """What a parsed sentence would do to a session, which stays as it is; refused in a language."""
+    """The preview of a parsed sentence; the session stays as it is. Refusals are in `language`."""
     match parse:
         case Refused():
             standing: PreviewStatus = "not_understood" if parse.reason == "not_understood" else "refused"

@@ -1,6 +1,6 @@
-"""The optional language model: asked when the grammar refuses, and believed in nothing.
+"""The optional language model: asked when the grammar refuses, and never trusted.
 
-Importing this package loads no model library; only `create_model` does, and only where a model is named.
+Importing this package loads no model library; `create_model` does, and only if a model is configured.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from service.settings import Settings
 __all__ = ["Facts", "Interpretation", "LanguageModel", "MissingExtraError", "create_model"]
 
 _LIBRARIES = ("pydantic_ai", "openai", "httpx2")
-"""What the extra `llm` brings."""
+"""The packages of the extra `llm`."""
 
 
 class MissingExtraError(RuntimeError):
@@ -19,10 +19,10 @@ class MissingExtraError(RuntimeError):
 
 
 def create_model(settings: Settings) -> LanguageModel | None:
-    """The language model the settings name; None without an address or a model.
+    """The configured language model; None without an address or a model name.
 
-    Raises `MissingExtraError` where one is named and the extra `llm` is not installed, and
-    `PromptError` for broken prompts: both at the start, rather than when someone first needs it.
+    Raises `MissingExtraError` where the extra `llm` is not installed, and `PromptError` for broken prompts:
+    both at the start, not when the model is first needed.
     """
     if settings.llm_base_url is None or not settings.llm_model:
         return None

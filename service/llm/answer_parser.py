@@ -1,8 +1,7 @@
-"""What a model answered → actions of the contract, or why it is not fit.
+"""Parses a model's answer into actions, or rejects it.
 
-Everything here is suspicion: an answer is data from elsewhere, and whoever said the sentence may have
-tried to have the model say something. What passes is validated as any other action; what a session
-can do of it is the session's to say.
+The answer is untrusted data: the user's text may have tried to make the model say something. Actions that
+pass are validated like any others; what a session can do with them is up to the session.
 """
 
 from __future__ import annotations
@@ -21,13 +20,13 @@ from service.llm.schema import FORBIDDEN, WORDS
 from sim.actions import Add, Drive, Remove, Set, SetMode
 
 MAX_ACTIONS: Final = 8
-"""Actions in one answer, those inside others counted."""
+"""Largest number of actions in one answer, nested ones included."""
 
 _FENCED = re.compile(r"```[a-zA-Z]*\n?(.*?)```", re.DOTALL)
 
 
 def parse_answer(answer: str, said: str) -> tuple[Action, ...]:
-    """The actions in an answer to what was said. Raises `ModelFailure`."""
+    """The actions in an answer to a text. Raises `ModelFailure`."""
     try:
         values = from_json(_object_in(answer), allow_inf_nan=False)
     except ValueError as error:
@@ -47,14 +46,14 @@ def parse_answer(answer: str, said: str) -> tuple[Action, ...]:
 
 
 def _object_in(answer: str) -> str:
-    """The JSON of an answer, out of its fence and of the words around it."""
+    """The JSON object of an answer, without a code fence and words around it."""
     fenced = _FENCED.findall(answer)
     inside = fenced[0] if len(fenced) == 1 else answer
     return str(inside[inside.find("{") : inside.rfind("}") + 1])
 
 
 def _check_names(values: list[Any]) -> None:
-    """Before anything is made of them: how many there are, and whether each may be."""
+    """Check the number and the names of the actions, before they are parsed."""
     if any(isinstance(value, float) and not isfinite(value) for value in _inside(values)):
         raise ModelFailure("no_action", again=True)
     names = [value["do"] for value in _inside(values) if isinstance(value, dict) and "do" in value]
@@ -66,7 +65,7 @@ def _check_names(values: list[Any]) -> None:
 
 
 def _inside(value: Any) -> Iterator[Any]:
-    """All values in a value, itself included; without recursion, since it can be as deep as it likes."""
+    """All values nested in a value, itself included; iterative, since the depth is unbounded."""
     way = [value]
     while way:
         here = way.pop()
@@ -78,7 +77,7 @@ def _inside(value: Any) -> Iterator[Any]:
 
 
 def _check(action: Action, said: str) -> None:
-    """The few fields that take any text: only the contract's words, and ids that were said."""
+    """Check fields that take any text: only words of the contract, and ids that the user said."""
     match action:
         case Set(parameter=parameter, value=value):
             words = WORDS.get(parameter)
@@ -101,7 +100,7 @@ def _check(action: Action, said: str) -> None:
 
 
 def _was_said(thing: str, said: str) -> bool:
-    """Whether an id is among the words of a sentence, written "pothole-3" or "pothole 3"."""
+    """Whether an id is in a text, as "pothole-3" or "pothole 3"."""
     kind, mark, number = thing.rpartition("-")
     if not (mark and kind.isalpha() and number.isdecimal()):
         return False

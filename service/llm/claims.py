@@ -1,11 +1,10 @@
-"""What a text claims, so that other words for it can be held against the first.
+"""Claims of a text: whether a rephrased explanation says the same as the original.
 
-A model may change how an explanation sounds and nothing it says. So both are read down to their claims
-in order: ids, numbers, moves, negations, and every other word that carries a fact (`claims.yaml` names
-them). A faithful text has the same claims in the same order; the order keeps "vehicle-1 was left of me
-and pothole-2 right" from becoming the reverse. Every other word must be neutral, or the first text's.
-Much that is faithful is thrown away: that costs a nicer sentence, and keeping one that is wrong would
-cost the truth of an explanation.
+A model may change the wording of an explanation, not what it says. Both texts are reduced to their claims in
+order: ids, numbers, moves, negations, and every other word that carries a fact (`claims.yaml`). A faithful
+text has the same claims in the same order; the order keeps "vehicle-1 was left of me and pothole-2 right"
+from becoming the reverse. Every other word must be neutral, or in the original. Many faithful texts are
+rejected: that costs a nicer sentence, while accepting a wrong one would make an explanation false.
 """
 
 from __future__ import annotations
@@ -20,10 +19,10 @@ from service.llm.prompts import load_claims
 from service.llm.protocol import Facts
 
 Claim = tuple[str, str]
-"""What sort of claim, and which: `("id", "vehicle-3")`, `("number", "12")`, `("word", "left")`."""
+"""The sort of claim and its value: `("id", "vehicle-3")`, `("number", "12")`, `("word", "left")`."""
 
 EXTRA_CHARS: Final = 80
-"""A text may be twice as long as the first, and this much."""
+"""An answer may have twice the characters of the original, and so many more."""
 
 _TOKEN = re.compile(
     r"(?P<id>[^\W\d_]+-\d+)"
@@ -32,7 +31,7 @@ _TOKEN = re.compile(
 )
 _ADDRESS = re.compile(r"://|www\.|[a-z]\.[a-z]")
 _PLAIN = frozenset(" .,;:!?'\"()-–—’‘“”…/→")
-"""Marks that a sentence may have; letters and digits are those of ASCII."""
+"""Punctuation that an answer may have, beside ASCII letters and digits."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,13 +39,13 @@ class Claims:
     """The words of a language that carry facts."""
 
     groups: dict[str, str]
-    """Word → what it says; words that say the same have one name."""
+    """Word → claim; synonyms have the same claim."""
     numbers: dict[str, str]
     neutral: frozenset[str]
 
     @classmethod
     def load(cls) -> Claims:
-        """From `prompts/llm`. Raises `PromptError`."""
+        """The words in `prompts/llm`. Raises `PromptError`."""
         values = load_claims()
         groups = {word: name for name, words in values["groups"].items() for word in words}
         numbers = {str(word): str(number) for word, number in values["numbers"].items()}
@@ -57,7 +56,7 @@ class Claims:
         return tuple(self._claims(text))
 
     def is_faithful(self, answer: str, text: str, facts: Facts) -> bool:
-        """Whether an answer may stand for a text that was made from these facts."""
+        """Whether an answer may replace a text that was made from these facts."""
         claims = self.claims_in(text)
         named = {value for sort, value in claims if sort == "id"}
         return (
@@ -70,7 +69,7 @@ class Claims:
         )
 
     def _foreign(self, answer: str, text: str) -> set[str]:
-        """The words of an answer that are neither the text's, nor claims, nor neutral."""
+        """The words of an answer that are neither in the text, nor claims, nor neutral."""
         return _words(answer) - _words(text) - self.groups.keys() - self.numbers.keys() - self.neutral
 
     def _claims(self, text: str) -> Iterator[Claim]:

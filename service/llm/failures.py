@@ -1,6 +1,6 @@
 """Everything that can go wrong with a model, by the name under which a person is told.
 
-A leaf; the sentences are in `prompts/llm/told.yaml`, one for each reason.
+A leaf; the sentences are in `prompts/sayings/<language>/refusals.yaml`, one for each reason.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class PromptError(RuntimeError):
 
 
 class ModelFailure(Exception):  # noqa: N818 -- read as what went wrong
-    """A model's answer is not there, or is not fit. `again`: whether asking once more may help."""
+    """The model's answer is missing or unfit. `again`: whether asking once more may help."""
 
     def __init__(self, reason: Reason, *, again: bool = False, **parts: object) -> None:
         super().__init__(reason)

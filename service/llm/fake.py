@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from service.llm.failures import ModelFailure
 from service.llm.protocol import Facts, Interpretation
+from service.refusals import refusals
 
 
 @dataclass
@@ -21,8 +23,9 @@ class FakeModel:
     async def interpret(self, text: str) -> Interpretation:
         """What was written down for the sentence."""
         self.asked.append(text)
-        nothing = Interpretation(explanation="The language model found nothing to do in this.")
-        return self.interpretations.get(text, nothing)
+        nothing = ModelFailure("nothing")
+        told = refusals().model(nothing.reason, nothing.parts)
+        return self.interpretations.get(text, Interpretation(explanation=told, failure=nothing))
 
     async def rephrase(self, text: str, facts: Facts) -> str:  # noqa: ARG002 -- the interface has it
         """What was written down for the text."""

@@ -29,15 +29,16 @@ from service.actions import Action
 from service.llm.answer_parser import parse_answer
 from service.llm.claims import Claims
 from service.llm.failures import ModelFailure
-from service.llm.prompts import load_failure_messages, load_prompt
+from service.llm.prompts import load_prompt
 from service.llm.protocol import Facts, Interpretation
 from service.llm.transport import GuardedTransport
 from service.rate_limit import TokenBucket
+from service.refusals import refusals
 from service.settings import Settings
 
 _LOG = structlog.get_logger(__name__)
 _OWN_HOST: Final = "api.openai.com"
-"""The one server where the number of tokens has another name; its newer models refuse the old one."""
+"""The one server with another parameter for the number of tokens; its newer models refuse the old one."""
 
 
 class OpenAIModel:
@@ -50,7 +51,7 @@ class OpenAIModel:
             raise ValueError("a language model needs an address and a name")
         self._settings = settings
         self._interpret, self._rephrase = load_prompt("interpret"), load_prompt("rephrase")
-        self._told, self._claims = load_failure_messages(), Claims.load()
+        self._claims = Claims.load()
         bucket = TokenBucket(settings.llm_per_minute, clock)
         self._http = httpx2.AsyncClient(
             transport=GuardedTransport(base_url, settings.llm_api_key, bucket),
@@ -85,11 +86,11 @@ class OpenAIModel:
             async with asyncio.timeout(self._settings.llm_timeout_s):
                 return Interpretation(await self._actions(text))
         except TimeoutError:
-            failure = ModelFailure("timeout", seconds=f"{self._settings.llm_timeout_s:g}")
+            failure = ModelFailure("timeout", seconds=self._settings.llm_timeout_s)
         except ModelFailure as error:
             failure = error
         _LOG.info("language model not used", reason=failure.reason, model=self.name)
-        return Interpretation(explanation=self._told.message_for(failure))
+        return Interpretation(explanation=refusals().model(failure.reason, failure.parts), failure=failure)
 
     async def rephrase(self, text: str, facts: Facts) -> str:
         """The text in the model's words, if these claim the same; else the text."""

@@ -1,4 +1,4 @@
-"""The prompts and what people are told of failures, read from `prompts/llm`.
+"""The prompts and the words of explanations, read from `prompts/llm`.
 
 A prompt is a Markdown file with a head: its `version`, and `again`, the words added when an answer could
 not be read. No word of a user is ever put into one: what was said travels in a message of its own.
@@ -8,16 +8,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final, get_args
+from typing import Any, Final
 
 import yaml
 
-from service.llm.failures import ModelFailure, PromptError, Reason
+from service.llm.failures import PromptError
 from service.llm.schema import schema
 from service.resources import prompts_folder
 
 SCHEMA_MARK: Final = "{{actions}}"
-"""Stands in a prompt where the actions are described."""
+"""The placeholder for the description of the actions in a prompt."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,17 +28,6 @@ class Prompt:
     version: int
     text: str
     again: str
-
-
-@dataclass(frozen=True, slots=True)
-class FailureMessages:
-    """What a person is told, reason by reason."""
-
-    sentences: dict[Reason, str]
-
-    def message_for(self, failure: ModelFailure) -> str:
-        """The sentence for a failure."""
-        return self.sentences[failure.reason].format(**failure.parts)
 
 
 def llm_folder() -> Path:
@@ -56,16 +45,6 @@ def load_prompt(name: str, folder: Path | None = None) -> Prompt:
     if not isinstance(version, int) or not isinstance(again, str) or not body.strip():
         raise PromptError(f"{path} must begin with a head that has a version, and have a text")
     return Prompt(name, version, body.strip().replace(SCHEMA_MARK, schema()), again.strip())
-
-
-def load_failure_messages(folder: Path | None = None) -> FailureMessages:
-    """A sentence for every reason. Raises `PromptError`."""
-    path = (folder or llm_folder()) / "told.yaml"
-    sentences = _values(_text(path), path)
-    wrong = set(sentences) ^ set(get_args(Reason))
-    if wrong or not all(isinstance(sentence, str) for sentence in sentences.values()):
-        raise PromptError(f"{path} must have a sentence for each reason: {', '.join(sorted(wrong))}")
-    return FailureMessages(sentences)
 
 
 def load_claims(folder: Path | None = None) -> dict[str, Any]:

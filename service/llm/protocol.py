@@ -1,17 +1,18 @@
-"""What a language model may do for the service: read a sentence, put an explanation in other words.
+"""The interface of a language model: read a sentence, rephrase an explanation.
 
-A leaf, so that whoever asks one needs no library for it. A model can cause nothing by itself: what it
-reads becomes contract actions, which go the way of all others. Whether to ask it, and whether to show
-what it understood before doing it, is the caller's to decide.
+This module imports no model library. A model cannot do anything by itself: what it reads becomes actions,
+which are handled like all others. Whether to ask it, and whether to confirm what it read, is up to the
+caller.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Protocol, TypeAlias
 
 from service.actions import Action
+from service.llm.failures import ModelFailure
 
 Facts: TypeAlias = Mapping[str, Any]
 """The structured part of an explanation, as JSON values: `service.contract.encode.explanation`."""
@@ -19,28 +20,30 @@ Facts: TypeAlias = Mapping[str, Any]
 
 @dataclass(frozen=True, slots=True)
 class Interpretation:
-    """What a model made of a sentence: actions, or one sentence on why there are none."""
+    """What a model read in a sentence: actions, or one sentence on why there are none."""
 
     actions: tuple[Action, ...] = ()
     explanation: str = ""
+    failure: ModelFailure | None = field(default=None, compare=False)
+    """what went wrong, to be told in another language"""
 
 
 class LanguageModel(Protocol):
-    """A language model behind the typed door. Nothing that a server answers makes it raise."""
+    """A language model. It never raises, whatever its server answers."""
 
     @property
     def name(self) -> str:
-        """Which model, and which versions of the prompts: for showing, never a key or an address."""
+        """The model and the versions of the prompts, for display; never a key or an address."""
         ...
 
     async def interpret(self, text: str) -> Interpretation:
-        """What someone may have meant whom the grammar did not understand."""
+        """The likely meaning of a sentence that the grammar refused."""
         ...
 
     async def rephrase(self, text: str, facts: Facts) -> str:
-        """An explanation in other words, or as it was given where the model's words are not fit."""
+        """An explanation in other words, or unchanged if the model's words are unfit."""
         ...
 
     async def aclose(self) -> None:
-        """Let go of connections."""
+        """Close connections."""
         ...

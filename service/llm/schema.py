@@ -18,7 +18,7 @@ from sim.planner_names import ALIASES, BUILT_IN, PROMISED
 from sim.sensor_names import SensorName
 
 MAY: Final = verbs_where(lambda traits: traits.model is not ModelUse.NEVER)
-"""What a model may cause, as the table of actions says."""
+"""Actions that a model may cause, as the table of actions says."""
 
 Json = dict[str, Any]
 _ACTION = "Action"
@@ -33,7 +33,7 @@ _DO: Final[dict[str, str]] = {
 }
 
 FORBIDDEN: Final = frozenset(_DO.values()) - MAY
-"""What the contract has besides."""
+"""All other actions."""
 
 WORDS: Final[dict[str, tuple[str, ...]]] = {
     "weather": get_args(Weather),
@@ -43,10 +43,10 @@ WORDS: Final[dict[str, tuple[str, ...]]] = {
     "sensor": get_args(SensorName),
     "dynamics": ("grid", "continuous"),
 }
-"""Parameters that have words for values; all others have numbers."""
+"""The values of parameters that take words; all others take numbers."""
 
 _UNSPOKEN = frozenset(("ego",))
-"""Fields for programs: no sentence names an ego."""
+"""Fields for programs only: no sentence names an ego."""
 
 
 @cache

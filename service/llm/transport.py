@@ -1,8 +1,8 @@
-"""The only way to the model's server: one address, few headers, a bounded answer read down to its text.
+"""The transport to the model's server: one address, few headers, a bounded answer reduced to its text.
 
-Whatever library asks, this decides what leaves and what comes back. Out goes the body and nothing else
-but the key: no cookies, no description of this machine. Back comes the text of the answer in a fresh,
-well-formed body; tool calls, odd fields and other headers stay here. Knows no prompts and no actions.
+Whatever library makes the request, this decides what leaves and what comes back. Out go the body and the key:
+no cookies, no description of this machine. Back comes the text of the answer in a fresh, well-formed body;
+tool calls, other fields and headers are dropped.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from service.llm.failures import ModelFailure
 from service.rate_limit import TokenBucket
 
 MAX_ANSWER_BYTES: Final = 262_144
-"""The size of a response that is read; what a model may say is a hundredth of it."""
+"""Largest response, in bytes; an answer takes a hundredth of it."""
 PATH: Final = "/chat/completions"
 
 
@@ -38,7 +38,7 @@ class _Completion(BaseModel):
 
 
 class GuardedTransport(httpx2.AsyncBaseTransport):
-    """Asks one server in one way. Raises `ModelFailure` for all that is no answer."""
+    """Requests one address. Raises `ModelFailure` for anything that is no answer."""
 
     def __init__(
         self,
@@ -47,14 +47,14 @@ class GuardedTransport(httpx2.AsyncBaseTransport):
         bucket: TokenBucket,
         inner: httpx2.AsyncBaseTransport | None = None,
     ) -> None:
-        """`inner` does the asking; by default, connections that heed no proxy of the environment."""
+        """`inner` makes the request; by default one that ignores proxy settings of the environment."""
         self._url = f"{base_url}{PATH}"
         self._key = key
         self._bucket = bucket
         self._inner = inner or httpx2.AsyncHTTPTransport(trust_env=False)
 
     async def handle_async_request(self, request: httpx2.Request) -> httpx2.Response:
-        """The request's body, posted; the answer's text, in a body of our own."""
+        """Send the request's body; return the answer's text in a new body."""
         wait_s = self._bucket.take()
         if wait_s:
             raise ModelFailure("too_often", wait=wait_s)
@@ -110,7 +110,7 @@ def _check_head(answer: httpx2.Response) -> None:
 
 
 async def _read_bounded(answer: httpx2.Response) -> bytes:
-    """The body as it is sent, unless it is too large. Nothing is unpacked: what is packed is no JSON."""
+    """The body as sent, unless it is too large; compressed bodies are not unpacked and so are no JSON."""
     body = bytearray()
     async for chunk in answer.aiter_raw():
         body += chunk
@@ -120,7 +120,7 @@ async def _read_bounded(answer: httpx2.Response) -> bytes:
 
 
 def _plain(body: bytes) -> bytes:
-    """The same answer with nothing in it but the text."""
+    """The same answer with only its text."""
     try:
         choice = _Completion.model_validate_json(body).choices[0]
     except ValidationError as error:

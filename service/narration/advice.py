@@ -45,15 +45,15 @@ class Advices:
         return self._say(
             "question",
             hazard=self._say("hazards", advice.hazard, "a"),
-            distance=_metres(advice.distance_m),
+            distance=self._metres(advice.distance_m),
             speed=self._speed(advice),
         )
 
     def text(self, advice: Advice) -> str:
         """Two or three sentences."""
         figures, brake = advice.figures, advice.prospect(Choice.BRAKE)
-        stopping, distance = _apart(figures.stopping_m, advice.distance_m)
-        steering, distance_steered = _apart(figures.steering_m, advice.distance_m)
+        stopping, distance = self._apart(figures.stopping_m, advice.distance_m)
+        steering, distance_steered = self._apart(figures.steering_m, advice.distance_m)
         by_steering = advice.choice is Choice.STEER
         parts = {
             "it": self._say("hazards", advice.hazard, "the"),
@@ -62,8 +62,8 @@ class Advices:
             "stopping": stopping,
             "steering": steering,
             "met": f"{max(1, round(brake.meets_kmh))} km/h",
-            "time": f"{figures.time_s:.2g} s",
-            "reaction": f"{figures.reaction_s:g} s",
+            "time": f"{self._sayings.number(figures.time_s, '.2g')} s",
+            "reaction": f"{self._sayings.number(figures.reaction_s)} s",
         }
         told = [
             self._say(self._key(advice), **parts),
@@ -113,7 +113,24 @@ class Advices:
         return self._say(key, percent=percent, **{"while": stays})
 
     def _speed(self, advice: Advice) -> str:
-        return self._say("weather", advice.weather, speed=_kmh(advice.speed_kmh))
+        return self._say("weather", advice.weather, speed=self._kmh(advice.speed_kmh))
+
+    def _kmh(self, speed: float) -> str:
+        return f"{self._plain(speed)} km/h"
+
+    def _metres(self, distance: float) -> str:
+        return f"{self._plain(distance)} m"
+
+    def _plain(self, value: float) -> str:
+        """One decimal below ten, if it says anything; none above."""
+        return self._sayings.number(value, ".0f") if value >= 10 else self._sayings.number(round(value, 1))
+
+    def _apart(self, needed: float, there: float) -> tuple[str, str]:
+        """Two distances in metres that do not read the same unless they nearly are."""
+        if self._plain(needed) != self._plain(there):
+            return self._metres(needed), self._metres(there)
+        number = self._sayings.number
+        return f"{number(round(needed, 1))} m", f"{number(round(there, 1))} m"
 
     def _say(self, *keys: str, **parts: object) -> str:
         return self._sayings.say("advice", *keys, **parts)
@@ -127,23 +144,3 @@ def _late(advice: Advice) -> bool:
 def _steered(advice: Advice) -> str:
     """Whether steering gets clear, when everything is in the middle of its range."""
     return "clears" if advice.prospect(Choice.STEER).ending is Ending.CLEARS else "misses"
-
-
-def _kmh(speed: float) -> str:
-    return f"{_plain(speed)} km/h"
-
-
-def _metres(distance: float) -> str:
-    return f"{_plain(distance)} m"
-
-
-def _plain(value: float) -> str:
-    """One decimal below ten, if it says anything; none above."""
-    return f"{value:.0f}" if value >= 10 else f"{round(value, 1):g}"
-
-
-def _apart(needed: float, there: float) -> tuple[str, str]:
-    """Two distances in metres that do not read the same unless they nearly are."""
-    if _plain(needed) != _plain(there):
-        return _metres(needed), _metres(there)
-    return f"{round(needed, 1):g} m", f"{round(there, 1):g} m"

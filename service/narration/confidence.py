@@ -94,14 +94,14 @@ class Confidences:
             _clarity_key(clarity),
             move=move,
             other=other,
-            gap=f"{gap:g}",
-            cost="" if cost is None else f"{cost:g}",
-            seconds=f"{gap * run.config.step_seconds:g}",
+            gap=self._sayings.number(gap),
+            cost="" if cost is None else self._sayings.number(cost),
+            seconds=self._sayings.number(gap * run.config.step_seconds),
             planner=decision.planner,
         )
 
     def _when(self, ticks: tuple[int, int], run: SimState) -> str:
-        first, last = (f"{each * run.config.step_seconds:g}" for each in ticks)
+        first, last = (self._sayings.number(each * run.config.step_seconds) for each in ticks)
         key = "one" if first == last else "many"
         return self._say("when", key, seconds=first, first=first, last=last)
 
@@ -117,6 +117,8 @@ class Confidences:
         parts = dict(error.facts)
         if isinstance(outcome := parts.get("outcome"), Outcome):
             parts["outcome"] = self._sayings.say("answers", "outcomes", outcome)
+        if isinstance(fault := parts.get("fault"), str):
+            parts["fault"] = self._sayings.fault(fault)
         return self._say(error.code.removeprefix("confidence_"), **parts)
 
     def _say(self, *keys: str, **parts: object) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from service.contract.encode.explanation import crash_json
 from service.narration.explanation import called
+from service.narration.inflection import capital
 from service.narration.naming import Naming
 from service.narration.options import Options
 from service.narration.question_handler import Json, not_so, plain
@@ -85,7 +86,7 @@ class Crashes:
 
     def _by_whom(self, decision: Decision) -> str:
         if decision.fault is not None:
-            return self._say("fault", planner=decision.planner, fault=decision.fault)
+            return self._say("fault", planner=decision.planner, fault=self._sayings.fault(decision.fault))
         if decision.held_back and decision.asked is not None:
             return self._say("held_back", asked=self._sayings.move(decision.asked, "do"))
         return "" if decision.asked is None else self._say("by_hand")
@@ -98,7 +99,7 @@ class Crashes:
         free = [self._sayings.move(move, "place") for move in crash.free if move is not decision.move]
         if free:
             places = self._sayings.joined(free)
-            return _capital(self._say("free", "one" if len(free) == 1 else "many", places=places))
+            return capital(self._say("free", "one" if len(free) == 1 else "many", places=places))
         return self._say("all_met", reasons=self._sayings.all_met(others, "then", naming))
 
     def _flips(self, crash: Crash, naming: Naming) -> str:
@@ -145,7 +146,3 @@ class Crashes:
 
     def _say(self, *keys: str, **parts: object) -> str:
         return self._sayings.say("crash", *keys, **parts)
-
-
-def _capital(text: str) -> str:
-    return text[:1].upper() + text[1:]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from service.narration.inflection import is_told, lower_first
 from service.narration.naming import Naming
 from service.narration.outlook import outlook
 from service.narration.sayings import Sayings
@@ -45,14 +46,19 @@ class _Telling:
         """What was told, and of the causes that were not there that they were not, where it was not told."""
         imagined = self._naming.imagined([cause.id for cause in self._explanation.causes])
         phrases = [self._sayings.imagined(name, where) for name, where in imagined.items()]
-        more = [self._say("imagined", told=phrase) for phrase in phrases if phrase not in told]
+        more = [self._say("imagined", told=phrase) for phrase in phrases if not is_told(phrase, told)]
         return self._joined([told, *dict.fromkeys(more)])
 
     def why(self) -> str:
         """Why the move was made."""
         decision = self._decision
         if decision.fault is not None:
-            return self._say("fact_fault", tick=decision.tick, planner=decision.planner, fault=decision.fault)
+            return self._say(
+                "fact_fault",
+                tick=decision.tick,
+                planner=decision.planner,
+                fault=self._sayings.fault(decision.fault),
+            )
         if decision.asked is not None and not decision.held_back:
             return self._say("fact_asked", tick=decision.tick, did=self._did(decision.move))
         if decision.measure is not Measure.RANK and decision.asked is None:
@@ -103,7 +109,7 @@ class _Telling:
         if decision.measure is not Measure.RANK and option.verdict == "free":
             return self._not_worth(option, do)
         if option.verdict == "free" and self._outlook is not None and (but := self._outlook.not_made(option)):
-            return self._say("not_but", tick=decision.tick, but=but[0].lower() + but[1:].rstrip("."))
+            return self._say("not_but", tick=decision.tick, but=lower_first(but).rstrip("."))
         if option.verdict == "free":
             return self._say(
                 "not_preferred",
@@ -123,7 +129,7 @@ class _Telling:
             return self._say("own", fact=fact, planner=decision.planner)
         if chosen.cost is None:
             return self._say("weighed_no_way", fact=fact)
-        costs = f"{chosen.cost:g}"
+        costs = self._sayings.number(chosen.cost)
         others = [option for option in decision.options if option.cost is not None and option is not chosen]
         if not others or others[0].cost is None:
             return self._say(f"weighed_only_{decision.measure}", fact=fact, costs=costs)
@@ -133,7 +139,7 @@ class _Telling:
             fact=fact,
             costs=costs,
             other=self._sayings.move(others[0].move, "name"),
-            more=f"{more:g}",
+            more=self._sayings.number(more),
         )
 
     def _not_worth(self, option: Option, do: str) -> str:
@@ -146,7 +152,7 @@ class _Telling:
         more = option.cost - best
         key = f"not_worth_{decision.measure}" if more else "not_even"
         instead = self._sayings.move(decision.move, "name")
-        return self._say(key, tick=decision.tick, do=do, more=f"{more:g}", instead=instead)
+        return self._say(key, tick=decision.tick, do=do, more=self._sayings.number(more), instead=instead)
 
     def _proofs(self) -> list[str]:
         """What re-running has shown, cause by cause."""
@@ -280,5 +286,10 @@ def called(name: str, sayings: Sayings, naming: Naming) -> str:
     if kind == "preference" and what:
         return sayings.say("why", "wish", wish=sayings.say("replies", "preferences", what))
     if kind == "setting" and what:
-        return sayings.say("why", "setting", setting=what.replace("_", " "))
+        return sayings.say(
+            "why",
+            "setting",
+            setting=what.replace("_", " "),
+            name=sayings.value("replies", "parameters", what),
+        )
     return naming.thing(name)

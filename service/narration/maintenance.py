@@ -52,7 +52,8 @@ class Maintenance:
     def _distance(self, metres: float) -> str:
         if metres < 1000:
             return self._say("metres", metres=f"{metres:.0f}")
-        kilometres = f"{metres / 1000:,.1f}".removesuffix(".0")
+        tenths = round(metres / 1000, 1)
+        kilometres = self._sayings.number(tenths, ",.0f" if tenths.is_integer() else ",.1f")
         return self._say("kilometres", kilometres=kilometres)
 
     def _say(self, *keys: str, **parts: object) -> str:

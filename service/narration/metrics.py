@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from service.contract.encode.forecast import figures_json
+from service.narration.inflection import capital
 from service.narration.question_handler import Json, plain
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
@@ -59,7 +60,7 @@ class Figures:
             self._many("stuck", metrics.stuck),
         ]
         counted = self._sayings.joined([count for count in counts if count])
-        told = [self._say("all", counts=_capital(counted), episodes=self._many("episodes", metrics.episodes))]
+        told = [self._say("all", counts=capital(counted), episodes=self._many("episodes", metrics.episodes))]
         if interval is not None:
             told.append(self._say("rate", **_shares(metrics, interval)))
         return " ".join([*told, self._moves(metrics), self._distance(metrics)])
@@ -68,7 +69,7 @@ class Figures:
         if not metrics.episodes:
             return self._say("no_figure")
         episodes = self._many("episodes", metrics.episodes)
-        return self._say("all", counts=_capital(self._many(key, count)), episodes=episodes)
+        return self._say("all", counts=capital(self._many(key, count)), episodes=episodes)
 
     def _rate(self, metrics: Metrics, interval: tuple[float, float] | None) -> str:
         if not metrics.episodes:
@@ -81,7 +82,7 @@ class Figures:
 
     def _steps(self, run: SimState) -> str:
         steps = run.metrics.steps
-        seconds = f"{round(steps * run.config.step_seconds, 1):.10g}"
+        seconds = self._sayings.number(round(steps * run.config.step_seconds, 1), ".10g")
         return self._say("steps", "one" if steps == 1 else "many", count=steps, seconds=seconds)
 
     def _moves(self, metrics: Metrics) -> str:
@@ -99,7 +100,9 @@ class Figures:
         metres = metrics.distance_m
         if metres < 1000:
             return self._say("distance", distance=self._say("metres", count=round(metres)))
-        return self._say("distance", distance=self._say("kilometres", count=f"{metres / 1000:.1f}"))
+        return self._say(
+            "distance", distance=self._say("kilometres", count=self._sayings.number(metres / 1000, ".1f"))
+        )
 
     def _many(self, key: str, count: int) -> str:
         forms = self._sayings.words("metrics", key)
@@ -115,7 +118,3 @@ def _shares(metrics: Metrics, interval: tuple[float, float]) -> dict[str, object
     share = round(100 * metrics.successes / metrics.episodes)
     # Outwards, so that the interval told is never narrower than the one computed.
     return {"share": share, "low": int(100 * low), "high": min(100, int(100 * high) + 1)}
-
-
-def _capital(text: str) -> str:
-    return text[:1].upper() + text[1:]

@@ -100,7 +100,7 @@ def _metres(sayings: Sayings, along: int, cell_m: float, *, beside: bool) -> str
     side = "ahead" if along > 0 else "behind"
     if abs(along) == 1 and not beside:
         return sayings.say("naming", side, "next")
-    return sayings.say("naming", side, "metres", metres=f"{abs(along) * cell_m:g}")
+    return sayings.say("naming", side, "metres", metres=sayings.number(abs(along) * cell_m))
 
 
 def _nth(sayings: Sayings, count: int) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable
-from functools import lru_cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -12,10 +12,12 @@ from service.narration.episode_end import Ends
 from service.narration.naming import Naming
 from service.narration.options import Options
 from service.narration.outlook import outlook
-from service.narration.replies import Replies
+from service.narration.replies import Replies, speed
 from service.narration.sayings import Sayings
 from service.narration.side_by_side import SidesBySide
+from service.resources import DEFAULT_LANGUAGE
 from service.sessions.facts import AliasChange, Answerable, Fact, SideBySideTexts
+from service.sessions.scheduler.playback_speed import PlaybackSpeed
 from sim.decide import sense
 from sim.events import Event, EventType
 from sim.explain.side_by_side import SideBySide
@@ -47,9 +49,22 @@ class Narrator:
         """Sentences said before, by all they are made of: the same few are said again and again."""
 
     @classmethod
-    def load(cls, code: str = "en", folder: Path | None = None) -> Narrator:
+    def load(cls, code: str = DEFAULT_LANGUAGE, folder: Path | None = None) -> Narrator:
         """A narrator of the language `code`."""
         return cls(Sayings.load(code, folder))
+
+    @property
+    def language(self) -> str:
+        """The code of the language."""
+        return self._sayings.language
+
+    def in_language(self, code: str) -> Narrator:
+        """The same in another language; as it is where there are no sayings in that."""
+        return self if code == self.language else _narrator(code) or self
+
+    def failed(self) -> str:
+        """What is said when the simulation has met a defect of its own."""
+        return self._sayings.say("log", "events", "failed")
 
     def decision(self, decision: Decision, run: SimState, forecast: Forecast | None = None) -> str:
         """What the vehicle does at a tick and why, in one line.
@@ -57,7 +72,7 @@ class Narrator:
         `forecast`: what it was decided by, where that is known already.
         """
         if decision.fault is not None:
-            return self._say("fault", planner=decision.planner, fault=decision.fault)
+            return self._say("fault", planner=decision.planner, fault=self._sayings.fault(decision.fault))
         asked, first = decision.asked, decision.options[0]
         ranked = decision.measure is Measure.RANK
         if first.move is decision.move is Move.FORWARD and ranked and asked is None:
@@ -149,13 +164,13 @@ class Narrator:
             event.type,
             episode=event.episode,
             ticks=ticks,
-            seconds=f"{ticks * run.config.step_seconds:g}",
+            seconds=self._sayings.number(ticks * run.config.step_seconds),
             who=self._sayings.joined(event.ids),
             where="" if event.cell is None else self._sayings.where(event.cell),
             move="" if event.move is None else self._sayings.move(event.move, "name"),
             reason=reason,
             planner=run.config.planner,
-            fault=event.how or "",
+            fault=self._sayings.fault(event.how or "") if event.type is EventType.PLANNER_FAILED else "",
         )
 
     def _no_way(self, event: Event) -> str:
@@ -164,13 +179,19 @@ class Narrator:
         form = "one" if len(event.ids) == 1 else "many"
         return self._sayings.say("log", "no_way", "without", form, who=self._sayings.joined(event.ids))
 
+    def speed(self, pace: PlaybackSpeed) -> str:
+        """A playback speed."""
+        return speed(self._sayings, pace)
+
     def planner(self, name: str) -> str:
         """A planner as people know it."""
         return self._sayings.planner(name)
 
     def planner_timeout(self, planner: str, fault: str) -> str:
         """What is said when a planner did not answer in time and a person is to drive."""
-        return self._sayings.say("log", "events", "planner_silent", planner=planner, fault=fault)
+        return self._sayings.say(
+            "log", "events", "planner_silent", planner=planner, fault=self._sayings.fault(fault)
+        )
 
     def reply(self, facts: tuple[Fact, ...]) -> str:
         """The reply: what was done, in a sentence for each fact."""
@@ -197,7 +218,7 @@ class Narrator:
                 return self._say("leads_nowhere", move=name)
             return self._say("other", move=name, reason=self._sayings.met(straight, "now", naming))
         more = straight.cost - chosen.cost
-        return self._say(f"saves_{decision.measure}", move=name, more=f"{more:g}")
+        return self._say(f"saves_{decision.measure}", move=name, more=self._sayings.number(more))
 
     def _own(self, decision: Decision, naming: Naming) -> str:
         """The move of another package's planner, with what is so, and without a reason: none is known."""
@@ -220,10 +241,18 @@ class Narrator:
 
     def _named(self, move: Move) -> str:
         """A move at the beginning of a sentence."""
-        return self._sayings.move(move, "name").capitalize()
+        return self._sayings.named_move(move)
 
     def _say(self, key: str, **parts: object) -> str:
         return self._sayings.say("log", "decisions", key, **parts)
+
+
+@cache
+def _narrator(code: str) -> Narrator | None:
+    try:
+        return Narrator.load(code)
+    except FileNotFoundError:
+        return None
 
 
 @lru_cache(maxsize=4_096)

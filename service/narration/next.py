@@ -63,7 +63,7 @@ class Next:
             metres = (rows[start] - rows[done]) * way.state.config.cell_m
             told.append(self._move(move, len(members), metres, detour, naming))
             named = named if detour is None else detour.ids
-        said = self._say("then").join(told)
+        said = self._sayings.chained(told, self._say("then"))
         if way.outcome is Outcome.SUCCESS:
             return self._say("arrives", way=said)
         if way.outcome is Outcome.CRASH:
@@ -77,7 +77,7 @@ class Next:
     def _move(self, move: Move, count: int, metres: float, detour: Detour | None, naming: Naming) -> str:
         """`metres`: how far the moves lead along the road."""
         form = "one" if count == 1 else "many"
-        said = self._say("moves", move, form, count=count, metres=f"{metres:g}")
+        said = self._say("moves", move, form, count=count, metres=self._sayings.number(metres))
         if detour is None:
             return said
         key = "stays" if move is Move.STAY and detour.ids else detour.sake
@@ -88,7 +88,7 @@ class Next:
         stood = 0 if world.ended is None else world.tick - world.ended
         seconds = max(1, run.config.reset_delay_ticks - stood) * run.config.step_seconds
         outcome = self._sayings.say("answers", "outcomes", world.outcome)
-        return self._say("ended", outcome=outcome, seconds=f"{seconds:g}")
+        return self._say("ended", outcome=outcome, seconds=self._sayings.number(seconds))
 
     def _say(self, *keys: str, **parts: object) -> str:
         return self._sayings.say("next", *keys, **parts)

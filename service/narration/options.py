@@ -66,10 +66,11 @@ class Options:
         return known.get(more) or self._costing(more, decision.measure, known)
 
     def _costing(self, more: float, measure: Measure, known: dict[float, str]) -> str:
+        shown = self._sayings.number(more)
         if measure is Measure.COST:
-            text = self._sayings.say("options", "cost", more=f"{more:g}")
+            text = self._sayings.say("options", "cost", more=shown)
         else:
-            text = self._sayings.say("options", "ticks", "one" if more == 1 else "many", more=f"{more:g}")
+            text = self._sayings.say("options", "ticks", "one" if more == 1 else "many", more=shown)
         if len(known) < MOST_KEPT:
             known[more] = text
         return text

@@ -61,4 +61,6 @@ def not_so(sayings: Sayings, code: str, facts: dict[str, object]) -> str:
         parts["asked"] = sayings.move(wanted, "do")
     if isinstance(outcome := parts.get("outcome"), Outcome):
         parts["outcome"] = sayings.say("answers", "outcomes", outcome)
+    if isinstance(fault := parts.get("fault"), str):
+        parts["fault"] = sayings.fault(fault)
     return sayings.say("answers", code, **parts)

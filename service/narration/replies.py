@@ -15,8 +15,7 @@ from service.sessions.facts import (
     Viewed,
     merge_changes,
 )
-from service.sessions.scheduler.playback_speed import PlaybackSpeedSet
-from service.sessions.scheduler.playback_speed import format_speed as said_pace
+from service.sessions.scheduler.playback_speed import MAX, PlaybackSpeed, PlaybackSpeedSet
 from sim.actions import Add, Adjust, Drive, Prefer, Remove, Scenario, Set, SetCount, SetMode
 from sim.events import EventType
 from sim.plan import traits_of
@@ -58,7 +57,7 @@ class Replies:
                 return self._say(f"{key}_already" if before is paused else key)
             case PlaybackSpeedSet(before=before, after=after):
                 key = "pace_already" if before == after else "pace"
-                return self._say(key, before=said_pace(before), after=said_pace(after))
+                return self._say(key, before=speed(self._sayings, before), after=speed(self._sayings, after))
             case Stepped(ticks=ticks):
                 key = "step_one" if len(ticks) == 1 else "step_many"
                 return self._say(key, count=len(ticks), tick=fact.first_tick + len(ticks))
@@ -137,7 +136,7 @@ class Replies:
 
     def _value(self, parameter: str, value: object) -> object:
         """A value as people know it."""
-        return self._sayings.planner(str(value)) if parameter == "planner" else value
+        return value_of(self._sayings, parameter, value)
 
     def _preferring(self, applied: Applied) -> str:
         config = applied.state.config
@@ -145,7 +144,7 @@ class Replies:
         said = self._say("prefer", wishes=self._sayings.joined(wishes)) if wishes else self._say("balanced")
         if not wishes or traits_of(config.planner).weighs_costs:
             return said
-        return f"{said} {self._say('weighs_nothing', planner=config.planner)}"
+        return f"{said} {self._say('weighs_nothing', planner=self._sayings.planner(config.planner, 'id'))}"
 
     def _moved(self, key: str, applied: Applied) -> str:
         """Things added or removed: one by its id and place, several by their number."""
@@ -185,14 +184,36 @@ class Replies:
     def _diff(self, changes: tuple[Change, ...]) -> str:
         """The counts that changed."""
         told = [
-            self._say("diff", path=change.path, before=change.before, after=change.after)
+            self._say("diff", path=self._path(change.path), before=change.before, after=change.after)
             for change in changes
             if type(change.before) is int and not change.path.startswith("config.")
         ]
         return ", ".join(told)
 
+    def _path(self, path: str) -> str:
+        """What a figure is called."""
+        key = path if path in self._sayings.words("replies", "paths") else "other"
+        return self._sayings.say("replies", "paths", key, path=path)
+
     def _say(self, key: str, **parts: object) -> str:
         return self._sayings.say("replies", key, **parts)
+
+
+def speed(sayings: Sayings, pace: PlaybackSpeed) -> str:
+    """A playback speed: `4×`."""
+    if pace == MAX:
+        return sayings.say("replies", "speed", "max")
+    return sayings.say("replies", "speed", "times", speed=sayings.number(float(pace)))
+
+
+def value_of(sayings: Sayings, parameter: str, value: object) -> object:
+    """The value of a setting as people know it."""
+    if parameter == "planner":
+        return sayings.planner(str(value))
+    known = sayings.words("replies", "values").get(parameter, {}).get(value)
+    if known is not None:
+        return known
+    return sayings.number(value, "") if isinstance(value, float) else value
 
 
 def _grouped(facts: tuple[Fact, ...]) -> list[list[Fact]]:

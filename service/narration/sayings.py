@@ -1,4 +1,4 @@
-"""The sayings of one language: templates by file and key, and the joining of lists."""
+"""The sayings of one language: templates by file and key, the forms of words, numbers and lists."""
 
 from __future__ import annotations
 
@@ -7,7 +7,9 @@ from copy import deepcopy
 from pathlib import Path
 from typing import Any, Final, Protocol
 
-from service.resources import prompts_folder
+from service.narration.inflection import Inflected, capital, join_forms, of_forms
+from service.refusals import fault_of
+from service.resources import DEFAULT_LANGUAGE, prompts_folder
 from service.yaml_files import read_cached_yaml, read_yaml
 from sim.plan import Option
 from sim.planner_names import canonical
@@ -39,16 +41,23 @@ _BY_KIND: Final = (
 def _with_every_kind(files: dict[str, dict[str, Any]]) -> dict[str, dict[str, Any]]:
     files = deepcopy(files)
     things = files.get("words", {}).setdefault("things", {})
+    other = things.pop("other", ["{one}", "{many}"])
     for kind in PLACEABLE:
-        one, many = things.setdefault(kind.value, [kind.value, KINDS[kind].plural])
+        names = {"{one}": kind.value, "{many}": KINDS[kind].plural}
+        one, many = (_base(noun) for noun in things.setdefault(kind.value, _filled(other, names)))
         parts = {"{one}": one, "{many}": many}
         for file, key in _BY_KIND:
             table = files.get(file, {}).get(key, {})
             if "other" in table:
                 table.setdefault(kind.value, _filled(table["other"], parts))
             if (file, key) == ("words", "a"):
-                parts["{a}"] = table.get(kind.value, one)
+                parts["{a}"] = _base(table.get(kind.value, one))
     return files
+
+
+def _base(words: Any) -> str:
+    """The first form of what may have several."""
+    return str(next(iter(words.values())) if isinstance(words, dict) else words)
 
 
 def _filled(other: Any, parts: Mapping[str, str]) -> Any:
@@ -65,26 +74,36 @@ def _filled(other: Any, parts: Mapping[str, str]) -> Any:
 class Sayings:
     """What `prompts/sayings/<code>/*.yaml` holds."""
 
-    def __init__(self, files: dict[str, dict[str, Any]]) -> None:
-        """`files`: what each file holds, by its name without ending."""
+    def __init__(self, files: dict[str, dict[str, Any]], language: str = DEFAULT_LANGUAGE) -> None:
+        """`files`: what each file holds, by its name without ending; `language`: its code."""
+        self.language = language
         self._files = _with_every_kind(files)
         self._words = self._files["words"]
+        self._inflects = bool(self._words["inflects"])
+        numbers = self._words["numbers"]
+        marks = {",": numbers["thousands"], ".": numbers["decimal"]}
+        self._marks = {} if all(mark == other for mark, other in marks.items()) else str.maketrans(marks)
 
     @classmethod
-    def load(cls, code: str = "en", folder: Path | None = None) -> Sayings:
+    def load(cls, code: str = DEFAULT_LANGUAGE, folder: Path | None = None) -> Sayings:
         """The sayings of a language. Raises `FileNotFoundError` where there are none."""
         place = (folder or prompts_folder() / "sayings") / code
         paths = sorted(place.glob("*.yaml"))
         if not paths:
             raise FileNotFoundError(f"there are no sayings in {place}")
         read = read_cached_yaml(paths) if folder is None else [read_yaml(path) for path in paths]
-        return cls({path.stem: held for path, held in zip(paths, read, strict=True)})
+        return cls({path.stem: held for path, held in zip(paths, read, strict=True)}, code)
 
     def say(self, file: str, *keys: str, **parts: object) -> str:
-        """A template, filled. Raises `KeyError` where the language lacks it."""
+        """A template, filled, in all its forms. Raises `KeyError` where the language lacks it."""
         found: Any = self._files[file]
         for key in keys:
             found = found[key]
+        if not self._inflects:
+            return str(found).format(**parts)
+        parts = {name: Inflected(part) if type(part) is str else part for name, part in parts.items()}
+        if isinstance(found, dict):
+            return of_forms({name: str(text).format(**parts) for name, text in found.items()})
         return str(found).format(**parts)
 
     def words(self, file: str, *keys: str) -> Any:
@@ -94,34 +113,74 @@ class Sayings:
             found = found[key]
         return found
 
+    def value(self, file: str, *keys: str) -> str | None:
+        """What stands under keys; None where the last of them is not there."""
+        return self.say(file, *keys) if keys[-1] in self.words(file, *keys[:-1]) else None
+
+    def number(self, value: float, spec: str = "g") -> str:
+        """A number with the marks of the language, in a format of Python."""
+        told = format(value, spec)
+        return told.translate(self._marks) if self._marks else told
+
+    def quoted(self, text: str) -> str:
+        """What is said, in quotation marks."""
+        return self.say("words", "quoted", text=text)
+
     def examples(self) -> list[str]:
         """Sentences that a newcomer may try."""
         return list(self._files["answers"]["help_examples"])
 
     def joined(self, parts: Sequence[str]) -> str:
         """ "a", "a and b", "a, b and c"."""
+        joints = self._words["joined"]
+        if self._inflects:
+            return join_forms(parts, joints["comma"], joints["last"])
         if len(parts) < 2:
             return "".join(parts)
-        joints = self._words["joined"]
         return f"{joints['comma'].join(parts[:-1])}{joints['last']}{parts[-1]}"
 
     def listed(self, clauses: Sequence[str]) -> str:
         """ "a; b; c", for parts that have commas of their own."""
-        return str(self._words["joined"]["semicolon"]).join(clauses)
+        semicolon = str(self._words["joined"]["semicolon"])
+        return self.chained(clauses, semicolon)
+
+    def chained(self, parts: Sequence[str], joint: str) -> str:
+        """Parts with the same between each two of them."""
+        return join_forms(parts, joint, joint) if self._inflects else joint.join(parts)
 
     def things(self, kind: str, count: int) -> str:
         """The noun of a kind, singular for one."""
-        one, many = self._words["things"][kind]
-        return str(one if count == 1 else many)
+        return self.noun("words", "things", kind, count)
+
+    def noun(self, file: str, table: str, kind: str, count: int) -> str:
+        """Of a table of nouns the one of a kind, singular for one."""
+        one, many = self._files[file][table][kind]
+        return self._formed(one if count == 1 else many)
 
     def move(self, move: Move, form: str) -> str:
         """A move as `did`, `do`, `name` or `place`."""
-        return str(self._words["moves"][move][form])
+        return self._formed(self._words["moves"][move][form])
+
+    def named_move(self, move: Move) -> str:
+        """A move's name at the beginning of a sentence."""
+        return capital(self.move(move, "name"))
+
+    @staticmethod
+    def _formed(found: Any) -> str:
+        return of_forms(found) if isinstance(found, dict) else str(found)
 
     def planner(self, name: str, form: str = "name") -> str:
-        """A planner as people know it, as `name` or after `with`; one of another package by its own name."""
+        """A planner as people know it: as `name`, after `with`, or as what is set (`id`).
+
+        One of another package goes by its own name, and so does one whose `id` has no word of its own.
+        """
         known = self._words["planners"].get(canonical(name))
-        return name if known is None else str(known[form])
+        return name if known is None else str(known[form] if form != "id" else known.get(form, name))
+
+    def fault(self, text: str) -> str:
+        """What a planner did instead of answering, as the simulator words it, in this language."""
+        code, parts = fault_of(text)
+        return self.say("words", "faults", code, **parts)
 
     def where(self, cell: Cell) -> str:
         """A cell as people call it: lanes count from 1."""

@@ -90,7 +90,11 @@ class _Told:
             return self._say("none_ahead", things=noun, count=self._count(rest))
         told = [self._ahead(ahead, rest), *self._met(ahead)]
         if rest:
-            told.append(self._say("rest", "one" if rest == 1 else "many", count=self._count(rest)))
+            told.append(
+                self._say(
+                    "rest", "one" if rest == 1 else "many", count=self._count(rest), thing=self._noun(kind, 1)
+                )
+            )
         return " ".join(told)
 
     def _ahead(self, ahead: Sequence[Detection], rest: int) -> str:
@@ -112,7 +116,12 @@ class _Told:
             return self._say("single", thing=self._near(seen[0]))
         counts = {kind: len(self._scene.of(kind)) for kind in PLACEABLE}
         parts = [
-            self._say("counted", count=self._count(count), things=self._noun(kind, count))
+            self._say(
+                "counted",
+                "one" if count == 1 else "many",
+                count=self._count(count),
+                things=self._noun(kind, count),
+            )
             for kind, count in counts.items()
             if count
         ]
@@ -128,7 +137,7 @@ class _Told:
         if threats:
             return self._say("threats", threats=self._sayings.joined(threats))
         key = "clear_to_goal" if scene.reach == scene.cell[1] else "clear"
-        return self._say(key, metres=f"{scene.reach * self._run.config.cell_m:g}")
+        return self._say(key, metres=self._sayings.number(scene.reach * self._run.config.cell_m))
 
     def _threat(self, thing: Detection) -> str:
         key = "threat_moving" if thing.walks else "threat"
@@ -143,16 +152,16 @@ class _Told:
             return []
         first = min(threats, key=lambda thing: thing.ticks or 0)
         key = "met_it" if len(ahead) == 1 else "met_moving" if first.walks else "met"
-        return [self._say(key, place=self._naming.place(first.cell), seconds=self._seconds(first))]
+        place, thing = self._naming.place(first.cell), self._noun(first.kind, 1)
+        return [self._say(key, place=place, thing=thing, seconds=self._seconds(first))]
 
     def _near(self, thing: Detection) -> str:
         noun, place = self._say("a", thing.kind), self._naming.place(thing.cell)
         return self._sure(thing, self._say("near", thing=noun, place=place))
 
     def _one(self, thing: Detection) -> str:
-        return self._sure(
-            thing, self._say("held" if thing.held else "one", place=self._naming.place(thing.cell))
-        )
+        key, place = "held" if thing.held else "one", self._naming.place(thing.cell)
+        return self._sure(thing, self._say(key, place=place, thing=self._noun(thing.kind, 1)))
 
     def _sure(self, thing: Detection, told: str, key: str = "sure") -> str:
         """With how sure the sensors are, where they are not; never all of it, nor none."""
@@ -161,11 +170,10 @@ class _Told:
         return self._say(key, told=told, percent=min(99, max(1, round(100 * thing.likelihood))))
 
     def _seconds(self, thing: Detection) -> str:
-        return f"{(thing.ticks or 0) * self._run.config.step_seconds:g}"
+        return self._sayings.number((thing.ticks or 0) * self._run.config.step_seconds)
 
     def _noun(self, kind: Kind, count: int) -> str:
-        one, many = self._sayings.words("scene", "nouns", kind)
-        return str(one if count == 1 else many)
+        return self._sayings.noun("scene", "nouns", kind, count)
 
     def _count(self, count: int) -> str:
         words = self._sayings.words("scene", "counts")

@@ -33,7 +33,7 @@ class Status:
             lane=column + 1,
             row=row,
             rows=rows,
-            metres=f"{row * run.config.cell_m:g}",
+            metres=self._sayings.number(row * run.config.cell_m),
             tick=world.tick,
             episode=world.episode,
         )
@@ -52,6 +52,8 @@ class Help:
 
     def answer(self, asked: Asked) -> Json:
         """See `Answerer.answer`."""
-        examples = self._sayings.joined([f"“{example}”" for example in self._sayings.examples()])
+        examples = self._sayings.joined(
+            [self._sayings.quoted(example) for example in self._sayings.examples()]
+        )
         text = self._sayings.say("answers", "help", examples=examples)
         return plain(self._sayings, asked.ask, asked.timeline.state, text)

@@ -7,6 +7,7 @@ from service.actions.table import imagined_actions
 from service.contract.encode.forecast import what_if_json
 from service.narration.naming import Naming
 from service.narration.question_handler import Json, not_so, plain
+from service.narration.replies import value_of
 from service.narration.sayings import Sayings
 from service.refusals import refusals
 from service.sessions.facts import Asked
@@ -56,7 +57,7 @@ class WhatIfs:
         except QuestionError as error:
             return plain(self._sayings, ask, timeline.state, not_so(self._sayings, error.code, error.facts))
         except EditError as error:
-            message = refusals().edit(error)
+            message = refusals(self._sayings.language).edit(error)
             told = plain(self._sayings, ask, timeline.state, self._say("cannot", message=message))
             return told | {"evidence": {"code": error.category, "field": error.field, "message": message}}
         text = self._text(ask, found)
@@ -107,7 +108,9 @@ class WhatIfs:
         if difference is None:
             return self._say("same_moves", end=self._both(found))
         do, doing = self._moves(difference)
-        seconds = self._say("seconds", seconds=f"{difference.ahead * found.state.config.step_seconds:g}")
+        seconds = self._say(
+            "seconds", seconds=self._sayings.number(difference.ahead * found.state.config.step_seconds)
+        )
         return self._say(
             self._when(difference, found), do=do, doing=doing, end=self._both(found), time=seconds
         )
@@ -137,7 +140,7 @@ class WhatIfs:
         wished = any(isinstance(each.action, Prefer) for each in found.done)
         if not wished or traits_of(planner).weighs_costs or found.real.by_hand:
             return []
-        return [self._sayings.say("replies", "weighs_nothing", planner=planner)]
+        return [self._sayings.say("replies", "weighs_nothing", planner=self._sayings.planner(planner, "id"))]
 
     def _moves(self, difference: Difference) -> tuple[str, str]:
         """What would be done, and what is done instead of it."""
@@ -257,7 +260,8 @@ class Conditions:
         if parameter == "planner":
             return self._say("planner", planner=self._sayings.planner(str(value), "with"))
         name = self._sayings.say("whatif", "settings", parameter)
-        return self._say("setting", name=name, value=AS_IT_IS.get(parameter, "") if value is None else value)
+        shown = AS_IT_IS.get(parameter, "") if value is None else value
+        return self._say("setting", name=name, value=value_of(self._sayings, parameter, shown))
 
     def _road(self, run: SimState) -> str:
         road = self._sayings.say("replies", "roads", run.config.road or "none")

@@ -1,4 +1,4 @@
-"""The one key of a service that strangers can reach, compared in constant time.
+"""The API key of a service, compared in constant time.
 
 It comes as `Authorization: Bearer ...`, never in a URL: those are logged, kept and sent on.
 """
@@ -12,27 +12,27 @@ from pydantic import SecretStr
 
 
 class Key:
-    """The key that is asked for, if any is."""
+    """The key of one service, if it has one."""
 
     def __init__(self, secret: SecretStr | None) -> None:
         value = "" if secret is None else secret.get_secret_value()
         self._digest = _digest(value) if value else None
 
     @property
-    def asked(self) -> bool:
-        """Whether a key is asked for at all."""
+    def required(self) -> bool:
+        """Whether there is a key."""
         return self._digest is not None
 
-    def right(self, said: str) -> bool:
-        """Whether this is the key. Digests are compared, so that not even its length can be timed."""
-        return self._digest is None or hmac.compare_digest(self._digest, _digest(said))
+    def matches(self, value: str) -> bool:
+        """Whether a value is the key. Compares digests, so that not even its length can be timed."""
+        return self._digest is None or hmac.compare_digest(self._digest, _digest(value))
 
     def admits(self, authorization: str | None) -> bool:
         """Whether a request with this header may come in."""
         if self._digest is None:
             return True
-        scheme, _, said = (authorization or "").partition(" ")
-        return scheme.lower() == "bearer" and self.right(said.strip())
+        scheme, _, value = (authorization or "").partition(" ")
+        return scheme.lower() == "bearer" and self.matches(value.strip())
 
 
 def _digest(value: str) -> bytes:

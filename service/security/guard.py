@@ -6,7 +6,7 @@ from typing import Any
 
 from service.problems import RateLimited
 from service.security.api_key import Key
-from service.security.hosts import Hosts, loopback
+from service.security.hosts import Hosts, is_loopback
 from service.security.quotas import Quotas
 from service.security.rate_limit import RateLimiter
 from service.security.ws_tickets import Tickets
@@ -24,7 +24,7 @@ class Guard:
         self.tickets = Tickets()
         self.hosts = Hosts(settings.allowed_hosts or "")
         per_minute = settings.changes_per_minute
-        if per_minute is None and self.key.asked:
+        if per_minute is None and self.key.required:
             per_minute = STRANGERS_PER_MINUTE
         self.rate_limiter = RateLimiter(per_minute)
         self.quotas = Quotas(settings.max_client_sessions, settings.max_client_cells)
@@ -42,9 +42,9 @@ def client_of(scope: Any) -> str:
     return "" if client is None else str(client[0])
 
 
-def exposed(settings: Settings) -> str | None:
+def exposure_problem(settings: Settings) -> str | None:
     """Why the service must not start like this: strangers could reach it, and no key is set."""
-    if loopback(settings.host) or Key(settings.api_key).asked:
+    if is_loopback(settings.host) or Key(settings.api_key).required:
         return None
     return (
         f"{settings.host} can be reached from other machines, so a key is needed: set ROADTALK_API_KEY, "

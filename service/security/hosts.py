@@ -19,7 +19,7 @@ _MAX_CACHED_CHARS = 255
 _LOOPBACK = frozenset(("localhost", "127.0.0.1", "::1"))
 
 
-def loopback(host: str) -> bool:
+def is_loopback(host: str) -> bool:
     """Whether an address to listen on can be reached from this machine only."""
     if host.lower() == "localhost":
         return True

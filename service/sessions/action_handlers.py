@@ -149,7 +149,7 @@ def _redo(transaction: Transaction, _action: Redo, _sequence: int, position: int
 @handles(Rewind)
 def _rewind(transaction: Transaction, action: Rewind, _sequence: int, position: int) -> Jumped:
     before = transaction.timeline.state
-    rewind_timeline(transaction.timeline, action.ticks, f"actions.{position}.ticks")
+    rewind_timeline(transaction.timeline, action.ticks, f"actions.{position}.ticks", transaction.language)
     return transaction.jump(before, len(transaction.timeline.entries))
 
 
@@ -170,7 +170,7 @@ def _load(transaction: Transaction, action: Load, _sequence: int, position: int)
     bookmarks = transaction.undo_stack.bookmarks
     bookmark = bookmarks.get(action.name)
     if bookmark is None:
-        raise unknown_bookmark(action.name, bookmarks, f"actions.{position}.name")
+        raise unknown_bookmark(action.name, bookmarks, f"actions.{position}.name", transaction.language)
     before, log = transaction.timeline.state, transaction.timeline.entries
     transaction.timeline = bookmark.timeline.copy()
     kept = log.common_prefix_length(transaction.timeline.entries)

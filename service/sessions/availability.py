@@ -16,7 +16,7 @@ from sim.session.settings import is_available
 from sim.types import Kind
 
 _WITH_UNITS = {"target_speed_kmh": ("target speed", " km/h"), "sensor_range_m": ("sensor range", " m")}
-"""Parameters whose spelling ends in their unit, in words."""
+"""The words for parameters whose name ends in a unit."""
 
 
 def refusal_of(action: Action, language: str = DEFAULT_LANGUAGE) -> str | None:

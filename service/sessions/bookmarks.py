@@ -1,8 +1,8 @@
-"""Moments of a session that were given a name, to be gone back to.
+"""Bookmarks: moments of a session that have a name and can be gone back to.
 
-A name stands in the session's own log like anything else that was said, so it needs no other place, is
-there again after a restart and in a recording, and means the same moment in every replay. It outlives
-rewinding and undoing; saved again, it names the newer moment. Leaves out moments of other sessions.
+A name is an entry of the session's own log like any other action, so it needs no other storage, survives a
+restart, is part of a recording and means the same moment in every replay. Rewinding and undoing do not remove
+it; saving it again moves it. Bookmarks of other sessions cannot be loaded.
 """
 
 from __future__ import annotations
@@ -12,20 +12,21 @@ from dataclasses import dataclass, field, replace
 
 from service.actions import Action, Load
 from service.problems import FieldProblem, UnknownName
+from service.refusals import refusals
 from service.store import EntryRecord, Store, StoreError
 from sim.session.edits import Change
 from sim.session.timeline import Timeline
 
 MAX_BOOKMARKS = 100
-"""Names that a session may hold: each keeps a whole timeline, though states are shared."""
+"""Largest number of bookmarks of a session: each holds a whole timeline, though states are shared."""
 
 MAX_SUGGESTIONS = 3
-"""How many names are told to whoever asks for one that is not there."""
+"""Largest number of similar names in the problem of an unknown name."""
 
 
 @dataclass(frozen=True, slots=True)
 class Bookmark:
-    """A named moment: how many changes had been accepted, and the timeline as it was."""
+    """A named moment: the number of changes accepted by then, and the timeline as it was."""
 
     name: str
     sequence: int
@@ -33,13 +34,13 @@ class Bookmark:
 
     @property
     def tick(self) -> int:
-        """Where its time stood."""
+        """The tick of the bookmark."""
         return self.timeline.tick
 
 
 @dataclass(frozen=True, slots=True)
 class Bookmarked:
-    """The present was given a name; `again` if the name was another moment's before."""
+    """Fact: the present moment got a name; `again` if the name belonged to another moment before."""
 
     name: str
     tick: int
@@ -48,7 +49,7 @@ class Bookmarked:
 
 @dataclass(frozen=True, slots=True)
 class Jumped:
-    """The session went to another tick, by going back or (with a `name`) to a named moment."""
+    """Fact: time moved to another tick, by rewinding or (with a `name`) to a bookmark."""
 
     before: int
     tick: int
@@ -57,7 +58,7 @@ class Jumped:
 
 
 def attach_names(entries: Sequence[EntryRecord], saved: Iterable[Bookmark]) -> Sequence[EntryRecord]:
-    """Entries that were replayed, each with the names it gave."""
+    """Entries of a replay, each with the names that it gave."""
     names: dict[int, dict[str, int]] = {}
     for moment in saved:
         names.setdefault(moment.sequence, {})[moment.name] = moment.tick
@@ -66,7 +67,9 @@ def attach_names(entries: Sequence[EntryRecord], saved: Iterable[Bookmark]) -> S
     return [replace(entry, names=names.get(entry.sequence, {})) for entry in entries]
 
 
-async def add_other_session(store: Store, problem: UnknownName, actions: Sequence[Action]) -> UnknownName:
+async def add_other_session(
+    store: Store, problem: UnknownName, actions: Sequence[Action], language: str
+) -> UnknownName:
     """The problem, telling also of another session in which there is such a moment."""
     (error,) = problem.errors
     action = actions[int(error.field.split(".")[1])]
@@ -77,15 +80,19 @@ async def add_other_session(store: Store, problem: UnknownName, actions: Sequenc
     if not found:
         return problem
     session = found[0].session_name or found[0].session
-    sentence = f"{problem.detail} It is saved in session {session}; a name is found where it was given."
+    elsewhere = refusals(language).session("saved_elsewhere", session=session)
+    sentence = f"{problem.detail} {elsewhere}"
     return UnknownName(sentence, errors=[FieldProblem(error.field, sentence)], **problem.more)
 
 
-def unknown_bookmark(name: str, names: Iterable[str], where: str) -> UnknownName:
+def unknown_bookmark(name: str, names: Iterable[str], where: str, language: str) -> UnknownName:
     """The problem of a name that nothing was saved under, with the nearest there are."""
     from rapidfuzz import process  # at the first name that is not there
 
     near = [found for found, _, _ in process.extract(name, list(names), limit=MAX_SUGGESTIONS)]
-    told = f" There is: {', '.join(near)}." if near else " Nothing has been saved here yet."
-    sentence = f"Nothing was saved as {name!r}.{told}"
+    words = refusals(language)
+    if near:
+        sentence = words.session("not_saved_near", name=name, near=tuple(near))
+    else:
+        sentence = words.session("not_saved", name=name)
     return UnknownName(sentence, errors=[FieldProblem(where, sentence)], suggestions=near)

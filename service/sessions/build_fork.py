@@ -45,6 +45,7 @@ async def build_fork(
         paused=begins,
         tick=tick,
         branch=point.branch,
+        language=parent.language,
     )
     session = Session(record, point.timeline, services)
     session.start_from(point)
@@ -67,7 +68,7 @@ async def build_fork(
             actions=contract.dump(each),
         )
         entries.append(entry)
-        again = partial(replay_one, session, services.narrator, entry)
+        again = partial(replay_one, session, session.narrator, entry)
         await to_thread.run_sync(with_time_limit(STEPS_S, again))
     session.record = replace(record, tick=session.timeline.tick)
     session.paused = session.paused if paused is None else paused

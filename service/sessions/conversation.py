@@ -1,8 +1,8 @@
-"""What has been spoken of in a session: what "it", "those", "again" and "two more" are about.
+"""Conversation memory: what "it", "those", "again" and "two more" refer to in a session.
 
-Made from outcomes, so a replayed session remembers what was done to it; what was merely asked is not
-stored, and after a restart "it" is no longer what was last explained. Things that have left the
-road are not spoken of any more, nor are those of an earlier episode: after an undo ids are given again.
+It is made from outcomes, so a replay restores it; questions are not stored, so after a restart "it" no longer
+refers to what was last explained. Things that left the road cannot be referred to, nor can things of an
+earlier episode, since an undo gives ids again.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ from sim.session.edits import Applied
 from sim.world import World
 
 MAX_REMEMBERED = 200
-"""How many added things are remembered by the order they came in."""
+"""Largest number of added things that are remembered in order."""
 
 Episode: TypeAlias = tuple[int, int]
-"""An episode's number and the tick it began at."""
+"""The number of an episode and its first tick."""
 
 
 class Conversation:
-    """The memory of one session's talk."""
+    """The memory of one session."""
 
     def __init__(self) -> None:
         self._things: tuple[str, ...] = ()
@@ -42,18 +42,18 @@ class Conversation:
         self._where: Where | None = None
         self._episode: Episode | None = None
         self._durable: Conversation | None = None
-        """the same without what is kept nowhere, where they differ"""
+        """the memory without unstored talk, where that differs"""
 
     @property
     def durable(self) -> Conversation:
-        """What would be remembered after a restart; a copy."""
+        """A copy of what a restart would restore."""
         twin = copy(self._durable or self)
         twin._added = twin._added.copy()
         return twin
 
-    def record(self, outcome: Outcome, *, passing: bool = False) -> None:
-        """Remember what was done, or told about; what is `passing` is kept nowhere."""
-        if passing:
+    def record(self, outcome: Outcome, *, transient: bool = False) -> None:
+        """Record what an outcome did or answered; `transient`: it is not stored."""
+        if transient:
             self._durable = self._durable or self.durable
         elif self._durable is not None:
             self._durable.record(outcome)
@@ -98,7 +98,7 @@ class Conversation:
             self._things = told
 
     def _set_episode(self, world: World) -> None:
-        """What follows is about the episode of this world."""
+        """Forget all things unless they belong to the episode of this world."""
         if self._episode != _episode(world):
             self._forget_things()
             self._episode = _episode(world)
@@ -108,7 +108,7 @@ class Conversation:
         self._added.clear()
 
     def to_json(self) -> dict[str, Any]:
-        """All of it as JSON values."""
+        """The memory as JSON values."""
         return {
             "things": [*self._things],
             "added": [*self._added],
@@ -122,7 +122,7 @@ class Conversation:
 
     @classmethod
     def from_json(cls, values: Mapping[str, Any]) -> Conversation:
-        """The same from JSON values. Raises `ValueError`, `TypeError` or `LookupError`."""
+        """The memory from JSON values. Raises `ValueError`, `TypeError` or `LookupError`."""
         new, where = cls(), values["where"]
         new._things = tuple(values["things"])
         new._added.extend(values["added"])
@@ -137,7 +137,7 @@ class Conversation:
         return new
 
     def topic(self, world: World, phrases: Phrases, names: Iterable[str] = ()) -> Topic:
-        """What a sentence said now may refer to; `names` are those of saved moments."""
+        """What a sentence said now may refer to; `names` are those of bookmarks."""
         there = {*world.movers.values(), *world.hazards.values()} if self._episode == _episode(world) else ()
         return Topic(
             things=tuple(name for name in self._things if name in there),
@@ -161,7 +161,7 @@ def _moves_things(fact: Applied) -> bool:
 
 
 def _fixed_place(where: Where | None, fact: Applied) -> Where | None:
-    """The place of an action in terms that mean the same when the vehicle has moved on."""
+    """The place of an action as lane, row or cell, which stays when the vehicle moves; None without."""
     if where is None or (where.distance_m, where.cells, where.nearest, where.id) == (None,) * 4:
         return where
     cells = {thing.cell for thing in (*fact.added, *fact.removed)}

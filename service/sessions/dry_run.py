@@ -1,4 +1,4 @@
-"""Whether something could be done just now, for those who offer it."""
+"""Dry runs: whether an action is possible now, for completions and suggestions."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from sim.session.edits import Applied
 
 
 def is_possible(transaction: Transaction, sequence: int, actions: tuple[Action, ...]) -> bool:
-    """Whether these would be done on a draft, and change something; long work is taken to be possible."""
+    """Whether the actions would succeed and change something; actions too slow to try count as possible."""
     if not all(traits_of(action).tried for action in actions):
         return all(refusal_of(action) is None for action in actions)
     if transaction.needs_external_planner(actions):

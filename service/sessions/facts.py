@@ -1,4 +1,4 @@
-"""What an utterance did, one fact for each action: what words, changes and answers are made from."""
+"""Facts: what each action of an utterance did. Replies, changes and answers are made from them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from sim.state import SimState, StepResult
 
 @dataclass(frozen=True, slots=True)
 class PauseSet:
-    """The clock was stopped or started at a tick; `before` is how it was."""
+    """The clock was stopped or started at a tick; `before` is whether it stood."""
 
     before: bool
     paused: bool
@@ -25,7 +25,7 @@ class PauseSet:
 
 @dataclass(frozen=True, slots=True)
 class Stepped:
-    """Some ticks were run at once, from a tick on."""
+    """Ticks were run at once, from `first_tick` on."""
 
     first_tick: int
     ticks: tuple[StepResult, ...]
@@ -33,7 +33,7 @@ class Stepped:
 
 @dataclass(frozen=True, slots=True)
 class Undone:
-    """A change was taken back, or (`again`) said again; `changes` is what that did to the figures."""
+    """A change was undone, or (`again`) redone; `changes` are the differences in the state."""
 
     again: bool
     changes: tuple[Change, ...]
@@ -41,17 +41,17 @@ class Undone:
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """A question, with the session as it was at its place in the order."""
+    """A question, with the timeline as it was at the question's place in the utterance."""
 
     ask: Ask
     timeline: Timeline
     supposes: str | None = None
-    """what the question was said to be about, beyond its keys: a `crash`"""
+    """what the question takes for granted, beyond its keys: a `crash`"""
 
 
 @dataclass(frozen=True, slots=True)
 class Advised:
-    """Advice about a hazard that was told of; `tick` is None outside of any session."""
+    """Advice about a hazard; `tick` is None outside of any session."""
 
     advice: Advice
     tick: int | None = None
@@ -59,7 +59,7 @@ class Advised:
 
 @dataclass(frozen=True, slots=True)
 class Viewed:
-    """A view is to be shown or hidden where the session is watched; the session itself stays as it is."""
+    """A view is shown or hidden for all subscribers; the session itself does not change."""
 
     view: str
     shown: bool
@@ -67,17 +67,17 @@ class Viewed:
 
 @dataclass(frozen=True, slots=True)
 class AliasChange:
-    """A phrase that was taught or forgotten, and the sentence that says the same."""
+    """A phrase was taught or forgotten, with the sentence that means the same."""
 
     phrase: str
     sentence: str
     taught: bool
     before: str | None = None
-    """what it meant before, as a sentence"""
+    """the former meaning, as a sentence"""
 
 
 Answerable: TypeAlias = Asked | Advised
-"""What is answered, and changes nothing."""
+"""Facts that are answered and change nothing."""
 
 Fact: TypeAlias = (
     Applied | PauseSet | PlaybackSpeedSet | Stepped | Undone | Bookmarked | Jumped | Viewed | Answerable
@@ -85,7 +85,7 @@ Fact: TypeAlias = (
 
 
 def merge_changes(facts: tuple[Fact, ...]) -> tuple[Change, ...]:
-    """What differs after all facts together, each figure once, in the order first touched."""
+    """The differences after all facts together, each path once, in the order of first change."""
     merged: dict[str, Change] = {}
     for fact in facts:
         for change in _changes(fact):
@@ -95,17 +95,17 @@ def merge_changes(facts: tuple[Fact, ...]) -> tuple[Change, ...]:
 
 
 def merge_views(facts: tuple[Fact, ...]) -> dict[str, bool]:
-    """Which views are to be shown and which hidden; of one that is named twice, the last word."""
+    """Which views to show and which to hide; the last fact about a view wins."""
     return {fact.view: fact.shown for fact in facts if isinstance(fact, Viewed)}
 
 
 def question_timelines(facts: tuple[Fact, ...]) -> list[Timeline]:
-    """The timelines that questions are about."""
+    """The timelines that the questions are about."""
     return [fact.timeline for fact in facts if isinstance(fact, Asked)]
 
 
 def parts_with_events(facts: tuple[Fact, ...]) -> list[tuple[SimState, Applied | StepResult]]:
-    """The parts that bring events, each with the run they happened in, in order."""
+    """The parts that may have events, each with the state after it, in order."""
     parts: list[tuple[SimState, Applied | StepResult]] = []
     for fact in facts:
         if isinstance(fact, Applied):

@@ -1,10 +1,10 @@
-"""A session's way up to a tick, as the beginning of another: what a fork and a link are made of.
+"""Fork points: a session's timeline up to a tick, as the start of another session or of a link.
 
-Taken from the log as it stands, not as it was said: what was undone or gone back on is not in it. Only what
-changed the road comes along, without its words; names of moments and what "it" was do not.
+A fork point is taken from the log as it stands: undone and rewound changes are not in it. It has the changes
+of the road only, without their text; bookmarks and the conversation are left out.
 
-A fork shares the way with its parent, states and entries in memory, the log in the store, and goes on
-counting its changes where the last of them was. A link writes it out.
+A fork shares the log with its parent, in memory and in the store, and continues its sequence numbers. A link
+writes the log out.
 """
 
 from __future__ import annotations
@@ -24,27 +24,27 @@ from sim.session.timeline import Entry, Timeline
 
 @dataclass(frozen=True, slots=True)
 class ForkPoint:
-    """How a state was come to: a timeline that ends in it, and where it leaves the log it was taken from."""
+    """A timeline that ends at the fork, and how its log relates to the parent's."""
 
     timeline: Timeline
     branch: Branch
     steps: int
-    """changes on it"""
+    """number of changes up to the fork"""
 
     def undo_stack(self, paused: bool) -> UndoStack:
-        """What can be undone of it, in a session that begins so."""
+        """The undo stack of a session that starts here."""
         return UndoStack(base_entries=len(self.timeline.entries), base_steps=self.steps, base_paused=paused)
 
 
 def timeline_until(timeline: Timeline, tick: int) -> Timeline:
-    """A timeline up to a past tick. Raises `IndexError`; the timeline itself stays as it is."""
+    """A copy of a timeline, rewound to a past tick. Raises `IndexError`."""
     own = timeline.copy()
     own.rewind(tick)
     return own
 
 
 def fork_point(session_id: str, mixed: Collection[int], timeline: Timeline, tick: int) -> ForkPoint:
-    """The way of a session to a past tick; `mixed` are the changes that the log has a part of only."""
+    """The fork point of a session at a past tick; `mixed`: changes that are in the log in part only."""
     own = timeline_until(timeline, tick)
     numbers = [entry.sequence for entry in own.entries]
     last = numbers[-1] if numbers else 0
@@ -60,18 +60,18 @@ def fork_point(session_id: str, mixed: Collection[int], timeline: Timeline, tick
 
 
 def is_partly_of_world(actions: Sequence[Action]) -> bool:
-    """Whether such a change is in the log of the road with part of its actions only."""
+    """Whether some of these actions change the world and some do not: the log has only part of them."""
     changing = sum(is_world_action(action) for action in actions)
     return 0 < changing < len(actions)
 
 
 def flatten_log(timeline: Timeline) -> list[EntryRecord]:
-    """The log of a timeline as changes of a session, numbered from 1."""
+    """The log of a timeline as entries of a session, numbered from 1."""
     return renumber(_records(timeline.entries))
 
 
 def renumber(entries: Sequence[EntryRecord]) -> list[EntryRecord]:
-    """The same, numbered from 1 without gaps: a recording has no parent."""
+    """The same entries, numbered from 1 without gaps, since a recording has no parent."""
     return [
         EntryRecord(sequence=number, tick=each.tick, text=each.text, actions=each.actions, digest=each.digest)
         for number, each in enumerate(entries, start=1)

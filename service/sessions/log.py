@@ -1,8 +1,8 @@
-"""A session's log: what happened, in numbered lines; the latest few hundred are kept.
+"""The event log of a session: numbered lines, of which the latest few hundred are kept.
 
-Numbers are absolute and start at 1, so that a reader can ask for what came after the last line it
-saw and be told when lines have been dropped meanwhile. Most lines come back when the session does; those
-that nothing in the store stands for (`passing`) do not, and then were never there.
+Numbers are absolute and start at 1, so that a client can ask for the lines after the last one it has seen and
+can tell when lines were dropped. A restart restores all lines except transient ones, which no
+stored entry stands for.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from sim.types import Cell
 
 @dataclass(frozen=True, slots=True)
 class LogEvent:
-    """One line: what happened at a tick, in a type for programs and a sentence for people."""
+    """One line: an event at a tick, with a type for programs and a sentence for people."""
 
     number: int
     tick: int
@@ -27,7 +27,7 @@ class LogEvent:
 
 
 class EventLog:
-    """The latest events, oldest first."""
+    """The latest lines, oldest first."""
 
     def __init__(self, kept: int) -> None:
         self._events: deque[LogEvent] = deque(maxlen=kept)
@@ -35,25 +35,25 @@ class EventLog:
         self._transient_count = 0
         self._transient: set[int] = set()
         self._before: deque[LogEvent] = deque()
-        """lines that would still be held if there were no passing ones"""
+        """lines that would still be kept without the transient ones"""
 
     @property
     def last_number(self) -> int:
-        """Number of the newest line; 0 before the first."""
+        """The number of the newest line; 0 before the first."""
         return self._last
 
     @property
     def first_number(self) -> int:
-        """Number of the oldest line that can still be read."""
+        """The number of the oldest line that is kept."""
         return self._last - len(self._events) + 1
 
     @property
     def capacity(self) -> int:
-        """How many lines are kept at most."""
+        """The largest number of lines that are kept."""
         return self._events.maxlen or 0
 
     def skip(self, lines: int) -> None:
-        """Count lines that are written nowhere: so many have followed them that they are dropped already."""
+        """Count lines without writing them, for lines that would have been dropped by now."""
         if lines:
             self._last += lines
             self._events.clear()
@@ -68,12 +68,12 @@ class EventLog:
         ids: tuple[str, ...] = (),
         cell: Cell | None = None,
         *,
-        passing: bool = False,
+        transient: bool = False,
     ) -> LogEvent:
-        """Write one line."""
+        """Append a line; `transient`: it is transient."""
         self._last += 1
         event = LogEvent(self._last, tick, kind, text, ids, cell)
-        if passing:
+        if transient:
             self._transient_count += 1
             self._transient.add(event.number)
         if self._transient:
@@ -82,7 +82,7 @@ class EventLog:
         return event
 
     def durable_lines(self) -> tuple[int, list[LogEvent]]:
-        """How many lines there would be without passing ones, and those of them that would be held."""
+        """The number of lines without transient ones, and those of them that would be kept."""
         held = [*self._before, *(event for event in self._events if event.number not in self._transient)]
         return self._last - self._transient_count, held
 
@@ -97,7 +97,7 @@ class EventLog:
             self._before.popleft()
 
     def after(self, number: int, limit: int) -> list[LogEvent]:
-        """Up to `limit` lines that follow `number`, oldest first."""
+        """Up to `limit` lines after line `number`, oldest first."""
         skipped = max(0, number - self.first_number + 1)
         return list(islice(self._events, skipped, skipped + limit))
 

@@ -1,7 +1,7 @@
-"""All live sessions: made, found, brought back from the store, and let go.
+"""The session manager: creates, finds, restores, forks and deletes sessions.
 
-A session that the store knows but that is not live (the service was restarted) is replayed when it
-is asked for, and stands paused where it was.
+A stored session that is not live (after a restart, or evicted) is restored when it is asked for, paused at
+its last tick.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ from service.problems import (
     UnknownSession,
 )
 from service.refusals import refusals
+from service.resources import DEFAULT_LANGUAGE
 from service.sessions.bookmarks import attach_names
 from service.sessions.build_fork import build_fork
 from service.sessions.persistence.recording import Recording, replay_recording
@@ -46,10 +47,10 @@ from sim.session.timeline import Timeline
 _LOG = structlog.get_logger(__name__)
 
 CLOSE_TIMEOUT_S = 0.2
-"""How long changes under way are waited for at a stop."""
+"""Time for changes under way to finish at a stop."""
 
 SNAPSHOT_TIMEOUT_S = 0.15
-"""How long snapshots are kept at a stop."""
+"""Time for saving snapshots at a stop."""
 
 
 class SessionManager:
@@ -71,21 +72,21 @@ class SessionManager:
 
     @property
     def live_count(self) -> int:
-        """How many sessions are live."""
+        """The number of live sessions."""
         return len(self._live)
 
     @property
     def evicted_count(self) -> int:
-        """How many are kept and not live."""
+        """The number of sessions that are stored and not live."""
         return max(0, self._stored_count - len(self._live))
 
     async def open(self) -> None:
-        """Count what is kept; nobody else adds to it from now on. Raises `StoreError`."""
+        """Count the stored sessions; only this manager adds to them from now on. Raises `StoreError`."""
         self._stored_count = await self._services.store.count()
 
     @property
     def subscriber_count(self) -> int:
-        """How many readers watch them."""
+        """The number of subscribers of all sessions."""
         return sum(len(session.subscribers) for session in self._live.values())
 
     async def create(
@@ -94,14 +95,14 @@ class SessionManager:
         config: Config,
         *,
         paused: bool,
+        language: str = DEFAULT_LANGUAGE,
         recorded: Recording | None = None,
         answer: Callable[[Session], StoredResponse] | None = None,
     ) -> Session:
-        """A new session, stored, with an `answer` to be kept. With a recording it is replayed first.
+        """Create and store a session, with the response to store (`answer`); a recording is replayed first.
 
-        Raises `GenerationError`, `TooManySessions`, `NotSaved`,
-        `RecordingMismatch` or `Invalid` for a recording that
-        cannot be replayed.
+        Raises `GenerationError`, `TooManySessions`, `NotSaved`, or `RecordingMismatch` or `Invalid` for a
+        recording that cannot be replayed.
         """
         self._check_capacity()
         self._creating += 1
@@ -113,6 +114,7 @@ class SessionManager:
                 config=asdict(config),
                 paused=paused and recorded is None,
                 tick=recorded.tick if recorded else 0,
+                language=language,
             )
             # Looking for a road that can be driven may take many draws.
             timeline = await asyncio.to_thread(Timeline, config) if config.solvable else Timeline(config)
@@ -138,15 +140,15 @@ class SessionManager:
         answer: Callable[[Session], StoredResponse] | None = None,
         field: str = "at_tick",
     ) -> Session:
-        """A new session that is `parent` up to a tick, and then changed; stored.
+        """Create and store a session that is `parent` up to a tick, with changes of its own.
 
-        Raises a `ProblemError`; for a tick that has not come yet it names `field`.
+        Raises a `ProblemError`; for a future tick it names `field`.
         """
-        check_step_ticks(actions, self._services.settings.max_step_ticks)
+        check_step_ticks(actions, self._services.settings.max_step_ticks, parent.language)
         now = parent.timeline.tick
         tick = now if at_tick is None else at_tick
         if tick > now:
-            message = f"has not come yet: it is tick {now}"
+            message = refusals(parent.language).session("tick_not_come", now=now)
             raise Invalid(f"{field}: {message}.", errors=[FieldProblem(field, message)])
         self._check_capacity()
         self._creating += 1
@@ -184,7 +186,7 @@ class SessionManager:
         await session.reachability.wait_until_idle()
 
     async def get(self, session_id: str) -> Session:
-        """The session with this id, brought back if need be. Raises `UnknownSession`."""
+        """The session with this id, restored if it is not live. Raises `UnknownSession`."""
         live = self._live.get(session_id)
         if live is not None:
             self.idle_times.touch(session_id)
@@ -198,20 +200,20 @@ class SessionManager:
         return await asyncio.shield(task)
 
     async def newest(self, limit: int, before: int | None) -> list[tuple[SessionRecord, Session | None]]:
-        """Kept sessions, newest first, each with its live self if it has one."""
+        """Stored sessions, newest first, each with its live session if there is one."""
         records = await self._services.store.newest(limit, before)
         return [(record, self._live.get(record.id)) for record in records]
 
     async def bookmarks(self, limit: int, before: int | None) -> Sequence[BookmarkRecord]:
-        """Named moments of all sessions, newest first."""
+        """Bookmarks of all sessions, newest first."""
         return await self._services.store.bookmarks(limit, before)
 
     async def entries(self, session: Session) -> Sequence[EntryRecord]:
-        """What was said to a session, as stored."""
+        """The stored entries of a session."""
         return await self._services.store.entries(session.id)
 
     async def delete(self, session_id: str, preconditions: Preconditions = NO_PRECONDITIONS) -> None:
-        """End a session and forget it, after what is being done to it. Raises `UnknownSession` or `Stale`."""
+        """Delete a session after the change under way. Raises `UnknownSession` or `PreconditionFailed`."""
         live = self._live.get(session_id)
         if live is None and preconditions.sequences is not None:
             live = await self.get(session_id)
@@ -233,7 +235,7 @@ class SessionManager:
             session.subscribers.close()
 
     def evictor(self) -> Evictor:
-        """What lets go of sessions that nobody needs."""
+        """The evictor of idle sessions."""
         settings = self._services.settings
         return Evictor(
             lambda: list(self._live.values()),
@@ -244,7 +246,7 @@ class SessionManager:
         )
 
     async def evict(self, sessions: list[Session], still: Callable[[Session], bool]) -> int:
-        """Let go of sessions, their ticks stored first; those that somebody came for meanwhile stay."""
+        """Store the ticks of sessions, then drop those that are `still` unused; returns how many."""
         for session in sessions:
             self._services.clock.remove(session)
         let_go = 0
@@ -264,7 +266,7 @@ class SessionManager:
         return let_go
 
     async def close(self, within_s: float = CLOSE_TIMEOUT_S) -> None:
-        """Remember where every clock stood; of sessions still being changed after `within_s`, nothing."""
+        """Stop all sessions and store their ticks, except of those still being changed after `within_s`."""
         ending = {asyncio.ensure_future(session.close()): session for session in self._live.values()}
         self._live.clear()
         if not ending:
@@ -305,7 +307,7 @@ class SessionManager:
             raise NotRestorable(sequence) from error
         except NewerRulesError as error:
             _LOG.error("a kept session is of newer rules", session=session_id, rules=error.rules)
-            raise NotRestorable(reason=refusals().newer_rules(error, "session")) from error
+            raise NotRestorable(reason=refusals(record.language).newer_rules(error, "session")) from error
         except (ConfigError, TypeError, StoreError) as error:
             _LOG.error("a kept session cannot be replayed", session=session_id, error=str(error))
             raise NotRestorable from error

@@ -1,4 +1,4 @@
-"""The messages of the stream, each made and encoded once for all watchers."""
+"""The messages of the stream; each is encoded once for all subscribers."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ from sim.types import Cell, Kind
 from sim.world import World
 
 PROTOCOL = 1
-"""Raised when a message changes its meaning; new keys do not raise it."""
+"""Version of the stream: increases when a message changes its meaning, not for new keys."""
 
 _FIRST_AV: Final = f"{Kind.AV}-1"
 _SIDES: Final = {"1": "right", "0": "left"}
 
 _SMALL_ROAD: Final = 512
-"""Roads of so many cells have a table of them; so do many sizes of road at once, in a few megabytes."""
+"""Roads of up to so many cells have a cached table of cells; many sizes of them take a few megabytes."""
 
 
 def hello_message(
@@ -55,7 +55,7 @@ def tick_message(
     narration: str | None,
     lines: Sequence[LogEvent],
 ) -> bytes:
-    """One tick: what moved, or the whole state, `standing` included, where a new road began."""
+    """One tick: what moved, or the whole state where a new road began (with `status`)."""
     world = after.world
     if world.episode != before.world.episode:
         seen: Json = {"state": state_json(status(), after)}
@@ -87,7 +87,7 @@ def changed_message(
     lines: Sequence[LogEvent],
     views: Mapping[str, bool] | None = None,
 ) -> bytes:
-    """A change that was accepted, whoever made it; `views` are those to be shown (true) or hidden."""
+    """An accepted change; `views` are those to be shown (true) or hidden (false)."""
     # The type stands first: readers of events take its name from there.
     told: Json = {
         "type": "changed",
@@ -104,13 +104,13 @@ def changed_message(
 
 
 def state_message(state: bytes, missed: MissedTicks | None) -> bytes:
-    """The whole state, as JSON text, for a reader that missed some ticks."""
+    """The whole state, for a subscriber that missed some ticks."""
     ticks = None if missed is None else [missed.first_tick, missed.last_tick]
     return encoded({"type": "state", "missed": ticks, "state": orjson.Fragment(state)})
 
 
 def motion_json(before: World, after: World) -> dict[str, Any]:
-    """Where things went and which way they turned, by id; what stood still is left out."""
+    """New cells and headings by id; things that stood still are left out."""
     road, movers = after.road, after.movers
     names = [*movers.values()]
     olds: Iterable[int] = before.movers
@@ -142,5 +142,5 @@ def motion_json(before: World, after: World) -> dict[str, Any]:
 
 @lru_cache(maxsize=128)
 def _cells(columns: int, rows: int) -> tuple[Cell, ...]:
-    """Every cell of a road, by its index."""
+    """Every cell of a road, by index."""
     return tuple((index % columns, index // columns) for index in range(columns * rows))

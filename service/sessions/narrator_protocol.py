@@ -1,10 +1,11 @@
-"""The seam to whoever puts facts into words."""
+"""The interface of the narrator, which puts facts into words."""
 
 from __future__ import annotations
 
 from typing import Any, Protocol
 
 from service.sessions.facts import AliasChange, Answerable, Fact, SideBySideTexts
+from service.sessions.scheduler.playback_speed import PlaybackSpeed
 from sim.events import Event
 from sim.explain.side_by_side import SideBySide
 from sim.forecast import Forecast
@@ -13,12 +14,22 @@ from sim.state import SimState
 
 
 class NarratorProtocol(Protocol):
-    """Facts → words; nothing is said that is not in the facts."""
+    """Facts → words; a narrator says nothing that is not in the facts."""
+
+    @property
+    def language(self) -> str:
+        """The code of the language."""
+
+    def in_language(self, code: str) -> NarratorProtocol:
+        """The same in another language."""
+
+    def failed(self) -> str:
+        """What is said when the simulation has met a defect of its own."""
 
     def decision(self, decision: Decision, run: SimState, forecast: Forecast | None = None) -> str:
-        """What the vehicle does at a tick and why, `run` being the state it was decided in.
+        """What the vehicle does at a tick and why; `run` is the state in which it decided.
 
-        `forecast`: what it was decided by, where that is known already.
+        `forecast`: what it decided by, where that is known already.
         """
 
     def options(self, decision: Decision) -> list[str]:
@@ -30,14 +41,17 @@ class NarratorProtocol(Protocol):
     def event(self, event: Event, run: SimState) -> str:
         """One line of the log."""
 
+    def speed(self, pace: PlaybackSpeed) -> str:
+        """A playback speed: `4×`."""
+
     def planner(self, name: str) -> str:
-        """A planner as people know it."""
+        """The name of a planner, for people."""
 
     def planner_timeout(self, planner: str, fault: str) -> str:
-        """What is said when a planner did not answer in time and a person is to drive."""
+        """The message for a planner that did not answer in time, so that a person has to drive."""
 
     def reply(self, facts: tuple[Fact, ...]) -> str:
-        """The reply: what was done, in a sentence or two."""
+        """The reply to what was done, in a sentence or two."""
 
     def alias_change(self, lesson: AliasChange) -> str:
         """The reply to a phrase that was taught or forgotten."""

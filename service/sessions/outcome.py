@@ -1,4 +1,4 @@
-"""What an utterance came to, in words and for keeping; and whether making it takes long."""
+"""Outcomes: what an utterance did, in words and as the entry to store."""
 
 from __future__ import annotations
 
@@ -25,17 +25,24 @@ def make_outcome(
     sequence: int,
     notice: ReachabilityNotice | None = None,
 ) -> Outcome:
-    """The outcome of an utterance that was said in a state; `notice` is told after what was done."""
+    """The outcome of an utterance that was said in a state; `notice` is told after what was done.
+
+    `narrator`: the session's; the reply is in the language of the utterance, the log in that of the session.
+    """
+    own = narrator if utterance.language is None else narrator.in_language(utterance.language)
     if utterance.supposes is not None:
         facts = tuple(
             replace(fact, supposes=utterance.supposes) if isinstance(fact, Asked) else fact for fact in facts
         )
-    answers = [narrator.answer(fact) for fact in facts if isinstance(fact, Answerable)]
-    done = compose_reply(narrator, facts, answers)
+    answers, said = _narrate(own, facts)
+    done = said if own is narrator or not _changing(facts) else _narrate(narrator, facts)[1]
+    noticed = "" if notice is None else notice.text
+    if notice is not None and own is not narrator:
+        noticed = own.event(notice.event, notice.run)
     return Outcome(
         utterance=utterance,
         facts=facts,
-        reply=done if notice is None else f"{done} {notice.text}".strip(),
+        reply=f"{said} {noticed}".strip() if noticed else said,
         done=done,
         notice=notice,
         answer=answers[-1] if answers else None,
@@ -45,8 +52,19 @@ def make_outcome(
     )
 
 
+def _narrate(narrator: NarratorProtocol, facts: tuple[Fact, ...]) -> tuple[list[dict[str, Any]], str]:
+    """The answers, and all that is said."""
+    answers = [narrator.answer(fact) for fact in facts if isinstance(fact, Answerable)]
+    return answers, compose_reply(narrator, facts, answers)
+
+
+def _changing(facts: tuple[Fact, ...]) -> bool:
+    """Whether there is more than answers, which the log has a line of."""
+    return any(not isinstance(fact, Answerable) for fact in facts)
+
+
 def make_entry(outcome: Outcome, tick: int, transaction: Transaction) -> EntryRecord:
-    """What is kept of an outcome, said at a tick, that led to a draft's state."""
+    """The entry to store for an outcome at a tick that led to the state of a transaction."""
     return EntryRecord(
         sequence=outcome.sequence,
         tick=tick,
@@ -64,14 +82,14 @@ def make_entry(outcome: Outcome, tick: int, transaction: Transaction) -> EntryRe
 def compose_reply(
     narrator: NarratorProtocol, facts: tuple[Fact, ...], answers: Sequence[dict[str, Any]]
 ) -> str:
-    """What is said of facts: what was done, then the answers."""
+    """The reply: what was done, then the answers."""
     done = tuple(fact for fact in facts if not isinstance(fact, Answerable))
     said = [narrator.reply(done)] if done else []
     return " ".join([*said, *(answer["text"] for answer in answers)])
 
 
 def is_slow_to_answer(planner: str, facts: tuple[Fact, ...]) -> bool:
-    """Whether a question has a slow planner run many times, or whole episodes."""
+    """Whether a question asks a slow planner many times, or runs whole episodes."""
     asked = {fact.ask.about for fact in facts if isinstance(fact, Asked)}
     if not asked:
         return False

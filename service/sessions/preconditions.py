@@ -1,7 +1,7 @@
-"""On what terms a change is asked for, beside what it is.
+"""Preconditions of a change, and the response to store with it.
 
-A caller may say which change of the session it has seen last, and what is to be kept with the change.
-Both hold at the very moment of the change: nothing can come between.
+A client may name the change that it saw last (`If-Match`), and a response may be stored together with the
+change (`Idempotency-Key`). Both are atomic with the change.
 """
 
 from __future__ import annotations
@@ -16,20 +16,20 @@ from service.store import StoredResponse
 
 @dataclass(frozen=True, slots=True)
 class Preconditions:
-    """The terms of one change; none of them by default.
+    """The preconditions of one change; none by default.
 
-    `sequences`: the session must stand at one of these. `answer`: makes of the outcome what is to be kept
-    with it, before it is stored.
+    `sequences`: the session must be at one of these sequence numbers. `answer`: makes the response to store
+    from the outcome, before the change is stored.
     """
 
     sequences: frozenset[int] | None = None
     answer: Callable[[Outcome], StoredResponse] | None = None
 
     def check(self, sequence: int) -> None:
-        """Raise `Stale` where the session stands elsewhere."""
+        """Raise `PreconditionFailed` unless the session is at one of the sequence numbers."""
         if self.sequences is not None and sequence not in self.sequences:
             raise PreconditionFailed(sequence)
 
 
 NO_PRECONDITIONS = Preconditions()
-"""No terms at all."""
+"""None at all."""

@@ -1,9 +1,9 @@
-"""Whether a session's vehicle can still arrive: found out once for each road and each change of it.
+"""Reachability: whether a session's vehicle can still arrive, for each road and each change of it.
 
-What takes longer than a fraction of a millisecond is done in a thread. A road that begins with a tick is
-told of when it is found out, if it is still the road then; a change waits for it, since its reply tells.
-Nothing of this is kept: it follows from the state, and would make every replay look at every road again. So
-lines about it are passing ones (`service.sessions.log`).
+A search that takes longer than a fraction of a millisecond runs in a thread. A road that begins with a tick
+is announced when the search ends, if it is still the road then; a change waits for the search, since its
+reply says the result. Nothing is stored: the result follows from the state, so log lines about it are
+transient (`service.sessions.log`).
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ _WORKER = ThreadPoolExecutor(max_workers=1, thread_name_prefix="outlook")
 
 @dataclass(frozen=True, slots=True)
 class RoadOutlook:
-    """What was found out about a road; None where nothing was."""
+    """The result of a search for one road; `found` is None where the search gave up."""
 
     road: Hashable
     episode: tuple[int, int]
@@ -38,7 +38,7 @@ class ReachabilityMonitor:
     """What is known of one session's road. All methods are for the event loop's thread."""
 
     def __init__(self, present: Callable[[], SimState], tell: Callable[[Event], None]) -> None:
-        """`present`: the state now; `tell`: given what is found out about a road that began by itself."""
+        """`present`: the state now; `tell`: called with the event for a road that began by itself."""
         self._present = present
         self._tell = tell
         self._known: RoadOutlook | None = None
@@ -46,7 +46,7 @@ class ReachabilityMonitor:
         self._waiting: SimState | None = None
 
     def start_road(self, run: SimState) -> None:
-        """A road has begun with a tick; needs a running loop."""
+        """Begin to search a road that began with a tick; needs a running loop."""
         if quickly_open(run):
             self._known = _road_outlook(run, OPEN)
         elif self._searching is None:
@@ -55,13 +55,13 @@ class ReachabilityMonitor:
             self._waiting = run  # in place of another that waited, which is gone by now
 
     async def wait_until_idle(self) -> None:
-        """Wait until nothing is being found out."""
+        """Wait until no search is under way."""
         while self._searching is not None:
             await asyncio.wait([self._searching])
             await asyncio.sleep(0)
 
     async def after_change(self, run: SimState, facts: Sequence[Fact]) -> RoadOutlook | None:
-        """What is to be known once a change has led here; None where it changes no road."""
+        """The result for the state after a change; None where the change did not concern the road."""
         back = any(isinstance(fact, Undone | Jumped) for fact in facts)
         if not back and _road_key(run) == _road_key(self._present()):
             return None
@@ -72,7 +72,7 @@ class ReachabilityMonitor:
         return _road_outlook(run, await to_thread.run_sync(outlook, run))
 
     def event_for(self, seen: RoadOutlook, run: SimState) -> Event | None:
-        """What is to be told of this, beside what is known; `run` is the state it was found in."""
+        """The event to announce for a result, given what is known; `run` is the state it was found in."""
         before, found = self._known, seen.found
         if found is None:
             return None
@@ -87,7 +87,7 @@ class ReachabilityMonitor:
         return Event(world.tick, EventType.NO_WAY, world.episode, found.ids, how=how)
 
     def remember(self, seen: RoadOutlook) -> None:
-        """This holds from now on."""
+        """Take a result as known."""
         self._known = seen
 
     def _search(self, run: SimState) -> None:
@@ -115,7 +115,7 @@ def _road_outlook(run: SimState, found: Outlook | None) -> RoadOutlook:
 
 
 def _road_key(run: SimState) -> Hashable:
-    """Equal for states of one road between two changes that matter to the way."""
+    """Equal for states of one road between which nothing changed that matters to reachability."""
     world, config = run.world, run.config
     drawn = (world.episode, world.episode_start, run.edits, world.fixed)
     movers = config.behaviour, config.courtesy, config.attentive

@@ -1,8 +1,8 @@
-"""Going back: an earlier tick becomes the present, and what came after it can be had back by one undo.
+"""Rewinding: an earlier tick becomes the present; one undo brings back what came after it.
 
-A step that jumped in time keeps both timelines whole (states are values and shared), so that taking it
-back is no replay, and time stands where it stood on the other side. What is stored is the action with
-the tick it was said at, as for any other: whoever replays the log goes back at the same place.
+A step that moved time keeps both timelines whole (states are shared values), so that undoing it needs no
+replay. The store has the action with the tick it was said at, as for any other; a replay rewinds at the same
+place.
 """
 
 from __future__ import annotations
@@ -12,16 +12,18 @@ from dataclasses import dataclass, field, replace
 
 from service.actions import Rewind
 from service.problems import FieldProblem, Invalid
+from service.refusals import refusals
+from service.resources import DEFAULT_LANGUAGE
 from service.sessions.utterance import Utterance
 from sim.session.timeline import Timeline
 
 MAX_TICKS = 10_000
-"""How far one action goes back; a longer way is several of them."""
+"""Largest number of ticks of one action; a longer way is several of them."""
 
 
 @dataclass(frozen=True, slots=True)
 class TimeJump:
-    """The two sides of a step that moved time."""
+    """The timelines on both sides of a step that moved time."""
 
     before: Timeline = field(compare=False)
     after: Timeline = field(compare=False)
@@ -32,30 +34,30 @@ class TimeJump:
         return TimeJump(self.after, self.before)
 
     def with_before(self, timeline: Timeline) -> TimeJump:
-        """The jump, when it is made anew from where its near side has come to."""
+        """The jump when it is redone from this timeline."""
         return replace(self, before=timeline.copy())
 
     def with_after(self, timeline: Timeline) -> TimeJump:
-        """The jump, when it is taken back from where its far side has come to."""
+        """The jump when it is undone from this timeline."""
         return replace(self, after=timeline.copy())
 
 
-def rewind_timeline(timeline: Timeline, ticks: int, where: str) -> None:
+def rewind_timeline(timeline: Timeline, ticks: int, where: str, language: str) -> None:
     """Make an earlier tick the present. Raises `Invalid`, naming `where`, if there are not so many."""
     if ticks > timeline.tick:
-        sentence = f"It is tick {timeline.tick}: that is as far as one can go back, and not {ticks}."
+        sentence = refusals(language).session("too_far_back", tick=timeline.tick, ticks=ticks)
         raise Invalid(sentence, errors=[FieldProblem(where, sentence)])
     timeline.rewind(timeline.tick - ticks)
 
 
-def rewind_to(tick: int) -> Callable[[Timeline], Utterance]:
+def rewind_to(tick: int, language: str = DEFAULT_LANGUAGE) -> Callable[[Timeline], Utterance]:
     """What goes back to a tick, once it is known where the session stands. It raises `Invalid`."""
 
     def utterance(timeline: Timeline) -> Utterance:
         ticks = timeline.tick - tick
         if ticks <= 0:
             now = timeline.tick
-            message = f"{'has not come yet' if ticks else 'is where it stands'}: it is tick {now}"
+            message = refusals(language).session("tick_not_come" if ticks else "tick_is_now", now=now)
             raise Invalid(f"tick: {message}.", errors=[FieldProblem("tick", message)])
         whole, rest = divmod(ticks, MAX_TICKS)
         ways = [MAX_TICKS] * whole + ([rest] if rest else [])

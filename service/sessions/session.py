@@ -1,14 +1,14 @@
-"""A live session: a timeline, its pause, its log and its watchers, changed one utterance at a time.
+"""A live session: a timeline, its clock, its log and its subscribers, changed by one utterance at a time.
 
-The order of a change: try all actions on a copy → store → publish → acknowledge. While the store
-is waited for the clock does not tick this session; a tick that came due meanwhile is taken after.
-A change that was begun is finished even when whoever asked for it has gone.
+The order of a change: perform all actions on a copy, store, publish, acknowledge. While the store is waited
+for, the clock does not tick this session; a tick that becomes due meanwhile is run afterwards. A change that
+began is finished even if the client disconnects.
 """
 
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncIterator, Callable, Mapping, Sequence
+from collections.abc import AsyncIterator, Callable, Sequence
 from contextlib import asynccontextmanager
 from dataclasses import replace
 from functools import partial
@@ -21,20 +21,17 @@ from service.actions import Action
 from service.actions.table import traits_of
 from service.contract.encode.state import SessionStatus
 from service.problems import NotSaved, UnknownName, UnknownSession
-from service.resources import DEFAULT_LANGUAGE
 from service.server_timing import part as timed
 from service.sessions.bookmarks import add_other_session
 from service.sessions.conversation import Conversation
 from service.sessions.dry_run import is_possible
+from service.sessions.event_feed import EventFeed
 from service.sessions.facts import Fact, merge_views, parts_with_events, question_timelines
 from service.sessions.fork import ForkPoint, is_partly_of_world
-from service.sessions.log import EventLog, LogEvent
-from service.sessions.messages import changed_message, tick_message
 from service.sessions.outcome import is_slow_to_answer, make_entry, make_outcome
 from service.sessions.persistence.log_position import LogPosition
 from service.sessions.preconditions import NO_PRECONDITIONS, Preconditions
 from service.sessions.reachability import ReachabilityMonitor
-from service.sessions.scheduler.background_task import BackgroundTask
 from service.sessions.scheduler.external_planner import ExternalPlanner
 from service.sessions.scheduler.offload import (
     QUESTION_S,
@@ -50,10 +47,8 @@ from service.sessions.scheduler.playback_speed import (
     period_s,
     ticks_of_turn,
 )
-from service.sessions.scheduler.tick_batch import TickBatch
 from service.sessions.services import SessionServices
 from service.sessions.state_cache import StateCache
-from service.sessions.subscribers import Subscribers
 from service.sessions.transaction import Transaction, check_step_ticks
 from service.sessions.undo_stack import UndoStack
 from service.sessions.utterance import Outcome, ReachabilityNotice, Utterance
@@ -62,7 +57,6 @@ from sim.actions import SetMode
 from sim.events import Event
 from sim.explain.summary import long_to_tell
 from sim.plan import Decision
-from sim.session.edits import Applied, Change
 from sim.session.timeline import PlannerSilentError, Timeline
 from sim.state import SimState, StepResult
 from sim.types import Mode
@@ -70,10 +64,10 @@ from sim.types import Mode
 _LOG = structlog.get_logger(__name__)
 
 THREAD_TICKS = 200
-"""Work of more ticks than this is done beside the event loop."""
+"""Work of more ticks than this runs in a thread."""
 
 MAX_STREAMED_TICKS = 8
-"""Steps of up to so many ticks are shown to watchers tick by tick."""
+"""Steps of up to so many ticks are published tick by tick."""
 
 
 class Session:
@@ -87,22 +81,23 @@ class Session:
         self.sequence = 0
         self.undo_stack = UndoStack()
         self.partial_changes: set[int] = set()
-        """changes of which the timeline has a part only: the others were no changes of the road"""
+        """changes of which the log of the road has only some actions"""
         self.conversation = Conversation()
         self.log_position = LogPosition(record)
         self.after_change: Callable[[Session], None] | None = None
-        self.log = EventLog(services.settings.log_events)
-        self.subscribers = Subscribers()
-        self.tick_batch = TickBatch(self.subscribers)
-        self._narration = BackgroundTask(self._log_late_events)
+        self.feed = EventFeed(self, services.settings.log_events)
+        self.log = self.feed.log
+        self.subscribers = self.feed.subscribers
+        self.tick_batch = self.feed.tick_batch
         self._external_planner = ExternalPlanner(self._on_decision)
-        self.reachability = ReachabilityMonitor(lambda: self.run, self._announce_reachability)
+        self.reachability = ReachabilityMonitor(lambda: self.run, self.feed.announce_reachability)
         self._state_cache = StateCache()
-        self._services = services
+        self.services = services
+        self.narrator = services.narrator.in_language(record.language)
         self._lock = asyncio.Lock()
         self._changing = False
         self._tick_due = False
-        self._closed = False
+        self.closed = False
         self._tasks: set[asyncio.Task[Any]] = set()
 
     def __str__(self) -> str:
@@ -114,13 +109,18 @@ class Session:
         return self.record.id
 
     @property
+    def language(self) -> str:
+        """The code of the language that its log and narration are in."""
+        return self.record.language
+
+    @property
     def run(self) -> SimState:
-        """The present state."""
+        """The present state of the simulation."""
         return self.timeline.state
 
     @property
     def status(self) -> SessionStatus:
-        """What of the session is not in its run."""
+        """What the state message says beside the simulation: id, pause, sequence, speed, undo and redo."""
         steps, undone = self.undo_stack.steps, len(self.undo_stack.undone)
         return SessionStatus(self.id, self.paused, self.sequence, self.playback_speed, steps, undone)
 
@@ -138,7 +138,7 @@ class Session:
         return self.decision_at(self.timeline.tick - 1) if self.timeline.tick else None
 
     def decision_at(self, tick: int) -> tuple[Decision, SimState] | None:
-        """The decision taken at a past tick, and the state it was taken in; None while a result stood."""
+        """The decision at a past tick and the state it was taken in; None while a result stood."""
         run = self.timeline.at(tick)
         decision = self.timeline.decided(run)
         return None if decision is None else (decision, run)
@@ -146,38 +146,34 @@ class Session:
     # Time
 
     def set_paused(self, paused: bool) -> None:
-        """Stand still or go on; the clock is told."""
+        """Pause or resume, on the clock as well."""
         self.paused = paused
         if paused:
-            self._services.clock.remove(self)
+            self.services.clock.remove(self)
         else:
-            self._services.clock.add(self)
+            self.services.clock.add(self)
 
     def tick(self) -> None:
-        """One turn of the clock: a tick, or several where they follow each other in no time."""
+        """Run one turn of the clock: one tick, or several at high speed."""
         if self._changing:
             self._tick_due = True
             return
         for _ in ticks_of_turn(self.playback_speed, self.timeline.state.config.step_seconds):
             # In real time the words of an ending are done by the next tick; in a hurry they are waited for.
-            if (
-                self._changing
-                or self.paused
-                or (self._narration.busy and is_accelerated(self.playback_speed))
-            ):
+            if self._changing or self.paused or (self.feed.narrating and is_accelerated(self.playback_speed)):
                 return
             if self._external_planner.busy or self._external_planner.ask(self.timeline.state):
                 return  # a planner of another package decides this one, and nobody waits for it here
             self._tick_once()
 
     def _on_decision(self, run: SimState, decision: Decision) -> None:
-        """A planner of another package has decided, or has not in time."""
-        if self._closed or self._changing or self.paused or self.timeline.state is not run:
+        """Tick with the decision of an external planner, or with its fallback."""
+        if self.closed or self._changing or self.paused or self.timeline.state is not run:
             return  # asked anew when its turn comes
         try:
             self._tick_once(decision)
         except Exception as error:
-            self._services.clock.remove(self)
+            self.services.clock.remove(self)
             self.tick_failed(error)
 
     def _tick_once(self, decided: Decision | None = None) -> None:
@@ -188,67 +184,66 @@ class Session:
             self._start_manual_override(silence)
             return
         if tick.events and long_to_tell(tick.state):
-            self._narration.start(lambda: self._narrate_events(tick.state, tick))
-            self._publish_tick(before, tick, ())
+            self.feed.narrate_in_thread(tick.state, tick)
+            self.feed.publish_tick(before, tick, ())
         else:
-            self._publish_tick(before, tick, self._log_events(tick.state, tick))
+            self.feed.publish_tick(before, tick, self.feed.log_events(tick.state, tick))
         if tick.events and tick.state.world.episode_tick == 0:
             self.reachability.start_road(tick.state)
 
     def _start_manual_override(self, silence: PlannerSilentError) -> None:
-        """Let a person drive, as a change like any other: a replay does not ask that planner again."""
+        """Switch to manual driving, by a stored change: a replay does not ask that planner again."""
         self._changing = True  # no tick until it is done
-        text = self._services.narrator.planner_timeout(silence.planner, silence.fault)
+        text = self.narrator.planner_timeout(silence.planner, silence.fault)
         task = asyncio.ensure_future(self._switch_to_manual(text))
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
 
     async def _switch_to_manual(self, text: str) -> None:
         await self._change(Utterance(actions=(SetMode(mode=Mode.MANUAL),)), dry_run=False)
-        self._publish_changed(None, text, (), [self._log_line(self.timeline.tick, "event", text)])
+        self.feed.publish_change(None, text, (), [self.feed.log_line(self.timeline.tick, "event", text)])
 
     def tick_failed(self, error: Exception) -> None:
-        """A defect of the world's rules: stand still and say so, rather than fail twice a second."""
+        """Pause and log a defect of the rules, rather than fail twice a second."""
         _LOG.error("session paused after a failed tick", session=self.id, error=repr(error))
         self.paused = True
-        line = self._log_line(
-            self.timeline.tick, "failed", "The simulation met a defect of its own and has been paused."
-        )
-        self._publish_changed(None, line.text, (), [line])
+        line = self.feed.log_line(self.timeline.tick, "failed", self.narrator.failed())
+        self.feed.publish_change(None, line.text, (), [line])
 
     @property
     def busy(self) -> bool:
-        """Whether something is being done to it just now."""
-        return self._lock.locked() or bool(self._tasks) or self._narration.busy
+        """Whether work is under way on this session."""
+        return self._lock.locked() or bool(self._tasks) or self.feed.narrating
 
     def retire(self) -> None:
-        """Stand still for good; whoever still holds it must ask for the session anew."""
-        self._closed = True
-        self._services.clock.remove(self)
+        """Stop for good, at once; whoever holds the session must ask the manager for it again."""
+        self.closed = True
+        self.services.clock.remove(self)
 
     async def close(self) -> None:
-        """Stand still for good, once the change under way is done; later changes find no session."""
+        """Stop for good, after the change under way; later changes raise `UnknownSession`."""
         async with self._lock:
-            self._closed = True
+            self.closed = True
             self.set_paused(True)
 
     def announce(self, kind: str, text: str | None, reply: str) -> None:
-        """Tell watchers of something that changed nothing in the session itself."""
-        self._publish_changed(text, reply, (), [self._log_line(self.timeline.tick, kind, reply)])
+        """Log and publish something that changed nothing in the session itself."""
+        self.feed.publish_change(text, reply, (), [self.feed.log_line(self.timeline.tick, kind, reply)])
 
     # Change
 
     def is_possible(self, actions: tuple[Action, ...]) -> bool:
-        """Whether these would be done, and change something; long work is taken to be possible."""
+        """Whether the actions would succeed now and change something."""
         return is_possible(self.begin_transaction(), self.sequence, actions)
 
-    def begin_transaction(self, language: str = DEFAULT_LANGUAGE) -> Transaction:
-        """A copy to try actions on; `language`: the one in which they are refused."""
+    def begin_transaction(self, language: str | None = None) -> Transaction:
+        """A copy to try actions on; `language`: the one in which they are refused (the session's)."""
+        language = language or self.language
         return Transaction(self.timeline, self.paused, self.undo_stack, self.playback_speed, language)
 
     @asynccontextmanager
     async def locked(self, preconditions: Preconditions) -> AsyncIterator[None]:
-        """Nothing is changed by anyone meanwhile. Raises `Stale`."""
+        """Hold the session's lock, so that nothing changes meanwhile. Raises `PreconditionFailed`."""
         async with self._lock:
             preconditions.check(self.sequence)
             yield
@@ -260,12 +255,13 @@ class Session:
         dry_run: bool = False,
         preconditions: Preconditions = NO_PRECONDITIONS,
     ) -> Outcome:
-        """Do an utterance, or one made once it is its turn, all or nothing.
+        """Perform an utterance, or one made when its turn comes; all or nothing.
 
-        Raises a `ProblemError`; the session is then as it was.
+        Raises a `ProblemError`; the session is unchanged then.
         """
         if isinstance(utterance, Utterance):
-            check_step_ticks(utterance.actions, self._services.settings.max_step_ticks)
+            language = utterance.language or self.language
+            check_step_ticks(utterance.actions, self.services.settings.max_step_ticks, language)
         task = asyncio.ensure_future(self._change(utterance, dry_run, preconditions))
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
@@ -278,7 +274,7 @@ class Session:
         preconditions: Preconditions = NO_PRECONDITIONS,
     ) -> Outcome:
         async with self._lock:
-            if self._closed:
+            if self.closed:
                 raise UnknownSession
             preconditions.check(self.sequence)
             if not isinstance(utterance, Utterance):
@@ -296,9 +292,9 @@ class Session:
                     return await self._make_outcome(utterance, facts, self.sequence, event, transaction)
                 if not any(traits_of(action).changes_session for action in utterance.actions):
                     outcome = await self._make_outcome(utterance, facts, self.sequence)
-                    self.conversation.record(outcome, passing=True)
+                    self.conversation.record(outcome, transient=True)
                     if views := merge_views(facts):
-                        self._publish_changed(utterance.text, outcome.reply, (), (), views)
+                        self.feed.publish_change(utterance.text, outcome.reply, (), (), views)
                     return outcome
                 outcome = await self._make_outcome(utterance, facts, self.sequence + 1, event, transaction)
                 with timed("store"):
@@ -322,7 +318,9 @@ class Session:
                 return await to_thread.run_sync(transaction.perform, sequence, actions)
             return transaction.perform(sequence, actions)
         except UnknownName as problem:
-            raise await add_other_session(self._services.store, problem, utterance.actions) from None
+            raise await add_other_session(
+                self.services.store, problem, utterance.actions, utterance.language or self.language
+            ) from None
 
     async def _make_outcome(
         self,
@@ -332,13 +330,12 @@ class Session:
         event: Event | None = None,
         transaction: Transaction | None = None,
     ) -> Outcome:
-        """The outcome in words; beside the event loop where that takes long. `event`: of the draft's road."""
+        """The outcome in words, made in a thread where slow. `event`: about the transaction's road."""
         notice = None
         if event is not None and transaction is not None:
-            notice = ReachabilityNotice(
-                event, self._services.narrator.event(event, transaction.timeline.state)
-            )
-        told = partial(make_outcome, self._services.narrator, self.run, utterance, facts, sequence, notice)
+            run = transaction.timeline.state
+            notice = ReachabilityNotice(event, self.narrator.event(event, run), run)
+        told = partial(make_outcome, self.narrator, self.run, utterance, facts, sequence, notice)
         if not is_slow_to_answer(self.run.config.planner, facts):
             return told()
         return await run_in_thread(
@@ -353,39 +350,39 @@ class Session:
         try:
             if transaction.timeline.tick < self.timeline.tick:
                 # First: where time once stood must never be run on to from a log that has gone back.
-                await self._services.store.save_ticks({self.id: transaction.timeline.tick})
-            await self._services.store.append(self.id, entry, *kept)
+                await self.services.store.save_ticks({self.id: transaction.timeline.tick})
+            await self.services.store.append(self.id, entry, *kept)
         except StoreError as error:
             _LOG.error("a change was not saved", session=self.id, error=str(error))
             raise NotSaved from error
         self.log_position.append(entry)
 
     def _commit(self, transaction: Transaction, outcome: Outcome) -> None:
-        """Take the draft's state and tell watchers."""
+        """Take over a transaction's state and publish the outcome."""
         before, began = self.run, self.timeline.tick
         if transaction.playback_speed != self.playback_speed:
-            self._services.clock.remove(self)  # the turn it waits for is at the old speed
+            self.services.clock.remove(self)  # the turn it waits for is at the old speed
         self.adopt(transaction, outcome.sequence, outcome.utterance.actions)
         self.set_paused(transaction.paused)
         self.conversation.record(outcome)
-        lines = [self._log_line(began, "changed", outcome.done, passing=False)]
+        lines = [self.feed.log_line(began, "changed", outcome.done, transient=False)]
         playing = outcome.only_steps and len(outcome.ticks) <= MAX_STREAMED_TICKS
         for run, part in parts_with_events(outcome.facts):
-            noted = self._log_events(run, part)
+            noted = self.feed.log_events(run, part)
             if isinstance(part, StepResult) and playing:
-                self._publish_tick(before, part, noted)
+                self.feed.publish_tick(before, part, noted)
             else:
                 lines += noted
             before = run
         if outcome.notice is not None:
-            lines.append(self._log_reachability(outcome.notice))
+            lines.append(self.feed.log_reachability(outcome.notice))
         text, views = outcome.utterance.text, merge_views(outcome.facts)
-        self._publish_changed(text, outcome.reply, outcome.changes, lines, views)
+        self.feed.publish_change(text, outcome.reply, outcome.changes, lines, views)
         if self.after_change is not None:
             self.after_change(self)
 
     def adopt(self, transaction: Transaction, sequence: int, actions: Sequence[Action]) -> None:
-        """Take a draft's state, made by these actions; for who has the session to itself."""
+        """Take over a transaction's state; for callers that have the session to themselves."""
         if is_partly_of_world(actions):
             self.partial_changes.add(sequence)
         self.timeline, self.undo_stack = transaction.timeline, transaction.undo_stack
@@ -403,65 +400,6 @@ class Session:
                 self.tick()
 
     def start_from(self, way: ForkPoint) -> None:
-        """Begin where another session's log has led to; for a session that nobody else has yet."""
+        """Start from a fork point; for a session that nobody else has yet."""
         self.timeline, self.undo_stack = way.timeline, way.undo_stack(self.paused)
         self.sequence = way.branch.sequence
-
-    # Telling
-
-    def _log_events(self, run: SimState, part: Applied | StepResult) -> list[LogEvent]:
-        """Write the events of a tick or an action to the log."""
-        self._narration.finish()
-        return self._log_narrated(self._narrate_events(run, part)) if part.events else []
-
-    def _narrate_events(self, run: SimState, part: Applied | StepResult) -> list[tuple[Event, str]]:
-        return [(event, self._services.narrator.event(event, run)) for event in part.events]
-
-    def _log_narrated(self, worded: list[tuple[Event, str]]) -> list[LogEvent]:
-        return [self.log.add(event.tick, event.type, text, event.ids, event.cell) for event, text in worded]
-
-    def _log_late_events(self, worded: list[tuple[Event, str]]) -> None:
-        """Lines that were worded beside the clock, told as soon as they are there."""
-        lines = self._log_narrated(worded)
-        self._publish_changed(None, lines[-1].text, (), lines)
-
-    def _announce_reachability(self, event: Event) -> None:
-        """That a road which began by itself has no way through; once that is found out."""
-        if not self._closed:
-            line = self._log_reachability(
-                ReachabilityNotice(event, self._services.narrator.event(event, self.run))
-            )
-            self._publish_changed(None, line.text, (), [line])
-
-    def _log_reachability(self, notice: ReachabilityNotice) -> LogEvent:
-        self._narration.finish()
-        event = notice.event
-        return self.log.add(event.tick, event.type, notice.text, event.ids, passing=True)
-
-    def _log_line(self, tick: int, kind: str, text: str, *, passing: bool = True) -> LogEvent:
-        self._narration.finish()
-        return self.log.add(tick, kind, text, passing=passing)
-
-    def _publish_tick(self, before: SimState, tick: StepResult, lines: Sequence[LogEvent]) -> None:
-        def message() -> bytes:
-            decision = tick.decision
-            taken, narrator = tick.of(), self._services.narrator
-            narration = None if taken is None else narrator.decision(taken.decision, before, taken.forecast)
-            return tick_message(
-                self.sequence, lambda: self.status, before, tick.state, decision, narration, lines
-            )
-
-        self.tick_batch.publish_tick(tick.state.world.tick, message)
-
-    def _publish_changed(
-        self,
-        text: str | None,
-        reply: str,
-        changes: Sequence[Change],
-        lines: Sequence[LogEvent],
-        views: Mapping[str, bool] | None = None,
-    ) -> None:
-        def message() -> bytes:
-            return changed_message(self.status, self.run, text, reply, changes, lines, views)
-
-        self.tick_batch.publish_now(self.timeline.tick, message)

@@ -1,7 +1,7 @@
-"""Who watches a session: a small slot for each watcher, so that a slow one costs nothing.
+"""Subscribers of a session: each has a small queue, so that a slow one costs nothing.
 
-A message is encoded once and shared by all slots. A watcher that has not read by the time its slot
-is full loses what is in it, is told which ticks those were, and goes on from a full state.
+A message is encoded once and shared by all queues. A subscriber whose queue is full loses what is in it, is
+told which ticks it missed, and continues from a full state.
 """
 
 from __future__ import annotations
@@ -15,24 +15,24 @@ from dataclasses import dataclass
 from sim.fast_replace import fast_constructor
 
 QUEUE_SIZE = 16
-"""A watcher that keeps up never has more than a few waiting; stepping plays through as many."""
+"""Messages in a queue. A subscriber that keeps up has a few; a step publishes as many at most."""
 
 
 @dataclass(frozen=True, slots=True)
 class MissedTicks:
-    """The ticks, first and last, that a slow watcher was not sent."""
+    """The first and the last tick that a slow subscriber missed."""
 
     first_tick: int
     last_tick: int
 
 
 class SessionDeleted:
-    """The last thing a watcher hears: the session has been deleted."""
+    """The last thing that a subscriber gets."""
 
 
 @dataclass(frozen=True, slots=True)
 class StreamMessage:
-    """An encoded message and the tick it tells of."""
+    """An encoded message and its tick."""
 
     tick: int
     data: bytes
@@ -43,15 +43,15 @@ _message = fast_constructor(StreamMessage, "tick", "data", "number")
 
 
 def add_event_id(data: bytes, event: str) -> bytes:
-    """An encoded message with the id that a reader can come back with."""
+    """An encoded message with the id from which a client can resume."""
     return b'%b,"event":"%b"}' % (data[:-1], event.encode()) if data.endswith(b"}") else data
 
 
 class Subscriber:
-    """One reader's end. `next` waits for the next thing to send.
+    """One client's end of the stream; `next` waits for the next thing to send.
 
-    A reader may offer to take messages `straight`: whoever waits in `next` with nothing before it is
-    offered each as it comes, and hears of those that were refused in `next`, in their order.
+    With `straight`, a client that waits in `next` with an empty queue is offered each message at once;
+    messages that `straight` refuses are queued, in order.
     """
 
     __slots__ = ("_gone", "_last_tick", "_missed_from", "_straight", "_waiting", "_wake")
@@ -59,7 +59,7 @@ class Subscriber:
     def __init__(
         self, missed: Sequence[StreamMessage] = (), straight: Callable[[bytes], bool] | None = None
     ) -> None:
-        """`missed`: what it is told first."""
+        """`missed`: messages to deliver first."""
         self._straight = straight
         self._waiting: list[StreamMessage] = list(missed)
         self._missed_from: int | None = None
@@ -68,7 +68,7 @@ class Subscriber:
         self._wake: asyncio.Future[None] | None = None
 
     def put(self, notice: StreamMessage) -> None:
-        """Hand over a message; never waits."""
+        """Queue a message, or deliver it at once; never waits."""
         self._last_tick = notice.tick
         wake, straight = self._wake, self._straight
         # Who waits in `next` has been given all before: nothing can be overtaken.
@@ -83,12 +83,12 @@ class Subscriber:
         self._wake_up()
 
     def close(self) -> None:
-        """The session is no more."""
+        """Deliver `SessionDeleted` next."""
         self._gone = True
         self._wake_up()
 
     async def next(self) -> list[StreamMessage] | MissedTicks | SessionDeleted:
-        """Messages in order; or that some were missed; or that there will be no more. For one at a time."""
+        """Queued messages in order, `MissedTicks` or `SessionDeleted`. For one caller at a time."""
         while not self._waiting and self._missed_from is None and not self._gone:
             self._wake = asyncio.get_running_loop().create_future()
             try:
@@ -110,7 +110,7 @@ class Subscriber:
 
 
 class Subscribers:
-    """All watchers of one session."""
+    """All subscribers of one session."""
 
     def __init__(self) -> None:
         self._subscribers: set[Subscriber] = set()
@@ -124,7 +124,7 @@ class Subscribers:
 
     @property
     def last_event_id(self) -> str:
-        """The id of the latest message, for a reader to come back with."""
+        """The id of the latest message, to resume from."""
         return self.event_id(self._last)
 
     def event_id(self, number: int) -> str:
@@ -132,7 +132,7 @@ class Subscribers:
         return f"{self._token}.{number}"
 
     def messages_since(self, event: str) -> list[StreamMessage] | None:
-        """What came after a message, if all of that is still kept; None if it is not."""
+        """The messages after an id; None if some of them are not kept any more."""
         token, _, number = event.partition(".")
         if token != self._token or not number.isascii() or not number.isdecimal() or len(number) > 15:
             return None
@@ -148,24 +148,24 @@ class Subscribers:
     def subscribe(
         self, missed: Sequence[StreamMessage] = (), straight: Callable[[bytes], bool] | None = None
     ) -> Subscriber:
-        """A new watcher; it hears what it missed, and everything published from now on."""
+        """A new subscriber; it gets `missed`, then everything published from now on."""
         subscriber = Subscriber(missed, straight)
         self._unsubscribed_count = 0
         self._subscribers.add(subscriber)
         return subscriber
 
     def unsubscribe(self, subscriber: Subscriber) -> None:
-        """It hears no more."""
+        """Deliver nothing more to a subscriber."""
         self._subscribers.discard(subscriber)
 
     def publish(self, tick: int, encode: Callable[[], bytes]) -> None:
-        """Tell all; the message is not even made when nobody watches, nor has lately."""
+        """Encode and deliver a message; skips encoding when there is no subscriber, nor was one lately."""
         notice = self.prepare(tick, encode)
         if notice is not None:
             self.deliver(notice)
 
     def prepare(self, tick: int, encode: Callable[[], bytes]) -> StreamMessage | None:
-        """The next message, made and kept but not yet told; None where nobody watches, nor has lately."""
+        """The next message, encoded and kept, not delivered; None without subscribers now and lately."""
         number = self._last + 1
         if not self._subscribers:
             self._unsubscribed_count += 1
@@ -183,12 +183,12 @@ class Subscribers:
         return notice
 
     def deliver(self, notice: StreamMessage) -> None:
-        """Tell all a message that was made."""
+        """Deliver a prepared message to all."""
         for subscriber in self._subscribers:
             subscriber.put(notice)
 
     def close(self) -> None:
-        """Tell all that the session is no more, and let them go."""
+        """Deliver `SessionDeleted` to all and forget them."""
         for subscriber in self._subscribers:
             subscriber.close()
         self._subscribers.clear()

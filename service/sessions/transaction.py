@@ -169,8 +169,8 @@ def step_ticks(actions: Sequence[Action]) -> int:
     return sum(action.ticks for action in actions if isinstance(action, StepTicks))
 
 
-def check_step_ticks(actions: Sequence[Action], most: int) -> None:
+def check_step_ticks(actions: Sequence[Action], most: int, language: str = DEFAULT_LANGUAGE) -> None:
     """Raise `Invalid` where an utterance would step further than is run at once."""
     if step_ticks(actions) > most:
-        sentence = f"At most {most} ticks can be run at once."
+        sentence = refusals(language).session("too_many_ticks", most=most)
         raise Invalid(sentence, errors=[FieldProblem("ticks", sentence)])

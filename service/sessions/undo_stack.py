@@ -1,8 +1,8 @@
-"""What can be taken back: one step for each utterance that changed the world.
+"""The undo stack: one step for each utterance that changed the world.
 
-A step remembers the tail of the log as it was and as it became, so that an utterance which itself
-undoes something is still one step. Leaves out pausing alone: it changes no world and is no step,
-though a step gives back the pause it came with.
+A step has the tail of the log before and after it, so that an utterance which itself undoes something is
+still one step. Pausing alone changes no world and is no step, but undoing a step restores the pause that came
+with it.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from sim.session.persistent_list import PersistentList
 from sim.session.timeline import Entry, Timeline
 
 MAX_JUMPS = 100
-"""How many moves in time can be taken back: each keeps a timeline. What is older than that stays."""
+"""Largest number of time jumps that can be undone, each of which holds a timeline."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,16 +28,16 @@ class UndoStep:
     paused_before: bool
     paused_after: bool
     jump: TimeJump | None = None
-    """where it moved time"""
+    """the timelines on both sides, if the step moved time"""
 
     @property
     def since(self) -> int:
-        """The earliest tick that it changed; it is not empty and has not jumped."""
+        """The earliest tick that the step changed; for steps that are not empty and moved no time."""
         return min(entry.tick for entry in (*self.before, *self.after))
 
     @property
     def empty(self) -> bool:
-        """Whether nothing changed."""
+        """Whether the step changed nothing."""
         moved = self.jump is not None and self.jump.before.tick != self.jump.after.tick
         return self.before == self.after and not moved
 
@@ -48,20 +48,20 @@ class UndoStep:
         return UndoStep(self.after, self.before, self.paused_after, self.paused_before, jump)
 
     def with_before(self, timeline: Timeline) -> UndoStep:
-        """The step as it is done again, from this timeline."""
+        """The step when it is redone from this timeline."""
         return self if self.jump is None else replace(self, jump=self.jump.with_before(timeline))
 
     def with_after(self, timeline: Timeline) -> UndoStep:
-        """The step as it is taken back, from this timeline."""
+        """The step when it is undone from this timeline."""
         return self if self.jump is None else replace(self, jump=self.jump.with_after(timeline))
 
 
 @dataclass(slots=True)
 class UndoStack:
-    """Steps to undo, the latest last; those to redo, the next last; and moments that have a name.
+    """Steps that can be undone (latest last) and redone (next last), and the bookmarks.
 
-    Before the steps there may be `ground`: so many entries of the log that the session began with. They
-    become steps, one for each utterance, when there is nothing later to undo.
+    `base_entries` is the number of log entries that the session began with; they become steps, one for each
+    utterance, when there is nothing later to undo.
     """
 
     done: PersistentList[UndoStep] = field(default_factory=PersistentList)
@@ -73,18 +73,18 @@ class UndoStack:
 
     @property
     def steps(self) -> int:
-        """How many steps can be undone."""
+        """The number of steps that can be undone."""
         return len(self.done) + self.base_steps
 
     def copy(self) -> UndoStack:
-        """A history that goes its own way."""
+        """An independent copy."""
         # By name: `replace` takes five times as long, for every change.
         return UndoStack(
             self.done, self.undone, self.bookmarks, self.base_entries, self.base_steps, self.base_paused
         )
 
     def add(self, step: UndoStep) -> None:
-        """One more change; what was undone before it cannot be redone."""
+        """Push a step; nothing can be redone then."""
         self.done = self.done.plus([step])
         self.undone = PersistentList()
         if step.jump is not None:
@@ -94,7 +94,7 @@ class UndoStack:
                 self.base_entries = self.base_steps = 0
 
     def undo(self, timeline: Timeline) -> UndoStep | None:
-        """The latest step, put with what can be redone; None if there is none."""
+        """Move the latest step to those that can be redone, and return it; None if there is none."""
         step = next(self.iter_undoable(timeline.entries), None)
         if step is None:
             return None
@@ -107,7 +107,7 @@ class UndoStack:
         return step
 
     def redo(self, timeline: Timeline) -> UndoStep | None:
-        """The step that was undone last, put with what can be undone; None if there is none."""
+        """Move the step that was undone last back to those that can be undone, and return it; or None."""
         if not self.undone:
             return None
         step = self.undone[-1]
@@ -116,7 +116,7 @@ class UndoStack:
         return step
 
     def iter_undoable(self, entries: PersistentList[Entry]) -> Iterator[UndoStep]:
-        """What could be undone of a log."""
+        """The steps of a log that can be undone, latest first."""
         yield from reversed(self.done)
         stop = self.base_entries
         while stop > 0:

@@ -1,4 +1,4 @@
-"""What is said to a session at once, and what came of it."""
+"""Utterances and their outcomes."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import Any
 
 from service.actions import Action
-from service.resources import DEFAULT_LANGUAGE
 from service.sessions.facts import Fact, Stepped
 from sim.events import Event
 from sim.session.edits import Change
@@ -15,27 +14,29 @@ from sim.state import SimState, StepResult
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Utterance:
-    """Actions to be done together, and what they were said as (None for typed actions)."""
+    """Actions to be done together, and the text they were said as (None for typed actions)."""
 
     actions: tuple[Action, ...]
     text: str | None = None
     supposes: str | None = None
     """what its questions were said to be about, beyond their keys (`Asked.supposes`)"""
-    language: str = DEFAULT_LANGUAGE
-    """the language in which it is refused, where it cannot be done"""
+    language: str | None = None
+    """the language in which it is answered or refused; None is the session's"""
 
 
 @dataclass(frozen=True, slots=True)
 class ReachabilityNotice:
-    """Something found out about the road that an utterance led to, in words."""
+    """Whether the vehicle can still arrive on the road that an utterance led to, in words."""
 
     event: Event
     text: str
+    run: SimState
+    """the state it is about"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Outcome:
-    """What an utterance did, or with `dry_run` would do."""
+    """What an utterance did, or would do (dry run)."""
 
     utterance: Utterance
     facts: tuple[Fact, ...]
@@ -46,7 +47,7 @@ class Outcome:
     before: SimState | None = None
     """the state in which it was said"""
     done: str = ""
-    """the reply without the notice: what a replay says again"""
+    """the reply without the notice, as a replay would make it"""
     notice: ReachabilityNotice | None = None
 
     @property
@@ -56,5 +57,5 @@ class Outcome:
 
     @property
     def only_steps(self) -> bool:
-        """Whether nothing but time has passed."""
+        """Whether the utterance did nothing but run ticks."""
         return all(isinstance(fact, Stepped) for fact in self.facts)

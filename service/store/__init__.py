@@ -1,6 +1,6 @@
-"""Where sessions are kept: one small protocol, a real store behind it and a fake.
+"""Stores of sessions: one protocol, a SQL store and a store in memory.
 
-`open_store` picks by URL. Nothing outside this folder knows which store it is talking to.
+`open_store` picks by URL; nothing outside this folder depends on which store it is.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
-"""What a store must do, in terms of what a session is: a start and the changes said to it.
+"""The store protocol and its records.
 
-A session is its configuration (seed included) and an append-only list of entries; everything else
-is replayed from those. A snapshot of what that comes to may be kept beside it: it saves time, and
-nothing is lost with it.
+A session is its configuration (with seed) and an append-only list of entries; everything else is replayed
+from those. A snapshot may be stored beside it: it saves time, and losing it loses nothing.
 """
 
 from __future__ import annotations
@@ -12,18 +11,20 @@ from dataclasses import dataclass, field, replace
 from datetime import datetime
 from typing import Any, Protocol
 
+from service.resources import DEFAULT_LANGUAGE
+
 
 class StoreError(Exception):
-    """The store could not do it; the message is for whoever runs the service."""
+    """The store failed; the message is for whoever runs the service."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Branch:
-    """Where a fork's log leaves its parent's: what it has in common is kept once.
+    """How a fork's log relates to its parent's: the shared part is stored once.
 
-    Common are those of the parent's changes up to `sequence` that stood at `tick`, which `standing` names as
-    a bit for each number (bytes, lowest bit first, as hexadecimal); `instead` are those that stand in part
-    only, written out. The fork's own changes are numbered on from `sequence`.
+    Shared are those of the parent's entries up to `sequence` that stood at `tick`; `standing` has a bit for
+    each number (bytes, lowest bit first, as hexadecimal). `instead` are entries that stood in part only,
+    written out. The fork's own entries are numbered on from `sequence`.
     """
 
     parent: str
@@ -35,11 +36,11 @@ class Branch:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SessionRecord:
-    """How a session began, and how far its clock is known to have run.
+    """How a session began, and the last stored tick of its clock.
 
     `number` orders sessions by age and is given by the store; `config` is JSON values; `paused` is
     how the session began. `tick` is where the clock stood when last written: at the beginning or at a
-    graceful stop. `branch` is what a fork has from its parent.
+    graceful stop. `branch` is what a fork has from its parent; `language` is that of its log and narration.
     """
 
     id: str
@@ -50,21 +51,22 @@ class SessionRecord:
     tick: int = 0
     number: int = 0
     branch: Branch | None = None
+    language: str = DEFAULT_LANGUAGE
 
     def with_number(self, number: int) -> SessionRecord:
-        """The same record under the store's number."""
+        """The same record with the store's number."""
         return replace(self, number=number)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EntryRecord:
-    """One accepted change: what was done, in which order, and at which tick it took effect.
+    """One accepted change: its actions, its order, and its tick.
 
-    `sequence` counts a session's accepted changes from 1; `actions` is JSON values in the
-    contract's form; `text` is what was said, None for typed actions. `digest` is that of the world
-    after it, to know whether it was done again the same; None where it was never known. `names` are those
-    it gave to moments, each with its tick; they are listed by themselves and not read back with it.
-    `paused` is whether time stood still when it was said, where the log does not tell: after a restart.
+    `sequence` counts a session's accepted changes from 1; `actions` is JSON values in the contract's form;
+    `text` is None for typed actions. `digest` is that of the world after the change, to check replays; None
+    if unknown. `names` are the bookmarks it made, each with its tick; they are listed by `Store.bookmarks`
+    and not read back here. `paused` is whether the clock stood, where the log does not say so (after a
+    restart).
     """
 
     sequence: int
@@ -78,7 +80,7 @@ class EntryRecord:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BookmarkRecord:
-    """A moment of a session that has a name; `number` orders them by when they were named."""
+    """A bookmark of a session; `number` orders them by when they were made."""
 
     session: str
     session_name: str | None
@@ -90,7 +92,7 @@ class BookmarkRecord:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PhraseRecord:
-    """A taught phrase: as it was said, its words as they are compared, and the actions it means."""
+    """A taught phrase: as it was said, its words as they are compared, and its actions."""
 
     owner: str
     language: str
@@ -101,9 +103,9 @@ class PhraseRecord:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StoredResponse:
-    """What a request under an idempotency key was answered, so that sent again it is answered the same.
+    """The response to a request with an idempotency key, to answer a repeated request alike.
 
-    `request` is a digest of what was asked; `at` is seconds since 1970, for forgetting it in time.
+    `request` is a digest of the request; `at` is seconds since 1970, for expiry.
     """
 
     key: str
@@ -116,10 +118,10 @@ class StoredResponse:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SnapshotRecord:
-    """What a session's log comes to after the change `sequence`, at a tick.
+    """A packed snapshot of a session after the entry `sequence`, at a tick.
 
-    `version` is that of its form and of the program that made it, `checksum` that of all the rest; what they
-    are, and what `body` holds, is the business of who made it.
+    `version` is that of the format and of the program, `checksum` that of all the rest; the store knows
+    nothing of the `body`.
     """
 
     session: str
@@ -131,52 +133,52 @@ class SnapshotRecord:
 
 
 class Store(Protocol):
-    """A place where sessions outlive the process. Every method may raise `StoreError`.
+    """Durable storage of sessions. Every method may raise `StoreError`.
 
     A method that returns has made its change durable; one that raises has changed nothing.
     """
 
     async def open(self) -> None:
-        """Make ready; opening twice is the same as once."""
+        """Open the store; opening twice is the same as once."""
 
     async def close(self) -> None:
-        """Let go of files and connections; closing twice is the same as once."""
+        """Close files and connections; closing twice is the same as once."""
 
     async def create(
         self, record: SessionRecord, entries: Sequence[EntryRecord] = (), answer: StoredResponse | None = None
     ) -> SessionRecord:
-        """Keep a new session, with entries if it is a replayed one; answers it numbered.
+        """Store a new session, with entries if it was replayed; returns it numbered.
 
-        An `answer` is kept with it or not at all, here and wherever one is taken. A fork's parent has to be
-        there.
+        An `answer` is stored in the same transaction, here and in other methods. A fork's parent has to
+        exist.
         """
 
     async def append(self, session_id: str, entry: EntryRecord, answer: StoredResponse | None = None) -> None:
-        """Keep one more change of a session. An unknown session or a sequence twice is an error."""
+        """Append an entry. An unknown session or a duplicate sequence is an error."""
 
     async def get(self, session_id: str) -> SessionRecord | None:
-        """One session, or None."""
+        """A session, or None."""
 
     async def entries(self, session_id: str) -> Sequence[EntryRecord]:
-        """A session's changes by sequence, with those it shares with a parent; empty for an unknown one."""
+        """A session's entries by sequence, with those shared with a parent; empty for an unknown session."""
 
     async def newest(self, limit: int, before: int | None = None) -> Sequence[SessionRecord]:
         """Up to `limit` sessions, newest first, of those with a number below `before`."""
 
     async def count(self) -> int:
-        """How many sessions are kept."""
+        """The number of stored sessions."""
 
     async def save_ticks(self, ticks: Mapping[str, int]) -> None:
-        """Remember how far clocks have run, by session id; unknown sessions are passed over."""
+        """Store the ticks of clocks, by session id; unknown sessions are skipped."""
 
     async def delete(self, session_id: str) -> bool:
-        """Forget a session, its changes and its snapshot; whether there was one.
+        """Delete a session, its entries and its snapshot; returns whether it existed.
 
-        What forks share with it is kept, unseen, as long as there is one.
+        Entries that forks share stay, hidden, as long as there is a fork.
         """
 
     async def save_snapshot(self, record: SnapshotRecord) -> None:
-        """Keep a session's snapshot in place of the one before; none of an unknown session is kept."""
+        """Replace a session's snapshot; ignored for an unknown session."""
 
     async def snapshot(self, session_id: str) -> SnapshotRecord | None:
         """The snapshot of a session, or None."""
@@ -184,27 +186,27 @@ class Store(Protocol):
     async def bookmarks(
         self, limit: int, before: int | None = None, name: str | None = None
     ) -> Sequence[BookmarkRecord]:
-        """Up to `limit` named moments, newest first, of those with a number below `before`."""
+        """Up to `limit` bookmarks, newest first, of those with a number below `before`."""
 
     async def save_response(self, answer: StoredResponse) -> None:
-        """Keep an answer by itself. A key twice is an error."""
+        """Store a response by itself. A duplicate key is an error."""
 
     async def get_response(self, key: str) -> StoredResponse | None:
-        """What was answered under a key, or None."""
+        """The response stored under a key, or None."""
 
     async def delete_responses(self, before: int) -> None:
-        """Forget the answers of before a moment."""
+        """Delete responses older than a time."""
 
     async def shift_responses(self, newest: int) -> None:
-        """Move all answers in time together, so that the newest is of this moment."""
+        """Shift the times of all responses so that the newest is at this time: none expires in a stop."""
 
     async def save_phrase(self, record: PhraseRecord, answer: StoredResponse | None = None) -> None:
-        """Keep a phrase, in place of the one of that owner, language and key if there is one."""
+        """Store a phrase, replacing one of the same owner, language and key."""
 
     async def delete_phrase(
         self, owner: str, language: str, key: str, answer: StoredResponse | None = None
     ) -> bool:
-        """Forget a phrase; whether there was one."""
+        """Delete a phrase; returns whether it existed."""
 
     async def phrases(self, owner: str) -> Sequence[PhraseRecord]:
         """All phrases of an owner, by language and key."""

@@ -1,10 +1,10 @@
-"""How each kind of database is held: by one connection of one process, and durably.
+"""Database engines: one exclusive, durable connection of one process.
 
-A session is live in one process, so a second service on the same database would believe it owns the
-same sessions: it is refused at its start. SQLite's file is locked (versions before 3.51.3 can also
-lose a WAL reset when several connections write); PostgreSQL gives an advisory lock that ends with the
-connection. What is acknowledged has reached the disk: `synchronous=FULL`, `synchronous_commit=on`.
-SQLite's calls run on the driver's own thread, never on the event loop.
+A session is live in one process, so a second service on the same database would believe that it owns the same
+sessions: it is refused at its start. SQLite's file is locked (versions before 3.51.3 can also lose a WAL
+reset when several connections write); PostgreSQL gives an advisory lock that ends with the connection. What
+is acknowledged is on disk: `synchronous=FULL`, `synchronous_commit=on`. SQLite's calls run on the driver's
+own thread, never on the event loop.
 """
 
 from __future__ import annotations
@@ -26,16 +26,16 @@ from service.store import wal
 from service.store.base import StoreError
 
 _BUSY_S = 1.0
-"""How long a file or a table that another process holds is waited for."""
+"""Time to wait for a file or table that another process has locked."""
 
 _ANSWER_S = 10.0
-"""How long a database server may take."""
+"""Time limit for an answer of a database server."""
 
 _LOCK = 0x0A0D7A1C
 """The advisory lock of a service, in the database it uses."""
 
 _TRIES = 10
-"""How often it is asked for while a table would be waited for."""
+"""Number of attempts to take it within `_BUSY_S`."""
 
 _HELD = (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED)
 
@@ -49,7 +49,7 @@ _PRAGMAS = (
 
 
 class Sqlite:
-    """A file."""
+    """A SQLite file."""
 
     def __init__(self, url: URL) -> None:
         self._url = url.set(drivername="sqlite+aiosqlite")
@@ -97,7 +97,7 @@ class Sqlite:
             connection.close()
 
     def engine(self) -> AsyncEngine:
-        """One connection and no overflow: callers queue for it, so writes never meet."""
+        """An engine with one connection and no overflow: callers queue for it, so writes never overlap."""
         # A rollback after each transaction, ended or not, is one more way to the driver's thread and back: as
         # long as all else but the disk.
         engine = _one_connection(self._url, _prepare_sqlite, pool_reset_on_return=None)
@@ -106,7 +106,7 @@ class Sqlite:
 
 
 def _check_permissions(path: Path) -> None:
-    """Raise `OSError` where a file may not be used, in clearer words than SQLite has for it."""
+    """Raise `OSError` if a file may not be used, with a clearer message than SQLite's."""
     if path.is_dir():
         raise OSError("it is a folder")
     if not path.parent.is_dir():
@@ -118,7 +118,7 @@ def _check_permissions(path: Path) -> None:
 
 
 class Postgres:
-    """A server, by the driver asyncpg (extra `postgres`)."""
+    """A PostgreSQL server, by the driver asyncpg (extra `postgres`)."""
 
     def __init__(self, url: URL) -> None:
         if find_spec("asyncpg") is None:
@@ -127,7 +127,7 @@ class Postgres:
         self.name = f"The database {url.database or ''} on {url.host or 'this machine'}"
 
     async def check(self) -> None:
-        """The server checks its own files."""
+        """Do nothing: the server checks its own files."""
 
     def engine(self) -> AsyncEngine:
         """See `Sqlite.engine`."""
@@ -140,7 +140,7 @@ class Postgres:
 
 
 def database_for(url: str) -> Sqlite | Postgres:
-    """The kind of database that a URL names. Raises `StoreError`."""
+    """The database that a URL names. Raises `StoreError`."""
     try:
         parts = make_url(url)
     except (ArgumentError, ValueError) as error:
@@ -149,7 +149,7 @@ def database_for(url: str) -> Sqlite | Postgres:
 
 
 def driver_message(error: Exception) -> str:
-    """What a driver said, without the statement it was about."""
+    """A driver's error message, without the statement it was about."""
     inner = error.orig if isinstance(error, DBAPIError) else None
     said = str((inner and (inner.__cause__ or inner)) or error)
     return said or type(error).__name__
@@ -171,7 +171,7 @@ def _prepare_sqlite(connection: Any, _record: Any) -> None:
 
 
 def _end_left_open(connection: Any, _record: Any, state: Any) -> None:
-    """Take back what nobody has ended, so that the next one does not keep it."""
+    """Roll back a transaction that nobody ended, so that the next one does not commit it."""
     if state.asyncio_safe and connection.driver_connection.in_transaction:
         connection.rollback()
 

@@ -1,7 +1,6 @@
-"""What a fork has from its parent, found in the parent's log.
+"""The log of a fork: the shared entries of its parent, then its own.
 
-A log only grows, so what a fork shares stays where it is; that the parent goes on, goes back or is deleted
-makes no difference.
+A log is append-only, so shared entries stay where they are, whatever the parent does, even if it is deleted.
 """
 
 from __future__ import annotations
@@ -25,7 +24,7 @@ def encode_standing(numbers: Iterable[int], last: int) -> str:
 
 
 def join_logs(line: Iterable[tuple[Branch | None, Sequence[EntryRecord]]]) -> list[EntryRecord]:
-    """The whole log of the last of a line of sessions, each a fork of the one before, with its own log."""
+    """The log of the last of a chain of sessions, each a fork of the one before, with its own entries."""
     log: list[EntryRecord] = []
     for branch, own in line:
         log = [*(inherited_entries(branch, log) if branch is not None else ()), *own]
@@ -33,7 +32,7 @@ def join_logs(line: Iterable[tuple[Branch | None, Sequence[EntryRecord]]]) -> li
 
 
 def inherited_entries(branch: Branch, log: Sequence[EntryRecord]) -> list[EntryRecord]:
-    """The beginning of a fork's log, given its parent's; without the words it was said in."""
+    """The shared entries of a fork, given its parent's log; without their text."""
     board = bytes.fromhex(branch.standing)
     entries = [
         EntryRecord(

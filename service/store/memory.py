@@ -1,6 +1,6 @@
-"""A store that forgets when the process ends: for tests, demonstrations and `database=memory:`.
+"""A store in memory: for tests, demonstrations and `database=memory:`.
 
-Satisfies the same protocol and the same test-suite as the real one.
+It satisfies the same protocol and the same tests as the SQL store.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from service.store.fork_log import join_logs
 
 
 class MemoryStore:
-    """Dictionaries that satisfy `Store`."""
+    """A `Store` made of dictionaries."""
 
     def __init__(self) -> None:
         self._sessions: dict[str, SessionRecord] = {}
@@ -36,10 +36,10 @@ class MemoryStore:
         self._snapshots: dict[str, SnapshotRecord] = {}
 
     async def open(self) -> None:
-        """Nothing to make ready."""
+        """Do nothing."""
 
     async def close(self) -> None:
-        """Keeps what it holds, so that a test can close and open it again like a file."""
+        """Keep the data, so that a test can close and open the store again like a file."""
 
     async def create(
         self, record: SessionRecord, entries: Sequence[EntryRecord] = (), answer: StoredResponse | None = None
@@ -113,7 +113,7 @@ class MemoryStore:
         return True
 
     def _clear(self, session_id: str) -> None:
-        """Let go of a session that is not seen, and of its parents, where no fork needs them."""
+        """Remove a hidden session, and its hidden parents, where no fork needs them."""
         forked = [record.branch.parent for record in self._sessions.values() if record.branch is not None]
         while session_id in self._unseen and session_id not in forked:
             self._unseen.remove(session_id)

@@ -7,6 +7,7 @@ from typing import Any
 
 from sqlalchemy import Row
 
+from service.resources import DEFAULT_LANGUAGE
 from service.store.base import Branch, EntryRecord, SessionRecord, SnapshotRecord, StoredResponse
 
 
@@ -27,11 +28,12 @@ def session_to_row(record: SessionRecord) -> dict[str, Any]:
         "config": dict(record.config),
         "paused": record.paused,
         "tick": record.tick,
+        "language": record.language,
     } | (shared or {})
 
 
 def session_from_row(row: Row[Any]) -> SessionRecord:
-    """A session of a row."""
+    """A session from a row."""
     branch = None
     if row.parent is not None:
         branch = Branch(
@@ -50,11 +52,12 @@ def session_from_row(row: Row[Any]) -> SessionRecord:
         tick=row.tick,
         number=row.number,
         branch=branch,
+        language=row.language or DEFAULT_LANGUAGE,
     )
 
 
 def response_to_row(answer: StoredResponse) -> dict[str, Any]:
-    """A kept answer as a row."""
+    """A response as a row."""
     return {
         "key": answer.key,
         "request": answer.request,
@@ -79,7 +82,7 @@ def entry_to_row(session_id: str, entry: EntryRecord) -> dict[str, Any]:
 
 
 def entry_from_row(row: Row[Any]) -> EntryRecord:
-    """An entry of a row."""
+    """An entry from a row."""
     return EntryRecord(
         sequence=row.sequence,
         tick=row.tick,
@@ -103,7 +106,7 @@ def snapshot_to_row(record: SnapshotRecord) -> dict[str, Any]:
 
 
 def snapshot_from_row(row: Row[Any]) -> SnapshotRecord:
-    """A snapshot of a row."""
+    """A snapshot from a row."""
     return SnapshotRecord(
         session=row.session_id,
         sequence=row.sequence,
@@ -115,7 +118,7 @@ def snapshot_from_row(row: Row[Any]) -> SnapshotRecord:
 
 
 def bookmarks_to_rows(session_id: str, entry: EntryRecord) -> list[dict[str, Any]]:
-    """The moments that an entry names as rows."""
+    """The bookmarks that an entry makes, as rows."""
     return [
         {"session_id": session_id, "name": name, "sequence": entry.sequence, "tick": tick}
         for name, tick in entry.names.items()

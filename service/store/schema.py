@@ -18,7 +18,7 @@ MIGRATIONS = Path(__file__).parent / "migrations"
 
 
 def migrate(connection: Connection, name: str) -> None:
-    """Make the tables, or bring older ones up. Raises `StoreError` for a newer database; not committed."""
+    """Create the tables, or upgrade older ones. Raises `StoreError` for a newer database; does not commit."""
     version = version_of(connection)
     if version == VERSION:
         return

@@ -1,14 +1,12 @@
-"""The real store: SQL through SQLAlchemy Core, a SQLite file by default, PostgreSQL by URL.
+"""The SQL store, by SQLAlchemy Core: a SQLite file by default, PostgreSQL by URL.
 
-One connection in one process; `engines` says how each kind of database is held, and that a second
-service on the same one is refused at its start.
+It uses one connection in one process; `engines` says how, and refuses a second service on the same database.
 
-Changes that arrive while one is being written are committed together (group commit): the disk is
-waited for once for all of them, and none is acknowledged before its own commit.
+Entries that arrive while others are written are committed together (group commit): they share one wait for
+the disk, and none is acknowledged before its own commit.
 
-Where a server is lost in the midst of a commit, nobody knows whether that was done. It is tried once more;
-whoever is then told that nothing was saved must be right, so what may be there all the same is taken out
-with whatever is asked of the server next.
+When a server is lost during a commit, the commit may have happened. It is tried once more; if that fails as
+well, the caller gets an error, and what may have been committed is deleted with the next transaction.
 """
 
 from __future__ import annotations
@@ -47,31 +45,31 @@ from service.store.schema import migrate
 from service.store.tables import ENTRIES, IDEMPOTENCY, MOMENTS, PHRASES, SESSIONS, SNAPSHOTS
 
 _PAGE = 500
-"""Entries read at once: making records of rows holds up the event loop."""
+"""Entries in a page: making records of rows blocks the event loop."""
 
 _Pending = tuple[str, EntryRecord, StoredResponse | None, "asyncio.Future[None]"]
 
 
 class _LostError(StoreError):
-    """The server is gone, or does not answer: what was under way is done or is not."""
+    """The server is gone or does not answer: the transaction may have been committed."""
 
 
 class SqlStore:
-    """`Store` in a database named by URL (`sqlite:///roadtalk.db`, `postgresql://host/name`)."""
+    """A `Store` in the database of a URL (`sqlite:///roadtalk.db`, `postgresql://host/name`)."""
 
     def __init__(self, url: str) -> None:
-        """Raises `StoreError` where what that kind of database needs is not installed."""
+        """Raises `StoreError` where the database's driver is not installed."""
         self._kind: Sqlite | Postgres = database_for(url)
         self._engine: AsyncEngine | None = None
         self._pending: list[_Pending] = []
         self._writer: asyncio.Task[None] | None = None
         self._unseen: set[str] = set()
-        """deleted meanwhile, but for their forks"""
+        """sessions deleted by this process, whose forks may still have their entries"""
         self._uncertain: list[Delete] = []
-        """takes out what was not acknowledged, and may be there"""
+        """deletes rows that were not acknowledged and may have been committed"""
 
     async def open(self) -> None:
-        """Open the database, making its tables or bringing older ones up if need be. Raises `StoreError`."""
+        """Open the database, creating or upgrading its tables. Raises `StoreError`."""
         if self._engine is not None:
             return
         await self._kind.check()
@@ -88,7 +86,7 @@ class SqlStore:
         self._engine = engine
 
     async def close(self) -> None:
-        """Finish what is being written and let go of the database."""
+        """Finish pending writes and close the database."""
         if self._writer is not None:
             await asyncio.wait([self._writer])
         if self._engine is not None:
@@ -301,7 +299,7 @@ class SqlStore:
         ]
 
     async def _write(self) -> None:
-        """Commit what is pending, batch by batch, until nothing is."""
+        """Commit pending entries, batch by batch, until there are none."""
         try:
             while self._pending:
                 batch, self._pending = self._pending, []

@@ -1,4 +1,4 @@
-"""The tables as they are now. How older ones become these is told in `migrations`."""
+"""The tables in their current version; `migrations` upgrades older ones."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from sqlalchemy import (
     false,
 )
 
-VERSION = 5
+VERSION = 6
 """Of the schema; the number of the last migration."""
 
 METADATA = MetaData()
@@ -34,6 +34,7 @@ SESSIONS = Table(
     Column("config", JSON, nullable=False),
     Column("paused", Boolean, nullable=False, comment="how it began"),
     Column("tick", Integer, nullable=False),
+    Column("language", String(16), comment="of its log; none for what was kept before version 6"),
     Column("parent", String(64), index=True, comment="what a fork's log begins with: see `base.Branch`"),
     Column("parent_sequence", Integer),
     Column("parent_tick", Integer),

@@ -35,6 +35,9 @@ def play(
         str | None, typer.Option(help='The road in a sentence: "a highway with 10 potholes".')
     ] = None,
     planner: Annotated[str | None, typer.Option(help="Who decides.", show_default=Config().planner)] = None,
+    language: Annotated[
+        str, typer.Option(envvar="ROADTALK_LANGUAGE", help="The language of the window: en or de.")
+    ] = "en",
     size: Annotated[str, typer.Option(help="Width and height of the window in pixels.")] = SIZE,
 ) -> None:
     """Open the road in a window: drive, watch it drive, talk to it. No service is needed.
@@ -56,6 +59,7 @@ def play(
         _refuse_road(error)
 
     environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
+    _choose_language(language)
     from service.window import loop
     from service.window.loading import LoadError, Loading
 
@@ -93,6 +97,15 @@ def _described(loading: Loading, sentence: str, base: Config, given: dict[str, o
         _refuse(str(error))
     except ConfigError as error:
         _refuse_road(error)
+
+
+def _choose_language(code: str) -> None:
+    from service.window.texts import choose_language, languages
+
+    try:
+        choose_language(code)
+    except ValueError:
+        _refuse(f"The window speaks no language {code}. It speaks: {', '.join(languages())}.")
 
 
 def _size(text: str) -> tuple[int, int]:

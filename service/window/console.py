@@ -9,8 +9,9 @@ import pygame
 
 from service.window import theme as look
 from service.window.exchange import Exchange, told
-from service.window.panels import PANELS, TITLES, Panels
+from service.window.panels import PANELS, Panels, title
 from service.window.text_input import Line
+from service.window.texts import table, text
 from sim.render import theme
 from sim.render.text import render_text, text_width, truncate, wrap_text
 
@@ -18,8 +19,6 @@ FIELD_PX: Final = 38
 BAR_PX: Final = 24
 SIZES: Final = (look.TEXT_PX, 19, 18)
 """of the letters of a reply, which are as far apart as they are high"""
-PROMPT: Final = "Press / and say something"
-FIRST: Final = ("add five potholes", "why did you do that?", "let me drive")
 """What a newcomer is offered."""
 
 
@@ -119,7 +118,7 @@ def _draw_field(picture: pygame.Surface, console: Console, *, busy: bool, now_s:
     )
     room = pygame.Rect(x0, 4, max(1, width - x0 - 40), box.height - 8)
     if not line.text and not line.composing and not console.focused:
-        hint = render_text(truncate(PROMPT, px, room.width), px, theme.TEXT_QUIET)
+        hint = render_text(truncate(text("console", "prompt"), px, room.width), px, theme.TEXT_QUIET)
         picture.blit(hint, hint.get_rect(midleft=(x0, box.centery + 1)))
     before = line.text[: line.cursor] + line.composing
     caret = text_width(before, px)
@@ -147,10 +146,10 @@ def _draw_reply(area: pygame.Surface, console: Console, corner: tuple[int, int])
     exchange = console.latest
     width, height = area.get_size()
     if exchange is None:
-        x = _words(area, "Try:", 4, 7, theme.TEXT_QUIET) + 10
-        _draw_offers(area, console, FIRST, x, 2, corner, wrap_x=4)
+        x = _words(area, text("console", "try"), 4, 7, theme.TEXT_QUIET) + 10
+        _draw_offers(area, console, tuple(table("console", "first")), x, 2, corner, wrap_x=4)
         return
-    said = "" if exchange.said is None else f"“{exchange.said}”"
+    said = "" if exchange.said is None else text("console", "said", text=exchange.said)
     y = 2
     if said:
         _words(area, truncate(said, look.SMALL_PX, width - 8), 4, y, theme.TEXT_QUIET, look.SMALL_PX)
@@ -180,7 +179,14 @@ def _draw_reply(area: pygame.Surface, console: Console, corner: tuple[int, int])
         if x > 4:
             cap = look.key_cap("Ctrl-Z")
             area.blit(cap, (x + 2, y + 3))
-            _words(area, "undo", x + cap.get_width() + 10, y + 4, theme.TEXT_QUIET, look.SMALL_PX)
+            _words(
+                area,
+                text("console", "undo"),
+                x + cap.get_width() + 10,
+                y + 4,
+                theme.TEXT_QUIET,
+                look.SMALL_PX,
+            )
     elif exchange.offers:
         _draw_offers(area, console, exchange.offers, 4, y, corner, numbered=exchange.asks)
 
@@ -225,7 +231,7 @@ def _draw_bar(picture: pygame.Surface, console: Console, panels: Panels) -> None
     for number, name in enumerate(PANELS):
         on = name in panels.visible
         cap = look.key_cap(f"F{number + 1}")
-        label = render_text(TITLES[name], look.SMALL_PX, theme.TEXT if on else theme.TEXT_QUIET)
+        label = render_text(title(name), look.SMALL_PX, theme.TEXT if on else theme.TEXT_QUIET)
         room = cap.get_width() + (label.get_width() + 6 if roomy else 0)
         spot = pygame.Rect(x, y, room, BAR_PX)
         if spot.right > width - 70:
@@ -237,7 +243,7 @@ def _draw_bar(picture: pygame.Surface, console: Console, panels: Panels) -> None
             picture.fill(look.ACCENT, (x, spot.bottom - 2, room, 2))
         console.spots.append((spot, ("toggle", name)))
         x = spot.right + 14
-    label = render_text("help", look.SMALL_PX, theme.TEXT_QUIET)
+    label = render_text(text("console", "help"), look.SMALL_PX, theme.TEXT_QUIET)
     cap = look.key_cap("?")
     spot = pygame.Rect(width - label.get_width() - cap.get_width() - 6, y, 0, BAR_PX)
     spot.width = width - spot.x

@@ -15,6 +15,7 @@ from service.window.console import Console
 from service.window.exchange import Exchange
 from service.window.local_session import Game
 from service.window.panels import PANELS, Panels
+from service.window.texts import text
 from sim.actions import Adjust, Drive, Reset, SetMode
 from sim.types import Mode, Move
 
@@ -188,7 +189,7 @@ class Controls:
         elif session.paused and key in (pygame.K_LEFT, pygame.K_RIGHT):
             self._do(Rewind(ticks=1) if key == pygame.K_LEFT else Step(ticks=1))
         else:
-            self.tell("It drives by itself. Press M to drive by hand, or P to stand still and step.")
+            self.tell(text("drives_itself"))
 
     # Doing
 

@@ -6,10 +6,8 @@ from dataclasses import dataclass
 
 from service.problems import Ambiguous, ProblemError
 from service.sessions.utterance import Outcome
+from service.window.texts import table, text
 from sim.session.edits import Change
-
-PLAIN = {"config.planner": "planner", "config.preferences": "preferences", "playback_speed": "speed"}
-"""Paths whose last part says less than it could."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +41,8 @@ def refused(said: str | None, problem: ProblemError) -> Exchange:
 
 def told(change: Change) -> str:
     """A change in a few letters: `potholes 4 → 7`."""
-    name = PLAIN.get(change.path, change.path.removeprefix("config.").replace("_", " "))
+    names = table("changes", "names")
+    name = names.get(change.path, change.path.removeprefix("config.").replace("_", " "))
     return f"{name} {_value(change.before)} → {_value(change.after)}"
 
 
@@ -52,7 +51,7 @@ def _value(value: object) -> str:
         case None:
             return "–"
         case bool():
-            return "yes" if value else "no"
+            return text("changes", "truth", "yes_" if value else "no_")
         case float():
             return f"{value:g}"
         case list() | tuple():

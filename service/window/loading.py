@@ -6,6 +6,8 @@ import threading
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from service.window.texts import language
+
 if TYPE_CHECKING:
     from service.interpreter.languages import Languages
     from service.sessions.narrator_protocol import NarratorProtocol
@@ -29,21 +31,22 @@ def load() -> Loaded:
     from service.grammar import Language
     from service.interpreter.languages import Languages
     from service.narration import Narrator
-    from service.resources import DEFAULT_LANGUAGE
     from service.sessions.availability import refusal_of
+
+    code = language()
 
     def offered(action: object) -> bool:
         return isinstance(action, Show | Hide) or refusal_of(action) is None  # type: ignore[arg-type]
 
-    grammar = Language.load(DEFAULT_LANGUAGE, offered=offered)
+    grammar = Language.load(code, offered=offered)
     grammar.suggestions.nearest("", frozenset())  # ready before anyone is refused
-    languages = Languages({DEFAULT_LANGUAGE: grammar})
-    guide = languages.guide(DEFAULT_LANGUAGE)
+    languages = Languages({code: grammar})
+    guide = languages.guide(code)
     if guide is not None:
         from service.grammar.topic import ALONE
 
         guide.completions_here("a", None, ALONE, [])
-    return Loaded(languages, Narrator.load(DEFAULT_LANGUAGE))
+    return Loaded(languages, Narrator.load(code))
 
 
 @dataclass

@@ -27,6 +27,7 @@ from service.store.memory import MemoryStore
 from service.window.exchange import Exchange, exchanged, refused
 from service.window.loading import Loaded
 from service.window.panels import Panels, lacking
+from service.window.texts import language, text
 from sim.config import Config
 
 _LOG = structlog.get_logger(__name__)
@@ -35,7 +36,6 @@ SUBSTEP_S = 0.004
 """Time is brought in steps as short as the clock's shortest turn, so that none is left out."""
 MOST_BEHIND_S = 0.25
 """After a stall (the window was dragged) the road goes on from there, and does not catch up."""
-DEFECT = "This met a defect of the program; nothing was changed."
 TURNS = 12
 """Turns of the event loop in a frame in which something was said: enough for a reply to be there."""
 
@@ -63,7 +63,9 @@ class Game:
             most_chars=settings.max_text_chars,
         )
         try:
-            self.session = self._loop.run_until_complete(manager.create(None, config, paused=False))
+            self.session = self._loop.run_until_complete(
+                manager.create(None, config, paused=False, language=language())
+            )
         except BaseException:
             self._loop.close()
             raise
@@ -92,11 +94,11 @@ class Game:
 
     def complete(self, prefix: str) -> str | None:
         """The likeliest sentence that begins so; None where there is none."""
-        guide = self.loaded.languages.guide("en")
+        guide = self.loaded.languages.guide(language())
         if guide is None or not prefix.strip():
             return None
-        topic = self._listener.topic(self.session)
-        taught = [each.phrase for each in self._listener.aliases.list()]
+        topic = self._listener.topic(self.session, language())
+        taught = [each.phrase for each in self._listener.aliases.records(language())]
         lower = prefix.lower()
         found = guide.completions_here(prefix, self.session, topic, taught)
         return next((each for each in found if each.lower().startswith(lower) and each != prefix), None)
@@ -127,7 +129,7 @@ class Game:
         defect = task.exception()
         if defect is not None:
             _LOG.error("something that was said met a defect", error=repr(defect))
-            self.exchanges.append(Exchange(None, DEFECT, done=False))
+            self.exchanges.append(Exchange(None, text("defect"), done=False))
         else:
             self.exchanges.append(task.result())
 

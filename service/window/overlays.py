@@ -7,7 +7,8 @@ from typing import Final
 import pygame
 
 from service.window import theme as look
-from service.window.keys import EXAMPLES, KEYS
+from service.window.keys import examples, key_groups
+from service.window.texts import text
 from sim.render import theme
 from sim.render.text import render_text, text_width, truncate
 
@@ -24,15 +25,15 @@ def draw_help(size: tuple[int, int]) -> tuple[pygame.Surface, Spots]:
     small = not wide or size[1] < 720
     row = SMALL_ROW_PX if small else ROW_PX
     px = row - 4
-    blocks = [(title, keys) for title, keys in KEYS]
+    blocks, sentences = key_groups(), examples()
     width = min(size[0] - 24, 1_060 if wide else 780)
     columns = 2
     column = (width - PAD * (columns + 1)) // columns
     left = sum(len(keys) + 2 for _, keys in blocks[:2])
-    right = len(blocks[2][1]) + 2 + len(EXAMPLES) + 2
+    right = len(blocks[2][1]) + 2 + len(sentences) + 2
     height = min(size[1] - 24, 58 + max(left, right) * row + PAD)
     shape = look.card((width, height))
-    title = render_text("Keys, and what can be said", 30 if not small else 25, theme.TEXT)
+    title = render_text(text("help", "title"), 30 if not small else 25, theme.TEXT)
     shape.blit(title, (PAD, 18))
     close = look.key_cap("Esc")
     shape.blit(close, (width - PAD - close.get_width(), 20))
@@ -42,9 +43,9 @@ def draw_help(size: tuple[int, int]) -> tuple[pygame.Surface, Spots]:
         y = _group(shape, name, keys, PAD, y, column, row, px)
     x = PAD * 2 + column
     y = _group(shape, *blocks[2], x, 58, column, row, px)
-    y = _head(shape, "Sentences to try", x, y, row, px)
+    y = _head(shape, text("help", "sentences"), x, y, row, px)
     spots: Spots = []
-    for example in EXAMPLES:
+    for example in sentences:
         sign = render_text(truncate(example, px, column), px, theme.LINES["changed"])
         spot = shape.blit(sign, (x, y + (row - sign.get_height()) // 2))
         spots.append(
@@ -85,18 +86,19 @@ def draw_quit(size: tuple[int, int]) -> tuple[pygame.Surface, Spots]:
     """Whether to leave."""
     width, height = min(420, size[0] - 16), 132
     shape = look.card((width, height), look.ACCENT)
-    title = render_text("Quit Roadtalk?", 30, theme.TEXT)
+    title = render_text(text("quit", "question"), 30, theme.TEXT)
     shape.blit(title, title.get_rect(midtop=(width // 2, 24)))
     corner = ((size[0] - width) // 2, (size[1] - height) // 2)
     spots: Spots = []
-    room = sum(look.key_cap(key, 20).get_width() + text_width(word, 21) for key, word, _ in _ANSWERS) + 44
+    words = {spot: text("quit", "answers", spot) for _, spot in _ANSWERS}
+    room = sum(look.key_cap(key, 20).get_width() + text_width(words[spot], 21) for key, spot in _ANSWERS) + 44
     x = (width - room) // 2
-    for key, word, spot in _ANSWERS:
+    for key, spot in _ANSWERS:
         cap = look.key_cap(key, 20)
         start = x
         shape.blit(cap, (x, 80))
         x += cap.get_width() + 8
-        sign = render_text(word, 21, theme.TEXT)
+        sign = render_text(words[spot], 21, theme.TEXT)
         shape.blit(sign, (x, 84))
         x += sign.get_width()
         spots.append((pygame.Rect(start, 74, x - start, 34).move(corner), (spot, "")))
@@ -104,4 +106,4 @@ def draw_quit(size: tuple[int, int]) -> tuple[pygame.Surface, Spots]:
     return shape, spots
 
 
-_ANSWERS: Final = (("Enter", "quit", "quit"), ("Esc", "stay", "stay"))
+_ANSWERS: Final = (("Enter", "quit"), ("Esc", "stay"))

@@ -6,24 +6,12 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from service.actions import Hide, Show
+from service.resources import DEFAULT_LANGUAGE
+from service.window.texts import language, text
 
 PANELS: Final = ("road", "schematic", "occupancy", "plan", "log")
 """The views of the window, in the order of their keys F1 to F5."""
 
-TITLES: Final = {
-    "road": "Road",
-    "schematic": "Schematic",
-    "occupancy": "Occupancy",
-    "plan": "Plan",
-    "log": "Log",
-}
-NAMES: Final = {
-    "road": "the road",
-    "schematic": "the schematic",
-    "occupancy": "the occupancy matrix",
-    "plan": "the plan",
-    "log": "the log",
-}
 HELD_IN: Final = {"path": "plan", "potholes": "schematic", "metrics": "road"}
 """Views that can be asked for and are part of another here."""
 
@@ -50,29 +38,29 @@ class Panels:
         """Give all the room to one, or give it back."""
         if self.large == name:
             self.large = None
-            return "All views again."
+            return text("panels", "all_again")
         self.shown.add(name)
         self.large = name
-        return f"{NAMES[name].capitalize()}, large. Esc brings the others back."
+        return text("panels", "large", view=_named(name))
 
     def show(self, name: str) -> str:
         """Show one; one that is shown already becomes large."""
         if name in self.shown and (self.large or name) == name:
-            return (
-                self.enlarge(name) if self.large != name else f"{NAMES[name].capitalize()} is large already."
-            )
+            if self.large != name:
+                return self.enlarge(name)
+            return text("panels", "large_already", view=_named(name))
         self.shown.add(name)
         self.large = None
-        return f"Showing {NAMES[name]}."
+        return text("panels", "showing", view=text("views", name))
 
     def hide(self, name: str) -> str:
         """Hide one."""
         if name not in self.shown:
-            return f"{NAMES[name].capitalize()} is hidden already."
+            return text("panels", "hidden_already", view=_named(name))
         self.shown.discard(name)
         if self.large == name:
             self.large = None
-        return f"{NAMES[name].capitalize()} is hidden; F{PANELS.index(name) + 1} brings it back."
+        return text("panels", "hidden", view=_named(name), key=PANELS.index(name) + 1)
 
     def do(self, action: Show | Hide) -> str:
         """What a sentence asked for. Raises `KeyError` for a view that `lacking` tells of."""
@@ -82,8 +70,23 @@ class Panels:
         return self.show(name) if isinstance(action, Show) else self.hide(name)
 
 
+def title(name: str) -> str:
+    """The title of a view."""
+    return text("titles", name)
+
+
+def _named(name: str) -> str:
+    """A view at the beginning of a sentence."""
+    view = text("views", name)
+    return view[0].upper() + view[1:]
+
+
+def _listed() -> list[str]:
+    return list(PANELS) if language() == DEFAULT_LANGUAGE else [title(name) for name in PANELS]
+
+
 def lacking(action: Show | Hide) -> str | None:
     """Why a view is not here, as a sentence; None if it is."""
     if HELD_IN.get(action.view, action.view) in PANELS:
         return None
-    return f"There is no view of {action.view} here. There are: {', '.join(PANELS)}."
+    return text("panels", "lacking", view=action.view, views=", ".join(_listed()))

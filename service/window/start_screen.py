@@ -9,6 +9,7 @@ import pygame
 
 from service.refusals import refusals
 from service.window import theme as look
+from service.window.texts import language, table, text
 from sim.config import Config, ConfigError
 from sim.render import render, theme
 from sim.render.text import render_text, truncate, wrap_text
@@ -19,8 +20,6 @@ from sim.transition import step
 DEFAULT_POTHOLES: Final = 10
 MOST_DIGITS: Final = 4
 CARD: Final = (430, 372)
-ADVICE: Final = "0 is an easy drive, 20 a hard one, 60 nearly hopeless."
-HINTS: Final = (("↑ ↓", "one more, one less"), ("?", "later: all keys, and sentences"))
 
 
 class Start:
@@ -71,10 +70,10 @@ class Start:
         try:
             run = SimState.start(self._config_of(int(self.text or 0)))
         except ConfigError as error:
-            told = "; ".join(refusals().problem(problem) for problem in error.problems)
-            self.message = f"{told.capitalize()}."
+            told = "; ".join(refusals(language()).problem(problem) for problem in error.problems)
+            self.message = f"{told[0].upper()}{told[1:]}."
             return
-        self.message = "" if self.text else "A number, please: 0 is one too."
+        self.message = "" if self.text else text("start", "number")
         self._before, self._tick = None, StepResult(run, {}, ())
 
     def draw(self, screen: pygame.Surface, now_s: float) -> None:
@@ -115,10 +114,10 @@ class Start:
         card = look.card(CARD)
         width = CARD[0]
         card.blit(render_text("Roadtalk", 62, theme.TEXT), (32, 30))
-        about = "An autonomous vehicle on a road of obstacles and potholes. Talk to it, and ask it why."
+        about = text("start", "about")
         for number, line in enumerate(wrap_text(about, 22, width - 64)):
             card.blit(render_text(line, 22, theme.TEXT_QUIET), (32, 84 + number * 22))
-        card.blit(render_text("How many potholes?", 27, theme.TEXT), (32, 152))
+        card.blit(render_text(text("start", "question"), 27, theme.TEXT), (32, 152))
         box = pygame.Rect(32, 180, 132, 58)
         pygame.draw.rect(card, look.FIELD, box, border_radius=8)
         edge = theme.REFUSED if self.message else look.ACCENT
@@ -131,7 +130,8 @@ class Start:
         button = pygame.Rect(180, 180, 218, 58)
         ready = self.potholes is not None
         pygame.draw.rect(card, look.ACCENT if ready else look.CAP, button, border_radius=8)
-        label = "one moment" + "." * (int(now_s * 3) % 4) if self.waiting else "Drive"
+        wait = text("start", "wait") + "." * (int(now_s * 3) % 4)
+        label = wait if self.waiting else text("start", "drive")
         sign = render_text(label, 32, theme.TEXT)
         cap = look.key_cap("Enter", 19)
         wide = sign.get_width() + (0 if self.waiting else cap.get_width() + 12)
@@ -142,11 +142,11 @@ class Start:
             card.blit(render_text(truncate(self.message, 20, width - 64), 20, theme.REFUSED), (32, 248))
         else:
             card.blit(
-                render_text(ADVICE, 20, theme.TEXT_QUIET),
+                render_text(text("start", "advice"), 20, theme.TEXT_QUIET),
                 (32, 248),
             )
         pygame.draw.line(card, look.EDGE, (32, 282), (width - 32, 282))
-        for row, (key, what) in enumerate(HINTS):
+        for row, (key, what) in enumerate(table("start", "hints")):
             keys = look.key_cap(key, 18)
             card.blit(keys, (32, 298 + row * 30))
             card.blit(render_text(what, 20, theme.TEXT_QUIET), (86, 301 + row * 30))

@@ -10,7 +10,6 @@ from typing import Final
 import pygame
 
 from service.refusals import refusals
-from service.sessions.scheduler.playback_speed import format_speed
 from service.window import theme as look
 from service.window.animation import Showing
 from service.window.canvas import Canvas
@@ -21,8 +20,9 @@ from service.window.layout import Shape, arrange, body_of, close_of, head_of
 from service.window.loading import Loading
 from service.window.local_session import Game
 from service.window.overlays import draw_help, draw_quit
-from service.window.panels import PANELS, TITLES, Panels
+from service.window.panels import PANELS, Panels, title
 from service.window.start_screen import Start
+from service.window.texts import language, text
 from sim.config import Config
 from sim.generation import GenerationError
 from sim.render import MIN_SIDE_PX, render
@@ -186,8 +186,8 @@ class Window:
         try:
             self.game = Game(self._config_of(asked), loaded, self.panels)
         except GenerationError as error:
-            told = refusals().problem(error.problems[0])
-            self.start.message, self.start.waiting = f"{told.capitalize()}.", False
+            told = refusals(language()).problem(error.problems[0])
+            self.start.message, self.start.waiting = f"{told[0].upper()}{told[1:]}.", False
             return
         self._showing = Showing(self.game.session, now_s)
         self._controls = Controls(self.game, self.console, self.panels)
@@ -214,8 +214,8 @@ class Window:
         try:
             pygame.image.save(self.canvas.screen, path)
         except (OSError, pygame.error) as error:
-            return Exchange(None, f"The picture could not be saved as {path}: {error}.", done=False)
-        return Exchange(None, f"Saved a picture as {path}.")
+            return Exchange(None, text("picture", "failed", path=path, error=error), done=False)
+        return Exchange(None, text("picture", "saved", path=path))
 
     def _draw(self, now_s: float) -> None:
         assert self.game is not None
@@ -268,7 +268,7 @@ class Window:
             f"{name} head",
             head,
             (status, large),
-            lambda: look.title_bar(head.width, TITLES[name], key, status, large=large, height=head.height),
+            lambda: look.title_bar(head.width, title(name), key, status, large=large, height=head.height),
         )
         body = body_of(place)
         if min(body.size) >= MIN_SIDE_PX:
@@ -282,11 +282,12 @@ class Window:
         match name:
             case "road":
                 planner = self.game.loaded.words.planner(run.config.planner)
-                driver = "by hand" if run.mode is Mode.MANUAL else planner
-                standing = "paused" if session.paused else format_speed(session.playback_speed)
-                return f"{standing}  ·  {driver}  ·  seed {run.config.seed}"
+                driver = text("status", "by_hand") if run.mode is Mode.MANUAL else planner
+                speed = self.game.loaded.words.speed(session.playback_speed)
+                standing = text("status", "paused") if session.paused else speed
+                return text("status", "road", standing=standing, driver=driver, seed=run.config.seed)
             case "plan":
-                return f"tick {self._showing.planned[0].world.tick}"
+                return text("status", "plan", tick=self._showing.planned[0].world.tick)
             case _:
                 return ""
 

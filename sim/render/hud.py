@@ -7,6 +7,7 @@ from functools import lru_cache
 import pygame
 
 from sim.render import theme
+from sim.render.labels import label
 from sim.render.text import render_text, text_width
 from sim.state import SimState
 from sim.types import Outcome
@@ -24,11 +25,11 @@ def draw_figures(picture: pygame.Surface, state: SimState, unit_px: int, *, ego:
     world, rate = state.world, state.ego(ego).metrics.success_rate
     row = world.road.cell(world.avs[state.number(ego)])[1]
     figures = [
-        ("tick", str(world.tick)),
-        ("time", f"{world.tick * state.config.step_seconds:.1f} s"),
-        ("to go", f"{row * state.config.cell_m:g} m"),
-        ("episode", str(world.episode)),
-        ("arrived", "–" if rate is None else f"{rate:.0%}"),
+        (label("tick"), str(world.tick)),
+        (label("time"), f"{world.tick * state.config.step_seconds:.1f} s"),
+        (label("to go"), f"{row * state.config.cell_m:g} m"),
+        (label("episode"), str(world.episode)),
+        (label("arrived"), "–" if rate is None else f"{rate:.0%}"),
     ]
     picture.blit(_strip(tuple(figures), picture.get_width(), unit_px), (0, 0))
 
@@ -44,8 +45,8 @@ def _strip(shown: tuple[tuple[str, str], ...], width: int, unit_px: int) -> pyga
     while len(figures) > 1 and max(needs[: len(figures)]) * len(figures) > width:
         figures.pop()
     share = width // len(figures)
-    for n, (label, value) in enumerate(figures):
-        name = render_text(label, name_px, theme.TEXT_QUIET)
+    for n, (what, value) in enumerate(figures):
+        name = render_text(what, name_px, theme.TEXT_QUIET)
         figure = render_text(value, figure_px, theme.TEXT)
         x = n * share + (share - name.get_width() - figure.get_width() - height // 5) // 2
         strip.blit(name, (x, (height - name.get_height()) // 2 + 1))
@@ -63,7 +64,7 @@ def draw_verdict(picture: pygame.Surface, state: SimState, unit_px: int) -> None
     band = pygame.Surface((width, int(unit_px * 1.5)), pygame.SRCALPHA)
     band.fill(theme.PANEL)
     band.fill(colour, (0, 0, width, max(2, unit_px // 24)))
-    title = render_text(world.outcome.upper(), int(unit_px * 0.95), colour)
+    title = render_text(label(world.outcome.upper()), int(unit_px * 0.95), colour)
     told = render_text(_outcome_details(state), int(unit_px * 0.36), theme.TEXT)
     band.blit(title, ((width - title.get_width()) // 2, int(unit_px * 0.26)))
     band.blit(told, ((width - told.get_width()) // 2, int(unit_px * 1.0)))
@@ -73,12 +74,15 @@ def draw_verdict(picture: pygame.Surface, state: SimState, unit_px: int) -> None
 def _outcome_details(state: SimState) -> str:
     world = state.world
     if world.cause is not None:
-        verb = {"swap": "through", "cross": "cut off by"}.get(world.cause.how, "into")
+        verb = label({"swap": "through", "cross": "cut off by"}.get(world.cause.how, "into"))
+        joint = label(" and ")
         if len(world.avs) == 1:
-            return f"{verb} {' and '.join(world.cause.ids)}"
+            return f"{verb} {joint.join(world.cause.ids)}"
         met = [name for name in world.cause.ids if name != world.cause.ego]
-        return f"{world.cause.ego} {verb} {' and '.join(met)}"
+        return f"{world.cause.ego} {verb} {joint.join(met)}"
     ticks = (world.ended or world.tick) - world.episode_start
     if world.outcome is Outcome.STUCK and ticks <= state.config.max_ticks:
-        return f"the same again after {ticks} ticks"
-    return f"{ticks} ticks, {ticks * state.config.step_seconds:g} s"
+        return label("the same again after {ticks} ticks").format(ticks=ticks)
+    return label("{ticks} ticks, {seconds:g} s").format(
+        ticks=ticks, seconds=ticks * state.config.step_seconds
+    )

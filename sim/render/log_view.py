@@ -8,6 +8,7 @@ from typing import Protocol
 import pygame
 
 from sim.render import theme
+from sim.render.labels import label
 from sim.render.text import render_text, text_width, wrap_text
 
 TEXT_PX = 19
@@ -37,7 +38,7 @@ def draw_log(lines: Sequence[Line], size: tuple[int, int], back: int = 0) -> pyg
     picture = pygame.Surface(size)
     picture.fill(theme.BODY)
     if not lines:
-        picture.blit(render_text(EMPTY, TEXT_PX, theme.TEXT_QUIET), (10, 8))
+        picture.blit(render_text(label(EMPTY), TEXT_PX, theme.TEXT_QUIET), (10, 8))
         return picture
     width, y = size[0], size[1] - GAP_PX
     shown = lines[: len(lines) - back] if back else lines

@@ -16,6 +16,7 @@ from sim.decide import announced_before, sense
 from sim.forecast import Forecast, predict
 from sim.plan import Decision, Measure, Option
 from sim.render import theme
+from sim.render.labels import label
 from sim.render.sprites import av_sprite, sprite_of
 from sim.render.text import render_text, text_width, truncate, wrap_text
 from sim.render.theme import Colour
@@ -220,7 +221,7 @@ def _cross(picture: pygame.Surface, box: pygame.Rect) -> None:
 def _list(picture: pygame.Surface, decision: Decision, room: pygame.Rect, row_px: int) -> int:
     """Lists all moves, the most preferred first. Returns the y coordinate below the last."""
     y, text_px = room.top, row_px - 3
-    names = max(text_width(name, text_px) for name in theme.MOVES.values()) + row_px + 12
+    names = max(text_width(label(name), text_px) for name in theme.MOVES.values()) + row_px + 12
     for option in decision.options:
         if y + row_px > room.bottom:
             break
@@ -230,7 +231,7 @@ def _list(picture: pygame.Surface, decision: Decision, room: pygame.Rect, row_px
             pygame.draw.rect(picture, _faint(_move_colour(option)), row, border_radius=4)
         _mark(picture, option, taken, pygame.Rect(row.left + 2, row.top, row_px, row_px))
         ink = _move_colour(option) if taken else theme.TEXT
-        name = render_text(theme.MOVES[option.move], text_px, ink)
+        name = render_text(label(theme.MOVES[option.move]), text_px, ink)
         middle = row.centery + 1
         picture.blit(name, name.get_rect(midleft=(row.left + row_px + 4, middle)))
         quiet = theme.TEXT if taken else theme.TEXT_QUIET
@@ -249,25 +250,25 @@ def _move_colour(option: Option) -> Colour:
 def reason_of(option: Option, decision: Decision) -> str:
     """Says in a few words why a move was chosen or not."""
     if option.reason.blocks:
-        words = theme.REASONS[option.reason]
+        words = label(theme.REASONS[option.reason])
         movers = [name for name in option.causes if name.rpartition("-")[0] in MOVERS]
         egos = [name for name in option.causes if is_ego(name)]
         if egos and option.reason.startswith("ego"):
             return f"{egos[0]} {words}"
         if movers and option.reason.startswith(("mover", "disabled")):
-            return f"{movers[0].replace('vehicle', 'car')} {words}"
+            return f"{movers[0].replace('vehicle', label('car'))} {words}"
         return words
     if option.move is decision.move:
-        return "taken" if decision.asked is None else "as asked"
+        return label("taken" if decision.asked is None else "as asked")
     if decision.measure is Measure.OWN:
-        return "free"
+        return label("free")
     if option.dead_end:
-        return "leads nowhere"
+        return label("leads nowhere")
     best = decision.chosen.cost
     if decision.measure is Measure.RANK or option.cost is None or best is None:
-        return "free"
+        return label("free")
     more = option.cost - best
-    return f"free, costs {more:g} more" if more else "free, as good"
+    return label("free, costs {more:g} more").format(more=more) if more else label("free, as good")
 
 
 def _mark(picture: pygame.Surface, option: Option, taken: bool, box: pygame.Rect) -> None:
@@ -300,7 +301,7 @@ def _draw_text(picture: pygame.Surface, text: str, room: pygame.Rect) -> int:
 def _legend(picture: pygame.Surface, room: pygame.Rect) -> None:
     """Draws the legend of colours at the lower edge, if all of it fits."""
     px, row_px = 18, 20
-    entries = [(word, theme.colour_of(kind)) for kind, word in LEGEND.items()]
+    entries = [(label(word), theme.colour_of(kind)) for kind, word in LEGEND.items()]
     widths = [text_width(name, px) + 34 for name, _ in entries]
     rows, x = 1, 0
     for width in widths:

@@ -1,4 +1,4 @@
-"""The client's README, run line by line against a service of its own."""
+"""The reference of the client, run line by line against a service of its own."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 
 from tests.support.service_process import ROOT, ServiceProcess
 
-README = ROOT / "service" / "client" / "README.md"
+README = ROOT / "docs" / "reference" / "client.md"
 
 
 def test_the_examples_are_so(process: ServiceProcess, tmp_path: Path) -> None:

@@ -8,11 +8,11 @@ import pytest
 
 from service.actions import load
 from service.grammar import Language, Understood
-from service.grammar.cache import LONGEST, MOST, Remembered
+from service.grammar.cache import LONGEST, MOST, ParseCache
 from service.grammar.evaluation import read_labelled
 from service.grammar.parse_types import Parse, Refused
 from service.grammar.topic import ALONE, Phrases, Topic
-from service.grammar.work_budget import Work
+from service.grammar.work_budget import WorkBudget
 from sim.actions import Where
 from tests.grammar.beside import HERE
 
@@ -39,7 +39,7 @@ class Reader:
     def __init__(self) -> None:
         self.read = 0
 
-    def __call__(self, text: str, topic: Topic, work: Work) -> Parse:
+    def __call__(self, text: str, topic: Topic, work: WorkBudget) -> Parse:
         self.read += 1
         work.spend(1)
         if text == "nonsense":
@@ -67,19 +67,19 @@ class Reader:
 )
 def test_it_is_read_anew_where_what_was_looked_at_is_another(text: str, topic: Topic, reads: int) -> None:
     reader = Reader()
-    remembered = Remembered(reader)
-    assert remembered.parse(text, ALONE, Work()) == remembered.parse(text, topic, Work())
+    remembered = ParseCache(reader)
+    assert remembered.parse(text, ALONE, WorkBudget()) == remembered.parse(text, topic, WorkBudget())
     assert reader.read == reads
 
 
 def test_the_longest_unsaid_are_forgotten() -> None:
     reader = Reader()
-    remembered = Remembered(reader)
+    remembered = ParseCache(reader)
     for number in range(MOST + 1):
-        remembered.parse(f"kind {number}", ALONE, Work())
-    remembered.parse(f"kind {MOST}", ALONE, Work())
+        remembered.parse(f"kind {number}", ALONE, WorkBudget())
+    remembered.parse(f"kind {MOST}", ALONE, WorkBudget())
     assert reader.read == MOST + 1
-    remembered.parse("kind 0", ALONE, Work())
+    remembered.parse("kind 0", ALONE, WorkBudget())
     assert reader.read == MOST + 2
 
 
@@ -88,4 +88,4 @@ def test_whatever_was_said_before_a_sentence_means_what_it_means(language: Langu
     said += ["remove it", "again", "two more", "add a car there", "go back to monday", "remove the last car"]
     for text in said:
         for topic in (*TOPICS, *TOPICS):
-            assert language.parse(text, topic) == language.read(text, topic, Work(), asking=True)
+            assert language.parse(text, topic) == language.read(text, topic, WorkBudget(), asking=True)

@@ -12,10 +12,10 @@ from service.grammar.completion import MOST_COMPLETING
 from service.grammar.engine import MAX_TOKENS
 from service.grammar.lattice import Edge, Lattice
 from service.grammar.lexicon import Sense
-from service.grammar.makes import MAX_PIECES, SKIPPED, Make, ends_of_pieces, family, steps_of
 from service.grammar.parse_types import Refused
+from service.grammar.span_patterns import MAX_PIECES, SKIPPED, SpanPattern, ends_of_pieces, family, steps_of
 from service.grammar.topic import ALONE
-from service.grammar.work_budget import MOST_STEPS, READ_STEPS, TOKEN_STEPS, Work
+from service.grammar.work_budget import MOST_STEPS, READ_STEPS, TOKEN_STEPS, WorkBudget
 from tools.slow_sentences import HERE, LONGEST, completing, labelled, reading
 
 LAST = READ_STEPS + TOKEN_STEPS * MAX_TOKENS
@@ -49,7 +49,7 @@ def test_no_labelled_sentence_comes_near_the_bound(language: Language, german: L
 
 
 def test_a_correction_at_the_end_of_much_is_read_within_the_bound(language: Language) -> None:
-    work = Work()
+    work = WorkBudget()
     parsed = language.parse(THREE_CORRECTED, ALONE, work)
     assert work.spent < MOST_STEPS * 3 // 4
     assert isinstance(parsed, Refused)
@@ -77,7 +77,7 @@ def test_a_text_costs_the_same_every_time(language: Language) -> None:
 
 def test_what_costs_too_much_is_refused_and_says_what_helps(language: Language, german: Language) -> None:
     for each, said in ((language, "Say it in two parts"), (german, "in zwei Teilen")):
-        work = Work(READ_STEPS)
+        work = WorkBudget(READ_STEPS)
         parsed = each.parse(labelled("en")[0], ALONE, work)
         assert isinstance(parsed, Refused)
         assert (parsed.reason, parsed.unparsed) == ("not_understood", ())
@@ -138,12 +138,12 @@ def test_stretches_of_the_same_make_are_those_with_a_reading_in_common() -> None
         end = chance.randrange(start + 1, lattice.size + 1)
         steps, said = steps_of(lattice), makes(lattice, start, end)
         ends = {stop for stop in range(start + 1, lattice.size + 1) if makes(lattice, start, stop)}
-        assert ends_of_pieces(steps, start, Work()) == ends
-        make = Make(steps, start, end, Work())
+        assert ends_of_pieces(steps, start, WorkBudget()) == ends
+        make = SpanPattern(steps, start, end, WorkBudget())
         for at in range(lattice.size):
             last = chance.randrange(at, lattice.size + 1)
             stops = (stop for stop in range(at + 1, last + 1) if makes(lattice, at, stop) & said)
             expected = next(stops, None)
-            assert make.first_like(at, last) == expected
+            assert make.first_match(at, last) == expected
             alike += expected is not None
     assert alike > 200

@@ -64,13 +64,13 @@ async def test_a_slot_holds_the_newest_only() -> None:
 async def test_it_glides_from_tick_to_tick_and_then_rests(session: Session) -> None:
     reel, slot = Reel(session, ROAD, CapacityLimiter(1)), Slot(30)
     reel._slots.add(slot)
-    await reel.look(10.0)
+    await reel.draw_now(10.0)
     tick, phase, picture = read(await slot.next())
     assert (tick, phase, max(picture.size) <= 96) == (0, 1.0, True)
     session.tick()
     seen = []
     for at_s in (11.0, 11.125, 11.25, 11.6, 11.7, 12.0):
-        await reel.look(at_s)
+        await reel.draw_now(at_s)
         if slot._newest is not None:
             tick, phase, _ = read(await slot.next())
             seen.append((tick, phase))
@@ -83,19 +83,19 @@ async def test_a_change_is_drawn_and_going_back_is_a_cut(session: Session) -> No
     reel._slots.add(slot)
     for _ in range(3):
         session.tick()
-    await reel.look(1.0)
+    await reel.draw_now(1.0)
     session.timeline.state = session.timeline.at(1)
-    await reel.look(1.1)
+    await reel.draw_now(1.1)
     assert read(await slot.next())[:2] == (1, 1.0)
 
 
 async def test_as_fast_as_possible_there_is_no_gliding(session: Session) -> None:
     reel, slot = Reel(session, ROAD, CapacityLimiter(1)), Slot(30)
     reel._slots.add(slot)
-    await reel.look(1.0)
+    await reel.draw_now(1.0)
     session.playback_speed = "max"
     session.tick()
-    await reel.look(1.1)
+    await reel.draw_now(1.1)
     assert session.timeline.tick > 1
     assert read(await slot.next())[:2] == (session.timeline.tick, 1.0)
 
@@ -112,7 +112,7 @@ async def test_all_who_watch_the_same_share_a_drawing(session: Session) -> None:
                 shown.set()
 
         wanted = ROAD if number % 2 else Wanted("schematic", "webp", 96)
-        await reels.pass_on(session, wanted, 60, drawing, send)
+        await reels.stream_to(session, wanted, 60, drawing, send)
 
     tasks = [asyncio.create_task(watch(number)) for number in range(20)]
     await asyncio.wait_for(shown.wait(), 60)
@@ -139,7 +139,9 @@ async def test_a_stalled_watcher_holds_up_nobody(session: Session) -> None:
         if len(ticks) == 12:
             enough.set()
 
-    tasks = [asyncio.create_task(reels.pass_on(session, ROAD, 60, drawing, send)) for send in (never, quick)]
+    tasks = [
+        asyncio.create_task(reels.stream_to(session, ROAD, 60, drawing, send)) for send in (never, quick)
+    ]
     await asyncio.wait_for(enough.wait(), 60)
     assert len(stalled) == 1
     assert ticks == sorted(ticks)

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from service.http.json import TwiceError, loads
+from service.http.json import DuplicateKeyError, loads
 from tests.support.service import Service
 
 
@@ -55,7 +55,7 @@ def test_two_members_of_one_key_are_refused_and_nothing_else(
     text = written(value, ascii_only=ascii_only, colon=colon)
     given = text.encode() if as_bytes else text
     if twice(value):
-        with pytest.raises(TwiceError, match="more than once"):
+        with pytest.raises(DuplicateKeyError, match="more than once"):
             loads(given)
     else:
         assert loads(given) == orjson.loads(text)
@@ -66,7 +66,7 @@ def test_two_members_of_one_key_are_refused_and_nothing_else(
     ['{"a":1,"a":1}', '{"a":1,"\\u0061":2}', '[{"b":{"a":[],"a":":"}}]', '{"a":"\\u003a","a":"::"}'],
 )
 def test_such_a_key_is_named(text: str) -> None:
-    with pytest.raises(TwiceError, match='the key "a" stands in one object more than once'):
+    with pytest.raises(DuplicateKeyError, match='the key "a" stands in one object more than once'):
         loads(text)
 
 

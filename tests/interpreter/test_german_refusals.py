@@ -23,15 +23,15 @@ async def german(opening: Opening) -> Talk:
         (
             "setze die Spawnwahrscheinlichkeit auf 3",
             "does-not-fit",
-            "Die Wahrscheinlichkeit für Fahrzeuge muss zwischen 0 und 1 liegen; jetzt gilt 0.68.",
+            "Die Wahrscheinlichkeit für Fahrzeuge muss zwischen 0 und 1 liegen; jetzt gilt 0,68.",
         ),
         ("entferne 50 Barrieren", "does-not-fit", "Es gibt auf der Straße keine Barriere."),
-        ("lass es regnen", "not-available", "Das Wetter lässt sich noch nicht ändern (rain)."),
+        ("lass es regnen", "not-available", "Das Wetter lässt sich noch nicht ändern (Regen)."),
         ("mach das rückgängig", "nothing-to-undo", "Es gibt keine Änderung, die sich zurücknehmen ließe."),
         (
             "stell die Abspielgeschwindigkeit auf 900x",
             "invalid",
-            "Die Abspielgeschwindigkeit geht von 0.25 bis 64 oder ist 'max' für so schnell wie möglich; "
+            "Die Abspielgeschwindigkeit geht von 0,25 bis 64 oder ist 'max' für so schnell wie möglich; "
             "das wäre 900.",
         ),
     ],

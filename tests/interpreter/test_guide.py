@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from service import actions as contract
 from service.grammar.completion import GAPS, MOST, TRIED
 from service.grammar.topic import ALONE, Topic
-from service.grammar.work_budget import Work
+from service.grammar.work_budget import WorkBudget
 from service.interpreter.guide import EXAMPLES, Guide
 from service.sessions.availability import refusal_of
 from tests.interpreter.conftest import Json, Talk, english
@@ -188,7 +188,7 @@ class Counting:
     def __getattr__(self, name: str) -> Any:
         return getattr(self.language, name)
 
-    def parse(self, text: str, topic: Topic = ALONE, work: Work | None = None) -> Any:
+    def parse(self, text: str, topic: Topic = ALONE, work: WorkBudget | None = None) -> Any:
         self.parses += 1
         return self.language.parse(text, topic, work)
 

@@ -45,7 +45,7 @@ async def standing(talk: Talk) -> tuple[object, ...]:
     """All that nothing refused may change."""
     state = await talk.state()
     session = (await talk.client.get(talk.path)).json()
-    taught = talk.app.state.context.interpreter.aliases.list()
+    taught = talk.app.state.context.interpreter.aliases.records()
     return state["digest"], state["sequence"], state, session["config"], taught
 
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from service import actions as contract
 from service.grammar.parse_types import Ambiguous, Parse, Refused, Understood
-from service.grammar.references import heard
+from service.grammar.references import parse_in_topic
 from service.grammar.topic import ALONE, Topic
 from tests.interpreter.conftest import english
 
@@ -58,7 +58,7 @@ def test_a_phrase_of_new_words_changes_no_sentence(words: list[str]) -> None:
     for text in FIXED:
         for topic in (ALONE, TALKED):
             assert (
-                told(heard(english().parse, text, with_phrase(" ".join(words), topic)))
+                told(parse_in_topic(english().parse, text, with_phrase(" ".join(words), topic)))
                 == BEFORE[text, topic is TALKED]
             )
 
@@ -75,7 +75,7 @@ def test_a_phrase_of_a_known_word_changes_no_sentence_that_means_something(word:
         before = english().parse(text)
         if isinstance(before, Refused):
             continue
-        assert told(heard(english().parse, text, with_phrase(word, ALONE))) == BEFORE[text, False]
+        assert told(parse_in_topic(english().parse, text, with_phrase(word, ALONE))) == BEFORE[text, False]
 
 
 def part(words: list[str]) -> tuple[contract.Action, ...] | None:
@@ -91,7 +91,7 @@ def part(words: list[str]) -> tuple[contract.Action, ...] | None:
 def test_a_phrase_put_anywhere_is_done_whole_or_not_at_all(text: str, at: int) -> None:
     words = text.split()
     said = " ".join([*words[:at], "splunge", *words[at:]])
-    parse = heard(english().parse, said, with_phrase("splunge", ALONE))
+    parse = parse_in_topic(english().parse, said, with_phrase("splunge", ALONE))
     if not isinstance(parse, Understood) or any(
         isinstance(action, contract.Save | contract.Teach | contract.Forget) for action in parse.actions
     ):

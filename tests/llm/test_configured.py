@@ -13,7 +13,7 @@ from service.llm import LanguageModel, create_model
 from service.llm.failures import PromptError
 from service.llm.fake import FakeModel
 from service.llm.openai import OpenAIModel
-from service.llm.prompts import load_claims, load_failure_messages, load_prompt
+from service.llm.prompts import load_claims, load_prompt
 from service.llm.protocol import Interpretation
 from service.settings import Settings
 from sim.actions import Add
@@ -94,7 +94,7 @@ async def test_the_fake_has_the_same_interface() -> None:
     fake = FakeModel({"one hole": adds}, {"I stayed.": "I stood still."})
     model: LanguageModel = fake
     assert await model.interpret("one hole") == adds
-    assert (await model.interpret("another")).told == "The language model found nothing to do in this."
+    assert (await model.interpret("another")).explanation == "The language model found nothing to do in this."
     assert await model.rephrase("I stayed.", {}) == "I stood still."
     assert await model.rephrase("I moved left.", {}) == "I moved left."
     await model.aclose()
@@ -119,17 +119,13 @@ def test_a_broken_prompt_is_named(tmp_path: Path, text: str) -> None:
         load_prompt("interpret", tmp_path)
 
 
-def test_missing_files_and_sentences_are_named(tmp_path: Path) -> None:
+def test_missing_files_are_named(tmp_path: Path) -> None:
     for reading in (
         lambda: load_prompt("x", tmp_path),
-        lambda: load_failure_messages(tmp_path),
         lambda: load_claims(tmp_path),
     ):
         with pytest.raises(PromptError, match=str(tmp_path)):
             reading()
-    (tmp_path / "told.yaml").write_text("nothing: Nothing.\nmore: More.\n")
-    with pytest.raises(PromptError, match=r"more, .*timeout"):
-        load_failure_messages(tmp_path)
     (tmp_path / "claims.yaml").write_text("groups: {}\n")
     with pytest.raises(PromptError, match="numbers, groups"):
         load_claims(tmp_path)

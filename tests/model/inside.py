@@ -84,7 +84,7 @@ class Inside:
         for session in list(self._manager.live_sessions.values()):
             await until(lambda session=session: not session.busy)  # type: ignore[misc]
             await session.reachability.wait_until_idle()
-            session._narration.finish()
+            session.feed.wait_for_narration()
 
     async def tick(self) -> None:
         """One turn of the clock."""
@@ -109,7 +109,7 @@ class Inside:
         live = self._live(path)
         if live is not None:
             await self._quiet()
-            self._manager.snapshots._take(live)
+            self._manager.snapshots.take(live)
             await self._manager.snapshots.flush()
 
     def drop(self) -> None:

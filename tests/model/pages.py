@@ -25,9 +25,9 @@ from tests.model.plain import Line, Plain
 PAGE = 7
 
 
-def passing(plain: Plain, kind: str, text: str) -> None:
+def transient(plain: Plain, kind: str, text: str) -> None:
     """A line that nothing in the log stands for."""
-    plain.lines = (*plain.lines, Line(plain.tick, kind, passing=True, text=text))
+    plain.lines = (*plain.lines, Line(plain.tick, kind, transient=True, text=text))
 
 
 async def all_of(walker: Any, path: str, share: float) -> None:

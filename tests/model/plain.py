@@ -94,7 +94,7 @@ class Line:
     type: str
     ids: tuple[str, ...] = ()
     cell: tuple[int, int] | None = None
-    passing: bool = False
+    transient: bool = False
     text: str | None = None
 
 
@@ -199,7 +199,7 @@ class Plain:
         """It comes back as it was written down: paused, without lines that nothing stands for."""
         tick, lines = self.kept
         self.stand = replace(self.stand, tick=tick)
-        self.lines = tuple(line for line in self.lines[:lines] if not line.passing)
+        self.lines = tuple(line for line in self.lines[:lines] if not line.transient)
         self.kept = tick, len(self.lines)
         self.paused = True
         self.way = None
@@ -228,9 +228,9 @@ class Plain:
             return
         if found.open:
             if was is not None and not was.open:
-                self.lines = (*self.lines, Line(self.tick, "way_open", passing=True))
+                self.lines = (*self.lines, Line(self.tick, "way_open", transient=True))
         elif was is None or was.open or was != found:
-            self.lines = (*self.lines, Line(self.tick, "no_way", found.ids, passing=True))
+            self.lines = (*self.lines, Line(self.tick, "no_way", found.ids, transient=True))
 
     # Change
 

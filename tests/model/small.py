@@ -18,11 +18,11 @@ def limits() -> Iterator[None]:
         "sim.session.timeline.MAX_SNAPSHOTS": 6,
         "sim.session.timeline.RECENT_RUNS": 2,
         "sim.session.timeline.RECENT_CHANGES": 1,
-        "service.sessions.undo_stack.MOST_JUMPS": MOST_JUMPS,
-        "service.sessions.transaction.MOST_NAMES": MOST_NAMES,
+        "service.sessions.undo_stack.MAX_JUMPS": MOST_JUMPS,
+        "service.sessions.action_handlers.MAX_BOOKMARKS": MOST_NAMES,
         "service.sessions.session.THREAD_TICKS": 4,
-        "service.sessions.persistence.snapshot_codec.MOST_STATES": 8,
-        "service.sessions.persistence.snapshot_codec.AT_ONCE": 2,
+        "service.sessions.persistence.snapshot_codec.MAX_STATES": 8,
+        "service.sessions.persistence.snapshot_codec.ACTIONS_PER_CALL": 2,
     }
     patches = [patch(name, value) for name, value in few.items()]
     try:

@@ -195,5 +195,5 @@ class Talker(Walker):
         plain = self.sessions[path]
         same("a lesson's sequence", told["sequence"], plain.sequence)
         kind = "taught" if action["do"] == "teach" else "forgotten"
-        pages.passing(plain, kind, told["reply"])
+        pages.transient(plain, kind, told["reply"])
         return True

@@ -18,8 +18,8 @@ from service.app import create_app
 from service.problems import QuotaExceeded
 from service.security.api_key import Key
 from service.security.cross_site import same_site
-from service.security.guard import exposed
-from service.security.hosts import Hosts, loopback
+from service.security.guard import exposure_problem
+from service.security.hosts import Hosts, is_loopback
 from service.security.quotas import Quotas
 from service.security.rate_limit import MAX_CLIENTS, RateLimiter
 from service.security.ws_tickets import GOOD_FOR_S, MOST, Tickets
@@ -78,10 +78,10 @@ async def test_without_a_key_none_is_asked_for() -> None:
 
 
 def test_no_key_is_every_key_and_an_empty_one_is_none() -> None:
-    assert not Key(None).asked
-    assert not Key(SecretStr("")).asked
-    assert Key(SecretStr("é")).right("é")
-    assert not Key(SecretStr("é")).right("e")
+    assert not Key(None).required
+    assert not Key(SecretStr("")).required
+    assert Key(SecretStr("é")).matches("é")
+    assert not Key(SecretStr("é")).matches("e")
 
 
 @pytest.mark.parametrize(
@@ -101,12 +101,12 @@ def test_no_key_is_every_key_and_an_empty_one_is_none() -> None:
     ],
 )
 def test_strangers_are_not_let_near_without_a_key(host: str, key: str | None, refused: bool) -> None:
-    said = exposed(Settings(host=host, api_key=None if key is None else SecretStr(key)))
+    said = exposure_problem(Settings(host=host, api_key=None if key is None else SecretStr(key)))
     assert (said is not None) == refused
     if said is not None:
         assert "ROADTALK_API_KEY" in said
         assert "\n" not in said
-    assert loopback(host) == (host in ("127.0.0.1", "127.8.8.8", "::1", "localhost"))
+    assert is_loopback(host) == (host in ("127.0.0.1", "127.8.8.8", "::1", "localhost"))
 
 
 # Hosts and pages

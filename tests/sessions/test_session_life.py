@@ -99,7 +99,7 @@ async def test_a_session_that_ended_is_gone_for_changes_under_way() -> None:
     with pytest.raises(UnknownSession):
         await service.manager.delete(session.id)
     assert service.clock.tickers == []
-    assert type(await subscriber.next()).__name__ == "Gone"
+    assert type(await subscriber.next()).__name__ == "SessionDeleted"
 
 
 async def test_all_who_ask_for_a_sleeping_session_get_the_same() -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pygame
 import pytest
 
-from service.window.keys import KEYS
+from service.window.keys import key_groups
 from service.window.panels import PANELS
 from sim.config import Config
 from sim.types import Mode
@@ -223,7 +223,7 @@ def test_a_picture_that_cannot_be_saved_is_told(window: Open, tmp_path: Path) ->
 
 
 def test_help_tells_every_letter_that_does_something(window: Open) -> None:
-    told = " ".join(key for _, keys in KEYS for key, _ in keys)
+    told = " ".join(key for _, keys in key_groups() for key, _ in keys)
     for letter in window().controls._letters:
         if letter not in (" ", "=", "−"):
             assert letter.upper() in told, letter

@@ -6,7 +6,7 @@ import pygame
 import pytest
 
 from service.window.exchange import Exchange
-from service.window.keys import EXAMPLES
+from service.window.keys import examples
 from service.window.theme import ACCENT
 from sim.types import Kind, Outcome
 from tests.window.conftest import Open
@@ -225,16 +225,16 @@ def test_clicks_on_titles_and_crosses(window: Open) -> None:
 def test_an_example_of_the_help_goes_into_the_line(window: Open) -> None:
     driver = window()
     driver.letter("?")
-    spot = next(spot for spot, what in driver.window._spots() if what == ("write", EXAMPLES[0]))
+    spot = next(spot for spot, what in driver.window._spots() if what == ("write", examples()[0]))
     driver.click(spot.center)
     assert driver.controls.overlay is None
-    assert (driver.console.focused, driver.console.line.text) == (True, EXAMPLES[0])
+    assert (driver.console.focused, driver.console.line.text) == (True, examples()[0])
 
 
 def test_every_sentence_of_the_help_can_be_said(window: Open) -> None:
     driver = window()
     driver.seconds(2.2)
-    for sentence in EXAMPLES:
+    for sentence in examples():
         exchange = driver.say(sentence)
         assert exchange.done, exchange
 

@@ -18,7 +18,7 @@ import { createPanels } from "./panels/index.js";
 import { keepAddress } from "./timeline/momentAddress.js";
 import { TimelineLoader } from "./timeline/timelineLoader.js";
 import { TimeTravel } from "./timeline/timeTravel.js";
-import { byId, fillTexts } from "./ui/slot.js";
+import { byId, fillTexts } from "./ui/dom.js";
 import { RegretLoader } from "./why/regretLoader.js";
 
 fillTexts(document);

@@ -142,7 +142,7 @@ def document(
     responses = operation["responses"]
     if "201" in responses:
         location, tag = "Where what was made is.", "Its version, for `If-Match`."
-        responses["201"]["headers"] = {"Location": _answered(location), "ETag": _answered(tag)}
+        responses["201"]["headers"] = {"Location": _response_header(location), "ETag": _response_header(tag)}
     if "{session_id}" not in path or not tagged:
         if method not in ("get", "head"):
             operation["description"] += "\n\n`If-Match` is not looked at: this changes no session."
@@ -150,23 +150,23 @@ def document(
     parameters = operation.setdefault("parameters", [])
     if method == "get":
         text = "The ETag of an answer that is at hand: 304 if it still is so; anything else is ignored."
-        parameters.append(_sent("If-None-Match", text, {"type": "string"}))
+        parameters.append(_request_header("If-None-Match", text, {"type": "string"}))
         responses["304"] = {"description": "As it was: the answer at hand still holds"}
     else:
         text = "An ETag of this session, or several: done only if nothing was changed since; otherwise 412."
         schema = {"type": "string", "pattern": _SCHEMA_PATTERN, "examples": ["*"]}
-        parameters.append(_sent("If-Match", text, schema))
+        parameters.append(_request_header("If-Match", text, schema))
         add_problems(operation, "stale", "invalid")
-        responses["412"]["headers"] = {"ETag": _answered("Where the session stands.")}
+        responses["412"]["headers"] = {"ETag": _response_header("Where the session stands.")}
     if "200" in responses:
-        responses["200"]["headers"] = {"ETag": _answered("The session's version, for `If-Match`.")}
+        responses["200"]["headers"] = {"ETag": _response_header("The session's version, for `If-Match`.")}
 
 
-def _sent(name: str, description: str, schema: dict[str, Any]) -> dict[str, Any]:
+def _request_header(name: str, description: str, schema: dict[str, Any]) -> dict[str, Any]:
     """A header of a request."""
     return {"name": name, "in": "header", "required": False, "schema": schema, "description": description}
 
 
-def _answered(description: str) -> dict[str, Any]:
+def _response_header(description: str) -> dict[str, Any]:
     """A header of a response."""
     return {"description": description, "required": True, "schema": {"type": "string", "minLength": 1}}

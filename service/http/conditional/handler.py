@@ -10,25 +10,24 @@ from fastapi import Request, Response
 from service.http.conditional import etag
 from service.http.conditional.idempotency import handle_once
 from service.http.deps import context_of
+from service.http.route_policy import RoutePolicy
 
 Handler = Callable[[Request], Awaitable[Response]]
 
 
-async def handle_conditionally(
-    request: Request, handler: Handler, *, entity_tag: bool, idempotency_key: bool
-) -> Response:
+async def handle_conditionally(request: Request, handler: Handler, policy: RoutePolicy) -> Response:
     """Answers a request by its handler, if its conditions hold. Raises a `ProblemError`."""
     session_id = request.path_params.get("session_id")
     if request.method == "GET":
         etag.set_check(None)
         response = await handler(request)
-        if session_id is None or not entity_tag or response.status_code != 200:
+        if session_id is None or not policy.entity_tag or response.status_code != 200:
             return response
         session = await context_of(request).manager.get(session_id)
         return etag.add_tag(request, response, session.sequence)
     conditional = session_id is not None and "if-match" in request.headers
     etag.set_check(_precondition(request) if conditional else None)
-    if not idempotency_key:
+    if not policy.idempotency_key:
         return await handler(request)
     return await handle_once(request, context_of(request).answers, handler)
 

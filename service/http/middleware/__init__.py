@@ -1,5 +1,5 @@
-"""Middleware around the whole application, outermost first: request id, HEAD, security headers, host, origin.
+"""Middleware around the whole application, outermost first: id, HEAD, headers, host, origin.
 
-Nothing here knows paths. What differs from route to route (key, body limit, conditions) is in
-`service.http.route`.
+Only `direct_routes` knows paths, from the routes themselves. What differs from route to route (key, body
+limit, conditions) is in `service.http.route`.
 """

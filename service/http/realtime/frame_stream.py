@@ -1,8 +1,8 @@
-"""Pictures by stream: drawn beside the event loop, encoded once for all who watch the same view.
+"""Streams of frames: pictures drawn beside the event loop, encoded once for all who watch the same view.
 
-A *reel* draws one view of one session for as long as somebody watches it, as often as the quickest of
-them asks; when nothing moves nothing is drawn or sent. Each watcher has room for one picture: the newest.
-A slow one therefore sees fewer, never old ones, and is waited for by nobody.
+A *reel* draws one view of one session while somebody watches it, as often as its fastest watcher asks; when
+nothing moves nothing is drawn or sent. Each watcher has a slot for one picture, the newest: a slow one sees
+fewer pictures, never old ones, and nobody waits for it.
 
 A binary message is a header of 16 bytes, big-endian, then the picture's file:
 
@@ -12,7 +12,7 @@ A binary message is a header of 16 bytes, big-endian, then the picture's file:
     4 bytes  float: the phase, the share of the way from the tick before to this tick, 0 to 1
     8 bytes  the tick
 
-Leaves out when a tick was: a reel sees it when it next looks, and glides from there.
+Leaves out when a tick was: a reel sees it at its next turn, and animates from there.
 """
 
 from __future__ import annotations
@@ -40,8 +40,8 @@ HEADER: Final = Struct(">2sBBfQ")
 MAGIC: Final = b"RT"
 VERSION: Final = 1
 FORMS: Final = {"jpeg": 1, "webp": 2}
-AFTER_A_DEFECT_S: Final = 1.0
-"""A view that could not be drawn is tried again so much later."""
+RETRY_S: Final = 1.0
+"""Wait after a view that could not be drawn."""
 
 Form = Literal["jpeg", "webp"]
 View = Literal["road", "schematic"]
@@ -49,7 +49,7 @@ View = Literal["road", "schematic"]
 
 @dataclass(frozen=True, slots=True)
 class Wanted:
-    """What a watcher asks to see; those who ask for the same share a reel."""
+    """A view with its format and size; watchers of the same share a reel."""
 
     view: View
     form: Form
@@ -57,7 +57,7 @@ class Wanted:
 
 
 class Slot:
-    """Room for one picture: the newest that has not been sent."""
+    """The newest picture that one watcher has not been sent."""
 
     def __init__(self, fps: int) -> None:
         self.fps = fps
@@ -65,12 +65,12 @@ class Slot:
         self._ready = asyncio.Event()
 
     def put(self, picture: bytes) -> None:
-        """Hand over a picture in place of the one before; never waits."""
+        """Replaces the picture; never waits."""
         self._newest = picture
         self._ready.set()
 
     async def next(self) -> bytes:
-        """The newest picture, once there is one that was not taken before."""
+        """Waits for a picture that was not taken before."""
         while self._newest is None:
             self._ready.clear()
             await self._ready.wait()
@@ -99,7 +99,7 @@ class Reel:
         return len(self._slots)
 
     def join(self, fps: int) -> Slot:
-        """A new watcher; it sees what there is at once, and then what changes."""
+        """Adds a watcher; it gets the newest picture at once, then every new one."""
         slot = Slot(fps)
         if self._newest is not None:
             slot.put(self._newest)
@@ -109,14 +109,14 @@ class Reel:
         return slot
 
     def leave(self, slot: Slot) -> None:
-        """It sees no more; without watchers nothing is drawn."""
+        """Removes a watcher; without watchers nothing is drawn."""
         self._slots.discard(slot)
         if not self._slots and self._task is not None:
             self._task.cancel()
             self._task = None
 
-    async def look(self, now_s: float) -> None:
-        """Draw what is to be seen now, unless it was drawn already."""
+    async def draw_now(self, now_s: float) -> None:
+        """Draws what is to be seen now, unless it was drawn already."""
         run, before, phase = self._session.run, self._before, 1.0
         last = self._run
         if last is not None and last.world.tick != run.world.tick:
@@ -130,7 +130,7 @@ class Reel:
             return
         self._run, self._before, self._phase = run, before, phase
         timeline = self._session.timeline.copy()
-        picture = await to_thread.run_sync(self._drawn, timeline, run, before, phase, limiter=self._drawing)
+        picture = await to_thread.run_sync(self._draw, timeline, run, before, phase, limiter=self._drawing)
         self.drawn += 1
         header = HEADER.pack(MAGIC, VERSION, FORMS[self._wanted.form], phase, run.world.tick)
         self._newest = header + picture
@@ -141,18 +141,18 @@ class Reel:
         due_s = time.monotonic()
         while True:
             try:
-                await self.look(time.monotonic())
+                await self.draw_now(time.monotonic())
             except Exception:
                 _LOG.exception("a view could not be drawn", session=self._session.id, wanted=self._wanted)
-                await asyncio.sleep(AFTER_A_DEFECT_S)
+                await asyncio.sleep(RETRY_S)
             due_s = await _next_turn(due_s, max((slot.fps for slot in self._slots), default=1))
 
     def _lasts_s(self, run: SimState) -> float:
         pace = self._session.playback_speed
         return 0.0 if pace == MAX else run.config.step_seconds / float(pace)
 
-    def _drawn(self, timeline: Timeline, run: SimState, before: SimState | None, phase: float) -> bytes:
-        """In a thread; the one `look` under way waits for it."""
+    def _draw(self, timeline: Timeline, run: SimState, before: SimState | None, phase: float) -> bytes:
+        """Runs in a thread; `draw_now` waits for it."""
         decision = None
         if before is not None:
             if self._decided is None or self._decided[0] is not before:
@@ -165,7 +165,7 @@ class Reel:
 
 
 class Reels:
-    """All reels that are watched."""
+    """The reels that are watched, by session and view."""
 
     def __init__(self) -> None:
         self._reels: dict[tuple[str, Wanted], Reel] = {}
@@ -173,7 +173,7 @@ class Reels:
     def __len__(self) -> int:
         return len(self._reels)
 
-    async def pass_on(
+    async def stream_to(
         self,
         session: Session,
         wanted: Wanted,
@@ -181,7 +181,7 @@ class Reels:
         drawing: CapacityLimiter,
         send: Callable[[bytes], Awaitable[None]],
     ) -> None:
-        """Send one watcher its pictures, at its pace, until this is cancelled or `send` raises."""
+        """Sends one watcher its pictures, at its pace, until cancelled or `send` raises."""
         key = (session.id, wanted)
         reel = self._reels.setdefault(key, Reel(session, wanted, drawing))
         slot = reel.join(fps)
@@ -197,7 +197,7 @@ class Reels:
 
 
 async def _next_turn(due_s: float, fps: int) -> float:
-    """Wait for the next of `fps` turns a second; turns that were missed are not made up for."""
+    """Waits for the next of `fps` turns a second; missed turns are not made up for."""
     now_s, period_s = time.monotonic(), 1 / fps
     due_s = max(due_s, now_s - period_s) + period_s
     await asyncio.sleep(max(0.0, due_s - now_s))

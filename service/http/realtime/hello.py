@@ -15,9 +15,9 @@ HELLO_EVENTS = 100
 def hello(context: Context, session: Session) -> bytes:
     """Makes the message."""
     latest = session.latest_decision()
-    decision = told_decision(context.narrator, latest[1], latest[0]) if latest else None
+    decision = told_decision(session.narrator, latest[1], latest[0]) if latest else None
     log = session.log.latest(HELLO_EVENTS)
-    sentence = context.interpreter.sentence_for(session.run.config)
+    sentence = context.interpreter.sentence_for(session.run.config, session.language)
     own, state = session_json(session, sentence), session.state_body()
     message = hello_message(own, state, log, decision, session.sequence)
     return add_event_id(message, session.subscribers.last_event_id)

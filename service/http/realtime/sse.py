@@ -17,10 +17,11 @@ from fastapi.responses import StreamingResponse
 
 from service.contract.encode.json import encoded
 from service.http.deps import Here, TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.realtime.hello import hello
 from service.http.realtime.open_streams import OpenStreams
-from service.http.route import api_router, policy
+from service.http.route import api_router
+from service.http.route_policy import policy
 from service.problems import Invalid, NotRestorable, UnknownSession
 from service.sessions.messages import state_message
 from service.sessions.session import Session
@@ -49,7 +50,7 @@ _DOCUMENTED: dict[int | str, dict[str, Any]] = {
     "/sessions/{session_id}/events/stream",
     response_class=Response,
     summary="Watch, by server-sent events",
-    responses=_DOCUMENTED | documented(UnknownSession, Invalid, NotRestorable),
+    responses=_DOCUMENTED | problem_responses(UnknownSession, Invalid, NotRestorable),
 )
 @policy(entity_tag=False)
 async def stream_events(

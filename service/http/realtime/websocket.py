@@ -38,7 +38,6 @@ from service.http.realtime.websocket_auth import authenticate
 from service.http.session_json import PREFIX
 from service.http.validation import field_problems, invalid
 from service.problems import Internal, Invalid, Malformed, ProblemError
-from service.resources import DEFAULT_LANGUAGE
 from service.security.guard import client_of
 from service.sessions.messages import state_message
 from service.sessions.session import Session
@@ -108,7 +107,7 @@ class _Screen:
     async def _show(self, asked: Subscribe) -> None:
         wanted = frame_stream.Wanted(asked.view, asked.frames, asked.side)
         with suppress(WebSocketDisconnect, RuntimeError):  # the client has gone; the reader hears of it
-            await self._context.reels.pass_on(
+            await self._context.reels.stream_to(
                 self._session, wanted, asked.fps, self._context.drawing, self._socket.send_bytes
             )
 
@@ -198,14 +197,13 @@ async def _answer(
 
 
 async def _run(context: Context, session: Session, message: Command | Actions) -> dict[str, Any]:
-    heard, code = None, DEFAULT_LANGUAGE
+    heard = None
     if isinstance(message, Command):
-        code = message.language
-        heard = await context.interpreter.interpret(message.text, session, code)
+        heard = await context.interpreter.interpret(message.text, session, message.language)
         utterance = heard.utterance
     else:
         utterance = Utterance(actions=tuple(message.actions))
-    outcome = await context.interpreter.execute(session, utterance, dry_run=message.dry_run, code=code)
+    outcome = await context.interpreter.execute(session, utterance, dry_run=message.dry_run)
     return result_json(outcome, heard, message.dry_run)
 
 

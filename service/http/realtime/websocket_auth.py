@@ -41,7 +41,7 @@ async def authenticate(socket: WebSocket) -> bool:
             auth = Auth(type="auth")
         if auth.ticket is not None and guard.tickets.take(auth.ticket):
             return True
-        if auth.key is not None and guard.key.right(auth.key):
+        if auth.key is not None and guard.key.matches(auth.key):
             return True
     await socket.close(REFUSED, "a key or a ticket is needed")
     return False

@@ -13,9 +13,10 @@ from service.contract.encode.advice import advice_json
 from service.http import examples
 from service.http.content_type import JSON_ONLY
 from service.http.deps import Context, Here
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.responses import json_response
-from service.http.route import api_router, policy
+from service.http.route import api_router
+from service.http.route_policy import policy
 from service.http.validation import invalid
 from service.interpreter.interpreter import Source
 from service.problems import (
@@ -44,7 +45,7 @@ _FIGURES = ("hazard", "distance_m", "speed_kmh")
     response_model=Advice,
     summary="Ask what to do about a hazard",
     dependencies=[JSON_ONLY],
-    responses=documented(
+    responses=problem_responses(
         Malformed, Ambiguous, ContentTooLarge, UnsupportedMediaType, Invalid, NotUnderstood, NotAQuestion
     ),
 )
@@ -63,7 +64,7 @@ async def ask_advice(
         field = error.field if body.text is None else "text"
         sentence = refusals(body.language).advice(error)
         raise Invalid(sentence, errors=[FieldProblem(field, sentence)]) from error
-    answer = here.narrator.answer(Advised(found))
+    answer = here.narrator.in_language(body.language).answer(Advised(found))
     text = {"question": answer["question"], "text": answer["text"], "source": source}
     return json_response(text | advice_json(found))
 
@@ -80,7 +81,7 @@ async def _read_question(
         match heard.actions:
             case (Advise() as asked,):
                 return asked.hazard, asked.distance_m, asked.speed_kmh, heard.source
-        sentence = "This is understood, but it tells of no hazard ahead with its distance and your speed."
+        sentence = refusals(body.language).said("no_hazard")
         raise NotAQuestion(sentence, errors=[FieldProblem("text", sentence)])
     if body.hazard is None or body.distance_m is None or body.speed_kmh is None:
         missing = [name for name in _FIGURES if getattr(body, name) is None]

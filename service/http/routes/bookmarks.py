@@ -6,7 +6,7 @@ from fastapi import Response
 
 from service.contract import answers as schemas
 from service.http.deps import Here, TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.pagination import After, Limit, cursor, page_json
 from service.http.responses import etag, json_response
 from service.http.route import api_router
@@ -20,7 +20,7 @@ router = api_router("time")
     "/saved",
     response_model=schemas.MomentPage,
     summary="Moments with a name, of all sessions",
-    responses=documented(Invalid, NotSaved),
+    responses=problem_responses(Invalid, NotSaved),
 )
 async def list_all_bookmarks(here: Here, after: After = None, limit: Limit = 50) -> Response:
     """Those named last first, in pages. A name belongs to its session: `load` finds it there only."""
@@ -46,7 +46,7 @@ async def list_all_bookmarks(here: Here, after: After = None, limit: Limit = 50)
     "/sessions/{session_id}/saved",
     response_model=schemas.SavedMoments,
     summary="Moments with a name",
-    responses=documented(UnknownSession, NotRestorable),
+    responses=problem_responses(UnknownSession, NotRestorable),
 )
 async def list_bookmarks(session: TheSession) -> Response:
     """What `{"do": "save", "name": ...}` has kept, by name; `{"do": "load", "name": ...}` goes there."""

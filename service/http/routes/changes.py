@@ -10,11 +10,10 @@ from fastapi import Query, Response
 from service import actions as contract
 from service.contract.timeline import RoadChanges
 from service.http.deps import Here, TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.responses import json_response
 from service.http.route import api_router
 from service.problems import Invalid, NotRestorable, NotSaved, UnknownSession
-from service.resources import DEFAULT_LANGUAGE
 
 router = api_router("time")
 
@@ -25,7 +24,7 @@ MOST_CHANGES = 1_000
     "/sessions/{session_id}/changes",
     response_model=RoadChanges,
     summary="What was said and stands",
-    responses=documented(UnknownSession, Invalid, NotRestorable, NotSaved),
+    responses=problem_responses(UnknownSession, Invalid, NotRestorable, NotSaved),
 )
 async def list_changes(
     session: TheSession, here: Here, limit: Annotated[int, Query(ge=1, le=MOST_CHANGES)] = 200
@@ -42,7 +41,7 @@ async def list_changes(
         sequence, text = group[0].sequence, said.get(group[0].sequence)
         if text is None:
             dumped = contract.dump(tuple(entry.action for entry in group))
-            told = here.interpreter.aliases.describe(contract.load(dumped), DEFAULT_LANGUAGE)
+            told = here.interpreter.aliases.describe(contract.load(dumped), session.language)
         else:
             told = text
         items.append({"tick": group[0].tick, "sequence": sequence, "text": told, "said": text is not None})

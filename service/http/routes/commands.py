@@ -12,10 +12,11 @@ from service.http import examples
 from service.http.conditional.etag import TheConditions, respond_once
 from service.http.content_type import JSON_ONLY
 from service.http.deps import Here, TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.outcome_json import result_json
 from service.http.responses import etag, json_response
-from service.http.route import api_router, policy
+from service.http.route import api_router
+from service.http.route_policy import policy
 from service.problems import (
     Ambiguous,
     ContentTooLarge,
@@ -54,7 +55,7 @@ _PROBLEMS = (
     "/sessions/{session_id}/commands",
     response_model=schemas.CommandResult,
     summary="Say something",
-    responses=documented(*_PROBLEMS, NotUnderstood, Ambiguous),
+    responses=problem_responses(*_PROBLEMS, NotUnderstood, Ambiguous),
 )
 @policy(direct=True, timed=True)
 async def run_command(
@@ -78,7 +79,6 @@ async def run_command(
             session,
             heard.utterance,
             dry_run=body.dry_run,
-            code=body.language,
             preconditions=conditions(respond),
         )
     )
@@ -88,7 +88,7 @@ async def run_command(
     "/sessions/{session_id}/actions",
     response_model=schemas.CommandResult,
     summary="Do typed actions",
-    responses=documented(*_PROBLEMS),
+    responses=problem_responses(*_PROBLEMS),
 )
 @policy(direct=True, timed=True)
 async def run_actions(

@@ -21,7 +21,7 @@ from service.http.conditional.etag import TheConditions, respond_once
 from service.http.config_schema import CONFIG_SCHEMA
 from service.http.content_type import require_json
 from service.http.deps import Here, TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.responses import etag, json_response
 from service.http.route import api_router
 from service.http.suggestions import suggest
@@ -40,6 +40,7 @@ from service.problems import (
     UnsupportedMediaType,
 )
 from service.refusals import refusals
+from service.resources import DEFAULT_LANGUAGE
 from service.sessions.utterance import Outcome, Utterance
 from sim.actions import Prefer, Set
 from sim.config import LISTS, Config, ConfigError
@@ -78,7 +79,7 @@ async def _require_patch(connection: HTTPConnection) -> None:
     response_model=schemas.ConfigChanged,
     summary="Change settings",
     dependencies=[Depends(_require_patch)],
-    responses=documented(
+    responses=problem_responses(
         Malformed,
         UnknownSession,
         ContentTooLarge,
@@ -100,7 +101,7 @@ async def patch_config(
 
     Also as `application/merge-patch+json`. Where nothing differs nothing is done.
     """
-    actions = actions_for(session.run.config, body, here.settings.max_road_cells)
+    actions = actions_for(session.run.config, body, here.settings.max_road_cells, session.language)
 
     @respond_once
     def respond(outcome: Outcome) -> Response:
@@ -110,7 +111,7 @@ async def patch_config(
         preconditions = conditions(respond)
         if preconditions.sequences is not None:
             preconditions.check(session.sequence)
-        return _changes_response((), refusals().session("as_it_is"), session.sequence)
+        return _changes_response((), refusals(session.language).session("as_it_is"), session.sequence)
     try:
         done = tuple(action for _, action in actions)
         preconditions = conditions(respond)
@@ -121,10 +122,12 @@ async def patch_config(
         raise _of_fields(problem, [name for name, _ in actions]) from problem
 
 
-def actions_for(config: Config, patch: Mapping[str, Any], most_cells: int) -> list[tuple[str, Set | Prefer]]:
+def actions_for(
+    config: Config, patch: Mapping[str, Any], most_cells: int, language: str = DEFAULT_LANGUAGE
+) -> list[tuple[str, Set | Prefer]]:
     """What makes a configuration so, each action with its field. Raises `Invalid`, for all bad fields."""
     defaults = asdict(defaults_under(config.rules))
-    wanted = {name: _wanted(value, defaults.get(name)) for name, value in patch.items()}
+    wanted = {name: _normalize(value, defaults.get(name)) for name, value in patch.items()}
     now = asdict(config)
     changed = {
         name: value
@@ -139,7 +142,7 @@ def actions_for(config: Config, patch: Mapping[str, Any], most_cells: int) -> li
             for name in {"columns", "rows"} & set(fitting):
                 problems[name] = f"makes a road of more than {most_cells} cells, the most there can be here"
     except ConfigError as error:
-        problems |= {each.field: refusals().problem(each) for each in error.problems}
+        problems |= {each.field: refusals(language).problem(each) for each in error.problems}
     if problems:
         raise invalid(FieldProblem(name, problems[name]) for name in sorted(problems))
     # What begins a new road comes last, so that it is made with all that was asked for.
@@ -147,7 +150,7 @@ def actions_for(config: Config, patch: Mapping[str, Any], most_cells: int) -> li
     return [step for name in ordered for step in _steps(name, fitting[name])]
 
 
-def _wanted(value: Any, default: Any) -> Any:
+def _normalize(value: Any, default: Any) -> Any:
     """A value as it is meant: null is the default, and 20.0 is a whole number where one is wanted."""
     if value is None:
         return default

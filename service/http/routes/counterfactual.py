@@ -18,8 +18,8 @@ from service.contract.encode.counterfactual import beside_json
 from service.contract.model import Tick
 from service.contract.requests import MAX_ACTIONS, Sent, Strictly
 from service.http.content_type import JSON_ONLY
-from service.http.deps import Here, TheSession
-from service.http.errors import documented
+from service.http.deps import TheSession
+from service.http.errors import problem_responses
 from service.http.responses import etag, json_response
 from service.http.route import api_router
 from service.http.validation import invalid
@@ -58,12 +58,6 @@ _EXAMPLES: dict[str, Any] = {
         "value": {"actions": [{"do": "remove", "kind": "everything", "count": "all"}]},
     },
 }
-_WORDS = {
-    "no_decision": "No decision was taken at tick {tick}: the result of an episode stood.",
-    "off_road": "That move leads off the road.",
-    "same_move": "That is the move that was made.",
-    "no_such_tick": "Tick {tick} has not come yet: it is tick {now}.",
-}
 
 
 class Otherwise(Sent):
@@ -84,7 +78,7 @@ class Otherwise(Sent):
     response_model=Counterfactual,
     summary="Watch what would have been",
     dependencies=[JSON_ONLY],
-    responses=documented(
+    responses=problem_responses(
         Malformed,
         UnknownSession,
         ContentTooLarge,
@@ -96,7 +90,7 @@ class Otherwise(Sent):
     ),
 )
 async def run_counterfactual(
-    body: Annotated[Otherwise, Body(openapi_examples=_EXAMPLES)], session: TheSession, here: Here
+    body: Annotated[Otherwise, Body(openapi_examples=_EXAMPLES)], session: TheSession
 ) -> Response:
     """Both runs from that tick on: where they begin, tick by tick what moved, and how each ends.
 
@@ -109,32 +103,33 @@ async def run_counterfactual(
         tick = body.at_tick
     else:
         tick = timeline.tick if body.actions else max(0, timeline.tick - 1)
-    actions = _world_actions(body.actions or [])
+    actions = _world_actions(body.actions or [], session.language)
 
     def compare() -> dict[str, Any]:
         if body.move is not None:
             compared = compare_move(timeline, tick, Move(body.move))
         else:
             compared = compare_change(timeline, tick, actions)
-        return beside_json(status, compared, body.ticks, here.narrator.side_by_side(compared))
+        return beside_json(status, compared, body.ticks, session.narrator.side_by_side(compared))
 
     try:
         value = await run_in_thread(uses_external_planner(timeline), QUESTION_S, compare)
     except QuestionError as error:
         field = "move" if error.code in ("off_road", "same_move") else "at_tick"
-        raise invalid([FieldProblem(field, _WORDS[error.code].format(**error.facts))]) from error
+        sentence = refusals(session.language).beside(error.code, error.facts)
+        raise invalid([FieldProblem(field, sentence)]) from error
     except EditError as error:
         kind = NotAvailable if error.category == "not-available" else DoesNotFit
-        sentence = refusals().edit(error)
+        sentence = refusals(session.language).edit(error)
         raise kind(sentence, errors=[FieldProblem(f"actions.{error.field}", sentence)]) from error
     return json_response(value, headers=etag(status.sequence))
 
 
-def _world_actions(actions: list[Action]) -> list[WorldAction]:
+def _world_actions(actions: list[Action], language: str) -> list[WorldAction]:
     """The actions, if all of them change the road. Raises `NotAvailable` or `Invalid`."""
     changing: list[WorldAction] = []
     for position, action in enumerate(actions):
-        sentence = refusal_of(action)
+        sentence = refusal_of(action, language)
         if sentence is not None:
             raise NotAvailable(sentence, errors=[FieldProblem(f"actions.{position}", sentence)])
         if not is_world_action(action):

@@ -15,9 +15,10 @@ from service.http import examples
 from service.http.conditional.etag import answer_to_keep, respond_once
 from service.http.content_type import JSON_ONLY
 from service.http.deps import Context, Here
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.responses import etag, json_response
-from service.http.route import api_router, policy
+from service.http.route import api_router
+from service.http.route_policy import policy
 from service.http.routes.links import Named, open_link
 from service.http.session_json import links_json, session_json
 from service.http.validation import invalid
@@ -39,13 +40,14 @@ from service.problems import (
     UnsupportedMediaType,
 )
 from service.refusals import refusals
+from service.resources import DEFAULT_LANGUAGE
 from service.security.guard import client_of
 from service.sessions.persistence.recording import Recording
 from service.sessions.session import Session
 from service.settings import Settings
 from service.store import EntryRecord, StoredResponse
 from sim.actions import Scenario
-from sim.config import Config, ConfigError, Problem
+from sim.config import Config, ConfigError
 from sim.generation import GenerationError
 from sim.rules.versions import NewerRulesError
 from sim.session.saved_config import new_config, saved_config
@@ -60,7 +62,7 @@ router = api_router("sessions")
     response_model=schemas.Session,
     summary="Make a session",
     dependencies=[JSON_ONLY],
-    responses=documented(
+    responses=problem_responses(
         Malformed,
         Ambiguous,
         ContentTooLarge,
@@ -92,9 +94,8 @@ async def create_session(
     @respond_once
     def respond(session: Session) -> Response:
         headers = {"Location": links_json(session.id)["self"], **etag(session.sequence)}
-        return json_response(
-            session_json(session, here.interpreter.sentence_for(session.run.config)), 201, headers
-        )
+        sentence = here.interpreter.sentence_for(session.run.config, session.language)
+        return json_response(session_json(session, sentence), 201, headers)
 
     answer = answer_to_keep(request, respond)
     with here.guard.quotas.reserve(client_of(request.scope)) as reservation:
@@ -108,7 +109,9 @@ async def _create(
     here: Context, body: bodies.NewSession, answer: Callable[[Session], StoredResponse] | None
 ) -> Session:
     """Makes the session; `answer` gives what is stored with it."""
-    recording, named = _linked(here.settings, body)
+    recording, named = _read_link(here.settings, body)
+    language = body.language or (recording and recording.language) or DEFAULT_LANGUAGE
+    here.interpreter.languages.check(language)
     if named is not None:
         paused = body.paused is not False
         parent = await here.manager.get(named.session)
@@ -116,24 +119,28 @@ async def _create(
             parent, named.tick, name=body.name, paused=paused, answer=answer, field="link"
         )
     if recording is None:
-        config = await _config(here, body)
+        config = await _config(here, body, language)
         try:
-            return await here.manager.create(body.name, config, paused=bool(body.paused), answer=answer)
+            return await here.manager.create(
+                body.name, config, paused=bool(body.paused), language=language, answer=answer
+            )
         except GenerationError as error:
             raise invalid(
-                FieldProblem(f"config.{each.field}", refusals().problem(each)) for each in error.problems
+                FieldProblem(f"config.{each.field}", refusals(language).problem(each))
+                for each in error.problems
             ) from error
-    config, recorded = _recorded(here.settings, body, recording)
+    config, recorded = _read_recording(here.settings, body, recording, language)
     return await here.manager.create(
         body.name or recording.name,
         config,
         paused=body.paused is not False,
+        language=language,
         recorded=recorded,
         answer=answer,
     )
 
 
-async def _config(here: Context, body: bodies.NewSession) -> Config:
+async def _config(here: Context, body: bodies.NewSession, language: str) -> Config:
     """The configuration that was asked for, in figures and in words."""
     parts = dict(body.config or {})
     for name in ("seed", "planner"):
@@ -146,11 +153,11 @@ async def _config(here: Context, body: bodies.NewSession) -> Config:
     try:
         config = new_config(parts)
         if body.scenario is not None:
-            scenario = await _scenario(here, body.scenario)
+            scenario = await _scenario(here, body.scenario, language)
             planner = scenario.planner or config.planner
             config = config_of_scenario(config, scenario).with_parts(planner=planner)
     except ConfigError as error:
-        words = refusals()
+        words = refusals(language)
         beside = [name for name in ("seed", "planner") if getattr(body, name) is not None]
         problems = [
             FieldProblem(each.field if each.field in beside else f"config.{each.field}", words.problem(each))
@@ -160,38 +167,35 @@ async def _config(here: Context, body: bodies.NewSession) -> Config:
         if missing:
             raise NotAvailable(" ".join(missing), errors=problems) from error
         raise invalid(problems) from error
-    _check_offered(here.settings, config)
+    _check_road_size(here.settings, config)
     return config
 
 
-async def _scenario(here: Context, text: str) -> Scenario:
+async def _scenario(here: Context, text: str, language: str) -> Scenario:
     """The one scenario a sentence describes; a planner named beside it stands unless it names one."""
-    parse = await here.interpreter.interpret(text, field="scenario")
+    parse = await here.interpreter.interpret(text, code=language, field="scenario")
+    words = refusals(language)
     if len(parse.actions) != 1 or not isinstance(parse.actions[0], Scenario):
-        sentence = "does not describe a road; say for instance: a highway with 10 potholes"
         raise NotUnderstood(
-            f"{text!r} {sentence}.",
-            errors=[FieldProblem("scenario", sentence)],
+            words.said("no_road_told", text=text),
+            errors=[FieldProblem("scenario", words.said("no_road"))],
             understood=[text],
         )
     scenario = parse.actions[0]
-    _check_available(find_unavailable(scenario), "scenario")
+    missing = find_unavailable(scenario)
+    if missing is not None:
+        sentence = words.problem(missing)
+        raise NotAvailable(sentence, errors=[FieldProblem("scenario", sentence)])
     return scenario
 
 
-def _check_offered(settings: Settings, config: Config) -> None:
+def _check_road_size(settings: Settings, config: Config) -> None:
     if config.columns * config.rows > settings.max_road_cells:
         message = f"makes a road of more than {settings.max_road_cells} cells, the most there can be here"
         raise invalid([FieldProblem("config.rows", message)])
 
 
-def _check_available(missing: Problem | None, field: str) -> None:
-    if missing is not None:
-        sentence = refusals().problem(missing)
-        raise NotAvailable(sentence, errors=[FieldProblem(field, sentence)])
-
-
-def _linked(settings: Settings, body: bodies.NewSession) -> tuple[bodies.Recording | None, Named | None]:
+def _read_link(settings: Settings, body: bodies.NewSession) -> tuple[bodies.Recording | None, Named | None]:
     """The recording that was sent or is in a link, or what a link names."""
     if body.link is None:
         return body.recording, None
@@ -211,8 +215,8 @@ def _of_rules(recording: bodies.Recording) -> dict[str, Any]:
     return parts
 
 
-def _recorded(
-    settings: Settings, body: bodies.NewSession, recording: bodies.Recording
+def _read_recording(
+    settings: Settings, body: bodies.NewSession, recording: bodies.Recording, language: str
 ) -> tuple[Config, Recording]:
     """What a recording says, checked as far as can be before it is replayed."""
     beside = [name for name in ("scenario", "config", "seed", "planner") if getattr(body, name) is not None]
@@ -227,14 +231,14 @@ def _recorded(
     try:
         config = saved_config(_of_rules(recording))
     except NewerRulesError as error:
-        sentence = refusals().newer_rules(error, "recording")
+        sentence = refusals(language).newer_rules(error, "recording")
         raise Invalid(sentence, errors=[FieldProblem("recording.rules", sentence)]) from error
     except ConfigError as error:
         raise invalid(
-            FieldProblem(f"recording.config.{each.field}", refusals().problem(each))
+            FieldProblem(f"recording.config.{each.field}", refusals(language).problem(each))
             for each in error.problems
         ) from error
-    _check_offered(settings, config)
+    _check_road_size(settings, config)
     entries = [
         EntryRecord(
             sequence=entry.sequence,

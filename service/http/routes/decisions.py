@@ -8,8 +8,8 @@ from anyio import to_thread
 from fastapi import Path, Query, Response
 
 from service.contract import answers as schemas
-from service.http.deps import Here, TheSession
-from service.http.errors import documented
+from service.http.deps import TheSession
+from service.http.errors import problem_responses
 from service.http.pagination import MAX_INTEGER
 from service.http.responses import json_response
 from service.http.route import api_router
@@ -23,11 +23,10 @@ router = api_router("watching")
     "/sessions/{session_id}/decisions",
     response_model=schemas.DecisionPage,
     summary="What was decided, and why",
-    responses=documented(UnknownSession, Invalid, NotRestorable),
+    responses=problem_responses(UnknownSession, Invalid, NotRestorable),
 )
 async def list_decisions(
     session: TheSession,
-    here: Here,
     after: Annotated[
         int | None, Query(ge=-1, le=MAX_INTEGER, description="Tick to go on after; default: the newest.")
     ] = None,
@@ -37,7 +36,7 @@ async def list_decisions(
     timeline = session.timeline.copy()
     first = max(0, timeline.tick - limit) if after is None else min(after + 1, timeline.tick)
     stop = min(timeline.tick, first + limit)
-    items = await to_thread.run_sync(told_runs, here.narrator, timeline, first, stop)
+    items = await to_thread.run_sync(told_runs, session.narrator, timeline, first, stop)
     return json_response({"items": items, "after": stop - 1, "more": stop < timeline.tick})
 
 
@@ -45,16 +44,14 @@ async def list_decisions(
     "/sessions/{session_id}/decisions/{tick}",
     response_model=schemas.Decision,
     summary="One decision",
-    responses=documented(UnknownSession, UnknownDecision, Invalid, NotRestorable),
+    responses=problem_responses(UnknownSession, UnknownDecision, Invalid, NotRestorable),
 )
-async def read_decision(
-    session: TheSession, here: Here, tick: Annotated[int, Path(ge=0, le=MAX_INTEGER)]
-) -> Response:
+async def read_decision(session: TheSession, tick: Annotated[int, Path(ge=0, le=MAX_INTEGER)]) -> Response:
     """The decision taken in the world of a tick."""
     timeline = session.timeline.copy()
     if tick >= timeline.tick:
         raise UnknownDecision(f"Tick {tick} has not been decided yet: it is tick {timeline.tick}.")
-    items = await to_thread.run_sync(told_runs, here.narrator, timeline, tick, tick + 1)
+    items = await to_thread.run_sync(told_runs, session.narrator, timeline, tick, tick + 1)
     if not items:
         raise UnknownDecision(f"At tick {tick} the result of an episode stood; nothing was decided.")
     return json_response(items[0])

@@ -8,7 +8,7 @@ from fastapi import Query, Response
 
 from service.contract import answers as schemas
 from service.http.deps import TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.pagination import MAX_INTEGER
 from service.http.responses import json_response
 from service.http.route import api_router
@@ -21,7 +21,7 @@ router = api_router("watching")
     "/sessions/{session_id}/events",
     response_model=schemas.EventPage,
     summary="The log",
-    responses=documented(UnknownSession, Invalid, NotRestorable),
+    responses=problem_responses(UnknownSession, Invalid, NotRestorable),
 )
 async def list_events(
     session: TheSession,

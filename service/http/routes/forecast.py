@@ -7,8 +7,8 @@ from typing import Annotated
 from fastapi import Query, Response
 
 from service.contract.forecast import Expected
-from service.http.deps import Here, TheSession
-from service.http.errors import documented
+from service.http.deps import TheSession
+from service.http.errors import problem_responses
 from service.http.pagination import MAX_INTEGER
 from service.http.responses import json_response
 from service.http.route import api_router
@@ -31,11 +31,10 @@ MOST_AHEAD = 16
     "/sessions/{session_id}/forecast",
     response_model=Expected,
     summary="What is about to happen",
-    responses=documented(UnknownSession, Invalid, NotRestorable),
+    responses=problem_responses(UnknownSession, Invalid, NotRestorable),
 )
 async def read_forecast(
     session: TheSession,
-    here: Here,
     ticks: Annotated[int, Query(ge=1, le=MOST_AHEAD, description="How far ahead.")] = 1,
     tick: Annotated[
         int | None, Query(ge=0, le=MAX_INTEGER, description="At an earlier tick than now.")
@@ -61,7 +60,7 @@ async def read_forecast(
         }
         for each in range(ticks)
     ]
-    value = None if decision is None else told_decision(here.narrator, run, decision)
+    value = None if decision is None else told_decision(session.narrator, run, decision)
     exact = ticks == 1 or not run.config.reacting
     return json_response({"tick": now, "decision": value, "exact": exact, "ahead": ahead})
 

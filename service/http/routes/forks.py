@@ -12,7 +12,7 @@ from service.http import examples
 from service.http.conditional.etag import answer_to_keep, respond_once
 from service.http.content_type import JSON_ONLY
 from service.http.deps import Here, TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.responses import etag, json_response
 from service.http.route import api_router
 from service.http.session_json import links_json, session_json
@@ -43,7 +43,7 @@ router = api_router("time")
     response_model=schemas.Session,
     summary="Go another way from a tick",
     dependencies=[JSON_ONLY],
-    responses=documented(
+    responses=problem_responses(
         Malformed,
         UnknownSession,
         ContentTooLarge,
@@ -73,7 +73,8 @@ async def fork_session(
     @respond_once
     def respond(made: Session) -> Response:
         headers = {"Location": links_json(made.id)["self"], **etag(made.sequence)}
-        return json_response(session_json(made, here.interpreter.sentence_for(made.run.config)), 201, headers)
+        sentence = here.interpreter.sentence_for(made.run.config, made.language)
+        return json_response(session_json(made, sentence), 201, headers)
 
     with here.guard.quotas.reserve(client_of(request.scope)) as reservation:
         made = await here.manager.fork(

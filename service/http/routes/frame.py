@@ -12,7 +12,7 @@ from anyio import to_thread
 from fastapi import Query, Response
 
 from service.http.deps import Here, TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.responses import etag
 from service.http.route import api_router
 from service.problems import Invalid, NotRestorable, UnknownSession
@@ -40,7 +40,7 @@ _PICTURE: dict[int | str, dict[str, Any]] = {
     "/sessions/{session_id}/frame",
     response_class=Response,
     summary="One picture",
-    responses=_PICTURE | documented(UnknownSession, Invalid, NotRestorable),
+    responses=_PICTURE | problem_responses(UnknownSession, Invalid, NotRestorable),
 )
 async def read_frame(
     session: TheSession,

@@ -6,7 +6,7 @@ from fastapi import APIRouter, Response
 
 from service.contract import answers as schemas
 from service.http.deps import Here
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.responses import json_response
 from service.http.route import operation_id
 from service.problems import NotSaved
@@ -29,7 +29,9 @@ async def read_health(here: Here) -> Response:
     )
 
 
-@router.get("/readyz", response_model=schemas.Ready, summary="Ready to serve", responses=documented(NotSaved))
+@router.get(
+    "/readyz", response_model=schemas.Ready, summary="Ready to serve", responses=problem_responses(NotSaved)
+)
 async def read_readiness(here: Here) -> Response:
     """Whether the store answers."""
     await here.store.newest(1)

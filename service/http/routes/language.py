@@ -10,13 +10,13 @@ from fastapi import Query, Response
 from service import actions as contract
 from service.contract import answers as schemas
 from service.http.deps import Here
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.responses import json_response
 from service.http.route import api_router
 from service.interpreter.guide import Intent
+from service.interpreter.interpreter import language_of
 from service.interpreter.preview import Preview
 from service.problems import Invalid, NotRestorable, UnknownSession
-from service.resources import DEFAULT_LANGUAGE
 
 router = api_router("talking")
 
@@ -25,7 +25,7 @@ router = api_router("talking")
     "/language",
     response_model=schemas.LanguageGuide,
     summary="What can be said",
-    responses=documented(UnknownSession, Invalid, NotRestorable),
+    responses=problem_responses(UnknownSession, Invalid, NotRestorable),
 )
 async def read_language(
     here: Here,
@@ -36,16 +36,20 @@ async def read_language(
     session: Annotated[
         str | None, Query(max_length=64, description="Complete with what would work in this session now.")
     ] = None,
-    language: Annotated[str, Query(max_length=16, description="The language's code.")] = DEFAULT_LANGUAGE,
+    language: Annotated[
+        str | None,
+        Query(max_length=16, description="The language's code. Default: the session's; en without one."),
+    ] = None,
 ) -> Response:
     """Every intent with examples; or with `prefix`, whole sentences that begin with it and would work.
 
     With a `session` as well: what the prefix would do there if it were sent as it stands.
     """
     interpreter = here.interpreter
-    guide = interpreter.languages.guide(language)
     live = None if session is None else await here.manager.get(session)
-    taught = interpreter.aliases.list(language)
+    language = language or language_of(live)
+    guide = interpreter.languages.guide(language)
+    taught = interpreter.aliases.records(language)
     told: dict[str, Any] = {"language": language, "languages": interpreter.languages.codes, "prefix": prefix}
     if prefix is None:
         intents = () if guide is None else await to_thread.run_sync(lambda: guide.intents)

@@ -20,7 +20,7 @@ from service.contract import answers as schemas
 from service.contract import requests as bodies
 from service.contract.encode.json import encoded
 from service.http.deps import TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.pagination import MAX_INTEGER
 from service.http.responses import etag, json_response
 from service.http.route import api_router
@@ -28,7 +28,7 @@ from service.http.ticks import check_tick
 from service.http.validation import invalid
 from service.problems import FieldProblem, Invalid, NotRestorable, UnknownSession
 from service.sessions.fork import flatten_log, timeline_until
-from service.sessions.persistence.recording import FORMAT, VERSION
+from service.sessions.persistence.recording import FORMAT, VERSION, recorded_language
 from sim.session.timeline import Timeline
 
 router = api_router("time")
@@ -54,7 +54,7 @@ class Named:
     "/sessions/{session_id}/link",
     response_model=schemas.Link,
     summary="A link to a tick",
-    responses=documented(UnknownSession, Invalid, NotRestorable),
+    responses=problem_responses(UnknownSession, Invalid, NotRestorable),
 )
 async def read_link(
     session: TheSession,
@@ -67,7 +67,7 @@ async def read_link(
     timeline = session.timeline.copy()
     at = timeline.tick if tick is None else tick
     check_tick(at, timeline.tick)
-    carried = await to_thread.run_sync(_carry, timeline, at)
+    carried = await to_thread.run_sync(_carry, timeline, at, session.language)
     fits = len(carried) <= MOST_CARRIED
     text = carried if fits else f"{_NAMES}{session.id}/{at}"
     return json_response({"link": text, "tick": at, "carries": fits}, headers=etag(session.sequence))
@@ -85,7 +85,7 @@ def open_link(said: str, most_bytes: int) -> bodies.Recording | Named:
     return Named(named["session"], None if named["tick"] is None else int(named["tick"]))
 
 
-def _carry(timeline: Timeline, tick: int) -> str:
+def _carry(timeline: Timeline, tick: int, language: str) -> str:
     way = timeline_until(timeline, tick)
     entries = [
         {"sequence": each.sequence, "tick": each.tick, "text": None, "actions": each.actions}
@@ -100,7 +100,7 @@ def _carry(timeline: Timeline, tick: int) -> str:
         "entries": entries,
         "tick": tick,
         "digest": way.state.world.digest(),
-    }
+    } | recorded_language(language)
     deflate = zlib.compressobj(9, zlib.DEFLATED, _RAW)
     packed = deflate.compress(encoded(recording)) + deflate.flush()
     return _CARRIES + urlsafe_b64encode(packed).rstrip(b"=").decode()

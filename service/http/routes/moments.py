@@ -10,8 +10,8 @@ from fastapi import Query, Response
 
 from service.contract.encode.state import SessionStatus, state_json
 from service.contract.timeline import Moments
-from service.http.deps import Here, TheSession
-from service.http.errors import documented
+from service.http.deps import TheSession
+from service.http.errors import problem_responses
 from service.http.pagination import MAX_INTEGER
 from service.http.responses import json_response
 from service.http.route import api_router
@@ -32,11 +32,10 @@ MOST_MOMENTS = 64
     "/sessions/{session_id}/moments",
     response_model=Moments,
     summary="Several ticks in full",
-    responses=documented(UnknownSession, Invalid, NotRestorable),
+    responses=problem_responses(UnknownSession, Invalid, NotRestorable),
 )
 async def list_moments(
     session: TheSession,
-    here: Here,
     first: Annotated[int, Query(alias="from", ge=0, le=MAX_INTEGER, description="First tick.")] = 0,
     limit: Annotated[int, Query(ge=1, le=MOST_MOMENTS)] = 16,
 ) -> Response:
@@ -44,7 +43,7 @@ async def list_moments(
     way, status = session.timeline.copy(), session.status
     check_tick(first, way.tick, "from")
     stop = min(way.tick + 1, first + limit)
-    items = await to_thread.run_sync(lambda: list(_moments(here.narrator, status, way, first, stop)))
+    items = await to_thread.run_sync(lambda: list(_moments(session.narrator, status, way, first, stop)))
     return json_response({"items": items, "now": way.tick})
 
 

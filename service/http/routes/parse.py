@@ -12,10 +12,11 @@ from service.contract import requests as bodies
 from service.http import examples
 from service.http.content_type import JSON_ONLY
 from service.http.deps import Here
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.outcome_json import corrections_json
 from service.http.responses import json_response
-from service.http.route import api_router, policy
+from service.http.route import api_router
+from service.http.route_policy import policy
 from service.problems import (
     Ambiguous,
     ContentTooLarge,
@@ -33,7 +34,9 @@ router = api_router("talking")
     response_model=schemas.Parsed,
     summary="Understand a sentence",
     dependencies=[JSON_ONLY],
-    responses=documented(Malformed, Ambiguous, ContentTooLarge, UnsupportedMediaType, Invalid, NotUnderstood),
+    responses=problem_responses(
+        Malformed, Ambiguous, ContentTooLarge, UnsupportedMediaType, Invalid, NotUnderstood
+    ),
 )
 @policy(idempotency_key=False)
 async def parse_text(

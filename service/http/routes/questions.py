@@ -11,9 +11,10 @@ from service.contract import requests as bodies
 from service.http import examples
 from service.http.content_type import JSON_ONLY
 from service.http.deps import Here, TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.responses import etag, json_response
-from service.http.route import api_router, policy
+from service.http.route import api_router
+from service.http.route_policy import policy
 from service.problems import (
     Ambiguous,
     ContentTooLarge,
@@ -35,7 +36,7 @@ router = api_router("talking")
     response_model=schemas.Answer,
     summary="Ask something",
     dependencies=[JSON_ONLY],
-    responses=documented(
+    responses=problem_responses(
         Malformed,
         UnknownSession,
         ContentTooLarge,
@@ -56,5 +57,5 @@ async def ask_question(
 ) -> Response:
     """Answers, and changes nothing."""
     heard = await here.interpreter.interpret_question(body.question, session, body.language)
-    outcome = await here.interpreter.execute(session, heard.utterance, code=body.language)
+    outcome = await here.interpreter.execute(session, heard.utterance)
     return json_response(outcome.answer, headers=etag(outcome.sequence))

@@ -6,7 +6,7 @@ from fastapi import Response
 
 from service.contract import requests as bodies
 from service.http.deps import Here, TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.responses import json_response
 from service.http.route import api_router
 from service.problems import NotRestorable, NotSaved, UnknownSession
@@ -19,7 +19,7 @@ router = api_router("watching")
     "/sessions/{session_id}/recording",
     response_model=bodies.Recording,
     summary="The whole session as one file",
-    responses=documented(UnknownSession, NotRestorable, NotSaved),
+    responses=problem_responses(UnknownSession, NotRestorable, NotSaved),
 )
 async def read_recording(session: TheSession, here: Here) -> Response:
     """Send it as `recording` to `POST /sessions`, here or elsewhere, and it replays to the same digest."""

@@ -10,7 +10,7 @@ from fastapi import Query, Response
 
 from service.contract.forecast import Judged
 from service.http.deps import TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.pagination import MAX_INTEGER
 from service.http.responses import json_response
 from service.http.route import api_router
@@ -29,7 +29,7 @@ MOST_JUDGED = 200
     "/sessions/{session_id}/regret",
     response_model=Judged,
     summary="What decisions cost against the best",
-    responses=documented(UnknownSession, Invalid, NotRestorable),
+    responses=problem_responses(UnknownSession, Invalid, NotRestorable),
 )
 async def read_regret(
     session: TheSession,

@@ -12,7 +12,7 @@ from service.http import examples
 from service.http.conditional.etag import TheConditions, respond_once
 from service.http.content_type import JSON_ONLY
 from service.http.deps import TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.outcome_json import result_json
 from service.http.responses import etag, json_response
 from service.http.route import api_router
@@ -36,7 +36,7 @@ router = api_router("time")
     response_model=schemas.CommandResult,
     summary="Go back to a tick",
     dependencies=[JSON_ONLY],
-    responses=documented(
+    responses=problem_responses(
         Malformed, UnknownSession, ContentTooLarge, UnsupportedMediaType, Invalid, NotRestorable, NotSaved
     ),
 )
@@ -51,4 +51,6 @@ async def rewind_session(
     def respond(outcome: Outcome) -> Response:
         return json_response(result_json(outcome, None, False), headers=etag(outcome.sequence))
 
-    return respond(await session.change(rewind_to(body.tick), preconditions=conditions(respond)))
+    return respond(
+        await session.change(rewind_to(body.tick, session.language), preconditions=conditions(respond))
+    )

@@ -7,7 +7,7 @@ from fastapi import Request, Response
 from service.contract import answers as schemas
 from service.http.conditional.etag import if_match
 from service.http.deps import Here, TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.pagination import After, Limit, cursor, page_json
 from service.http.responses import etag, json_response
 from service.http.route import api_router
@@ -22,7 +22,7 @@ router = api_router("sessions")
     "/sessions",
     response_model=schemas.SessionPage,
     summary="List sessions",
-    responses=documented(Invalid, NotSaved),
+    responses=problem_responses(Invalid, NotSaved),
 )
 async def list_sessions(here: Here, after: After = None, limit: Limit = 50) -> Response:
     """Newest first, in pages."""
@@ -36,11 +36,11 @@ async def list_sessions(here: Here, after: After = None, limit: Limit = 50) -> R
     "/sessions/{session_id}",
     response_model=schemas.Session,
     summary="Look at a session",
-    responses=documented(UnknownSession, NotRestorable),
+    responses=problem_responses(UnknownSession, NotRestorable),
 )
 async def read_session(session: TheSession, here: Here) -> Response:
     """A session as it stands. One that is kept but not live is brought back, paused."""
-    value = session_json(session, here.interpreter.sentence_for(session.run.config))
+    value = session_json(session, here.interpreter.sentence_for(session.run.config, session.language))
     return json_response(value, headers=etag(session.sequence))
 
 
@@ -49,7 +49,7 @@ async def read_session(session: TheSession, here: Here) -> Response:
     status_code=204,
     response_class=Response,
     summary="End a session",
-    responses=documented(UnknownSession, NotSaved),
+    responses=problem_responses(UnknownSession, NotSaved),
 )
 async def delete_session(session_id: str, here: Here, request: Request) -> Response:
     """End it and forget it; whoever watches is told."""

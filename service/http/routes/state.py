@@ -10,10 +10,11 @@ from fastapi import Query, Response
 from service.contract import answers as schemas
 from service.contract.encode.state import state_json
 from service.http.deps import TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.pagination import MAX_INTEGER
 from service.http.responses import etag, json_response
-from service.http.route import api_router, policy
+from service.http.route import api_router
+from service.http.route_policy import policy
 from service.http.ticks import check_tick
 from service.problems import Invalid, NotRestorable, UnknownSession
 
@@ -24,7 +25,7 @@ router = api_router("watching")
     "/sessions/{session_id}/state",
     response_model=schemas.State,
     summary="The world at a tick",
-    responses=documented(UnknownSession, Invalid, NotRestorable),
+    responses=problem_responses(UnknownSession, Invalid, NotRestorable),
 )
 @policy(direct=True)
 async def read_state(

@@ -15,9 +15,10 @@ from service.http import examples
 from service.http.conditional.etag import TheConditions, respond_once
 from service.http.content_type import JSON_ONLY
 from service.http.deps import Here, TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.responses import etag, json_response
-from service.http.route import api_router, policy
+from service.http.route import api_router
+from service.http.route_policy import policy
 from service.http.session_json import told_decision
 from service.problems import (
     ContentTooLarge,
@@ -38,7 +39,7 @@ router = api_router("talking")
     response_model=schemas.StepResult,
     summary="Run some ticks",
     dependencies=[JSON_ONLY],
-    responses=documented(
+    responses=problem_responses(
         Malformed, UnknownSession, ContentTooLarge, UnsupportedMediaType, Invalid, NotRestorable, NotSaved
     ),
 )
@@ -46,7 +47,7 @@ router = api_router("talking")
 async def step_session(
     body: Annotated[bodies.StepTicks, Body(openapi_examples=examples.STEP)],
     session: TheSession,
-    here: Here,
+    here: Here,  # noqa: ARG001 -- routes that are called directly are called alike
     conditions: TheConditions,
 ) -> Response:
     """Pauses, then runs the ticks as fast as it can; answers what was decided in each."""
@@ -58,7 +59,7 @@ async def step_session(
         status = replace(session.status, paused=True, sequence=outcome.sequence)
         state = state_json(status, runs[-1])
         decisions = [
-            told_decision(here.narrator, run, tick.decision)
+            told_decision(session.narrator, run, tick.decision)
             for run, tick in zip(runs, outcome.ticks, strict=False)
             if tick.decision is not None
         ]

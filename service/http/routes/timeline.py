@@ -13,7 +13,7 @@ from fastapi import Query, Response
 
 from service.contract.timeline import TimelinePage
 from service.http.deps import TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.pagination import MAX_INTEGER
 from service.http.responses import json_response
 from service.http.route import api_router
@@ -45,7 +45,7 @@ _NO_MOVE = "-"
     "/sessions/{session_id}/timeline",
     response_model=TimelinePage,
     summary="A stretch of the run at a glance",
-    responses=documented(UnknownSession, Invalid, NotRestorable),
+    responses=problem_responses(UnknownSession, Invalid, NotRestorable),
 )
 async def read_timeline(
     session: TheSession,

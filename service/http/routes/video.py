@@ -16,7 +16,7 @@ from anyio import CapacityLimiter, create_task_group, from_thread, to_thread
 from fastapi import Query, Request, Response
 
 from service.http.deps import Here, TheSession
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.pagination import MAX_INTEGER
 from service.http.responses import etag
 from service.http.route import api_router
@@ -53,7 +53,7 @@ class _GoneError(Exception):
     "/sessions/{session_id}/film",
     response_class=Response,
     summary="A stretch of ticks as a film",
-    responses=_FILM | documented(UnknownSession, Invalid, NotAvailable, NotRestorable),
+    responses=_FILM | problem_responses(UnknownSession, Invalid, NotAvailable, NotRestorable),
 )
 async def read_video(
     request: Request,

@@ -10,9 +10,10 @@ from pydantic import BaseModel, ConfigDict
 from service.contract.operations import Ticket
 from service.http.content_type import JSON_ONLY
 from service.http.deps import Here
-from service.http.errors import documented
+from service.http.errors import problem_responses
 from service.http.responses import json_response
-from service.http.route import api_router, policy
+from service.http.route import api_router
+from service.http.route_policy import policy
 from service.problems import ContentTooLarge, Invalid, Malformed, UnsupportedMediaType
 from service.security.ws_tickets import GOOD_FOR_S
 
@@ -30,7 +31,7 @@ class NoFields(BaseModel):
     response_model=Ticket,
     summary="Get a ticket for a socket",
     dependencies=[JSON_ONLY],
-    responses=documented(Malformed, ContentTooLarge, UnsupportedMediaType, Invalid),
+    responses=problem_responses(Malformed, ContentTooLarge, UnsupportedMediaType, Invalid),
 )
 @policy(idempotency_key=False)
 async def create_ticket(

@@ -1,8 +1,8 @@
-"""What a session has of its own log: what a replay of it would come to, where that is not what there is.
+"""The log position of a session: where it stands relative to its stored log.
 
-A restart leaves a session paused that nobody paused, and a defect does so as well: the log does not tell. The
-next change is kept with that, so that a replay tries it on the same ground. The `trail` is a digest of all
-that was kept so far, to know whether what claims to be made of this log is.
+Tracks where a session differs from a replay of its log: a restart leaves a session paused that nobody paused,
+and so does a defect. The next entry is stored with that, so that a replay performs it on the same state.
+`digest` is a running digest of all entries, to tell whether a snapshot was made from this log.
 """
 
 from __future__ import annotations
@@ -16,41 +16,41 @@ import orjson
 from service.store import EntryRecord, SessionRecord
 
 ENTRY_WORK = 2
-"""What a change takes beside what it does, in ticks."""
+"""Work of replaying an entry beside its ticks, in ticks."""
 
 
 class LogPosition:
-    """A session as its log has it."""
+    """The position, and the work that a restore would take from the latest snapshot."""
 
     __slots__ = ("counted_work", "digest", "paused", "tick", "work")
 
     def __init__(self, record: SessionRecord) -> None:
         self.paused = record.paused
-        """whether time stands still, as the log has it"""
+        """whether the clock stands, as a replay would have it"""
         self.tick = 0
-        """where time stood when the latest change was done"""
+        """the tick of the latest change"""
         self.work = 0
-        """about how much work it would be to come here from the latest snapshot"""
+        """approximate work of a restore from the latest snapshot, in ticks"""
         self.counted_work = 0
-        """of its timeline's work, how much is in that"""
+        """how much of the timeline's work is counted in `work`"""
         branch = record.branch
         shared = branch and [branch.parent, branch.sequence, branch.tick, branch.standing, [*branch.instead]]
         begun = [record.id, dict(record.config), record.paused, shared]
         self.digest = _digest(b"", begun)
 
     def append(self, entry: EntryRecord) -> None:
-        """One more change is in the log."""
+        """Take in one more stored entry."""
         said = [entry.sequence, entry.tick, entry.text, [*entry.actions], entry.digest, entry.paused]
         self.digest = _digest(self.digest, said)
 
     def add_work(self, worked: int, entries: int) -> int:
-        """A timeline has come to have so much work in it, by so many changes; what is owed now."""
+        """Add the work of a timeline and of some entries; returns the work since the latest snapshot."""
         self.work += max(0, worked - self.counted_work) + ENTRY_WORK * entries
         self.counted_work = worked
         return self.work
 
     def commit(self, paused: bool, tick: int) -> None:
-        """A change was done."""
+        """Record the pause and the tick after a change."""
         self.paused, self.tick = paused, tick
 
 

@@ -15,6 +15,7 @@ from typing import Any
 from anyio import to_thread
 
 from service.problems import FieldProblem, Invalid, RecordingMismatch
+from service.resources import DEFAULT_LANGUAGE
 from service.sessions.fork import renumber
 from service.sessions.persistence.replay import ReplayError, replay
 from service.sessions.scheduler.offload import REPLAY_S, with_time_limit
@@ -39,7 +40,7 @@ async def replay_recording(session: Session, recording: Recording, services: Ses
     """Replay a recording on a new session. Raises `Invalid`, or `RecordingMismatch` for another digest."""
     try:
         most = services.settings.max_recording_ticks
-        work = partial(replay, session, services.narrator, recording.entries, recording.tick, most=most)
+        work = partial(replay, session, session.narrator, recording.entries, recording.tick, most=most)
         await to_thread.run_sync(with_time_limit(REPLAY_S, work))
     except ReplayError as error:
         at = error.position
@@ -77,7 +78,12 @@ def recording_json(session: Session, entries: Sequence[EntryRecord]) -> dict[str
         "entries": [_entry(entry) for entry in kept],
         "tick": session.timeline.tick,
         "digest": session.run.world.digest(),
-    }
+    } | recorded_language(session.language)
+
+
+def recorded_language(language: str) -> dict[str, str]:
+    """The part of a recording that names its language; the default is not named, as ever."""
+    return {} if language == DEFAULT_LANGUAGE else {"language": language}
 
 
 def _entry(entry: EntryRecord) -> dict[str, Any]:

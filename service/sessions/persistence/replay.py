@@ -1,8 +1,7 @@
-"""A kept session done again: what was said at its ticks, through the same draft as when it was said.
+"""Replays: the stored entries of a session, performed again by the same transactions.
 
-The log of a session keeps its latest lines only, so only those are put into words. Whatever else there is
-ends as it would have without a restart: the state, what can be undone, names, what "it" is. Leaves out what
-was said to nobody's lasting effect: questions, and lines that no entry made.
+The log keeps its latest lines only, so only those are put into words. All else is as without a restart: the
+state, what can be undone, bookmarks, the conversation. Questions and transient log lines are not restored.
 """
 
 from __future__ import annotations
@@ -37,9 +36,9 @@ if TYPE_CHECKING:
 
 
 class ReplayError(Exception):
-    """What was kept cannot be done again; `position` is that of the entry, or after the last of them.
+    """An entry that cannot be replayed; `position` is its index (the number of entries: the time after them).
 
-    `differs`: it can, but leads elsewhere than it once did.
+    `differs`: it can be replayed, but to another digest than it names.
     """
 
     def __init__(self, position: int, reason: Exception) -> None:
@@ -50,7 +49,7 @@ class ReplayError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class _Line:
-    """A line of the log that an entry made."""
+    """A line of the log that an entry wrote."""
 
     tick: int
     text: str
@@ -65,25 +64,25 @@ def replay(
     most: int | None = None,
     first: int | None = None,
 ) -> None:
-    """Do again what was done, and run on to `tick`; the session then stands paused.
+    """Replay entries on a session and run on to `tick`; the session is paused then.
 
-    It stands where it began, or with `first` where the entries before that have led to. It is one that nobody
-    else has yet; in any thread. Raises `ReplayError`, also where more than `most` ticks would have to be run:
-    with going back, they may be more than where it ends.
+    The session is new, or with `first` it is as the entries before that left it. Nobody else may have it;
+    runs in any thread. Raises `ReplayError`, also where more than `most` ticks would have to be run
+    (rewinding can make them more than the last tick).
     """
     Replay(session, narrator, session.log).replay_all(entries, tick, most, first)
     session.paused = True
 
 
 def replay_one(session: Session, narrator: NarratorProtocol, entry: EntryRecord) -> None:
-    """Do one kept utterance again. Raises `ProblemError`, or pydantic's `ValidationError`."""
+    """Replay one stored entry. Raises `ProblemError`, or pydantic's `ValidationError`."""
     again = Replay(session, narrator, session.log)
     again.replay_entry(entry, contract.load(entry.actions))
     again.write_log()
 
 
 class Replay:
-    """Does again what was done to a session that nobody else has yet; in any thread."""
+    """Replays entries on a session that nobody else has yet; in any thread."""
 
     def __init__(self, session: Session, narrator: NarratorProtocol, log: EventLog) -> None:
         self._session = session
@@ -119,10 +118,7 @@ class Replay:
     def _replay_shared(
         self, branch: Branch, entries: Sequence[EntryRecord], actions: Iterator[tuple[Action, ...]]
     ) -> int:
-        """Do what a fork has from its parent, and answer how many entries that is.
-
-        It is there from the beginning, so no line tells of it.
-        """
+        """Replay what a fork shares with its parent, without log lines; returns the number of entries."""
         timeline, common = self._session.timeline, 0
         for entry in takewhile(lambda each: each.sequence <= branch.sequence, entries):
             try:
@@ -144,7 +140,7 @@ class Replay:
         return common
 
     def replay_entry(self, entry: EntryRecord, said: tuple[Action, ...], *, held: bool = True) -> None:
-        """Do one kept utterance; `held`: the log will still hold a line of it. Raises `ProblemError`."""
+        """Replay one entry; `held`: the log will still hold a line of it. Raises `ProblemError`."""
         session = self._session
         if entry.tick < session.timeline.tick or entry.sequence != session.sequence + 1:
             raise Invalid(f"Entry {entry.sequence} at tick {entry.tick} is out of order.")
@@ -152,7 +148,11 @@ class Replay:
         if entry.paused is not None:
             session.paused = entry.paused
         transaction = Transaction(
-            session.timeline, session.paused, session.undo_stack, session.playback_speed
+            session.timeline,
+            session.paused,
+            session.undo_stack,
+            session.playback_speed,
+            session.language,
         )
         facts = transaction.perform(entry.sequence, said)
         before = session.run
@@ -179,7 +179,7 @@ class Replay:
                 self._add((event, run))
 
     def run_to(self, tick: int) -> None:
-        """Let time pass. Raises `ProblemError` where a planner does not answer in time."""
+        """Run ticks up to one. Raises `ProblemError` where a planner does not answer in time."""
         timeline = self._session.timeline
         while timeline.tick < tick:
             done = _advance(timeline)
@@ -220,7 +220,7 @@ def _advance(timeline: Timeline) -> StepResult:
 
 
 def _load_actions(entries: Sequence[EntryRecord]) -> Iterator[tuple[Action, ...]]:
-    """The actions of each entry, checked in one go; where one is bad, it raises at that one."""
+    """The actions of each entry, validated at once; a bad entry raises when its turn comes."""
     try:
         actions = iter(contract.load([action for entry in entries for action in entry.actions]))
     except ValidationError:

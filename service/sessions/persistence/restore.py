@@ -1,4 +1,4 @@
-"""A kept session made live again: from its snapshot if there is one that fits, else all of its log."""
+"""Restores a stored session: from its snapshot if that fits, else from its whole log."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from sim.session.timeline import Timeline
 _LOG = structlog.get_logger(__name__)
 
 LONG_ENTRIES = 1_000
-"""A log of so many changes may take seconds to be done again, which whoever runs the service is told."""
+"""A replay of so many entries may take seconds, so it is logged."""
 
 
 def restore(
@@ -26,10 +26,10 @@ def restore(
     snapshot: SnapshotRecord | None,
     services: SessionServices,
 ) -> tuple[Session, UnfitError | None]:
-    """The session, paused, and why its snapshot was not used if it was not; in any thread.
+    """The session, paused, and why its snapshot was not used (None if it was); in any thread.
 
-    Raises `ReplayError` where the log cannot be done again, `ConfigError` or `TypeError` for a configuration
-    that cannot be, `NewerRulesError` for one of rules that are not known here.
+    Raises `ReplayError` where the log cannot be replayed, `ConfigError` or `TypeError` for an invalid
+    configuration, `NewerRulesError` for rules of a newer version.
     """
     unfit: UnfitError | None = None
     if snapshot is not None:
@@ -44,7 +44,7 @@ def restore(
         said = "a session is done again from all of its log; whoever asked for it waits, nobody else"
         _LOG.info(said, session=record.id, entries=len(entries), reason=why)
     session = Session(record, Timeline(saved_config(record.config)), services)
-    replay(session, services.narrator, entries, record.tick)
+    replay(session, session.narrator, entries, record.tick)
     return session, unfit
 
 
@@ -55,5 +55,5 @@ def _restore_snapshot(
     session = Session(record, frozen.timeline, services)
     frozen.apply_to(session)
     session.log_position.counted_work = frozen.timeline.worked
-    replay(session, services.narrator, entries, record.tick, first=position)
+    replay(session, session.narrator, entries, record.tick, first=position)
     return session

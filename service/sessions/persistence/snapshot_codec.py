@@ -1,105 +1,38 @@
-"""A whole session as one value, and that as JSON values and back.
-
-All that a replay of its log would come to: the present, the past with what makes every tick of it near, what
-can be undone and redone, moments with a name, what "it" is, the latest lines. Taking the value is quick and
-done where the session lives; what it is made of never changes, so writing it is for any thread. Leaves out
-what a restart does away with: passing lines, talk that was kept nowhere, watchers.
-"""
+"""Encodes session snapshots as JSON values, and decodes them. For any thread."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import chain
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from service import actions as contract
 from service.sessions.bookmarks import Bookmark
 from service.sessions.conversation import Conversation
 from service.sessions.log import LogEvent
+from service.sessions.persistence.session_snapshot import SessionSnapshot
 from service.sessions.rewind import TimeJump
-from service.sessions.scheduler.playback_speed import PlaybackSpeed
 from service.sessions.undo_stack import UndoStack, UndoStep
 from sim.actions import WorldAction
 from sim.session.persistent_list import PersistentList
 from sim.session.serialization import Packer, Pool, Unpacker
 from sim.session.timeline import Entry, Snapshot, Timeline
 
-if TYPE_CHECKING:
-    from service.sessions.session import Session
-
 MAX_STATES = 1_024
-"""States on the way of all timelines together; of those beside the present one fewer are written then."""
+"""Largest number of intermediate states; timelines beside the present one are thinned to fit."""
 
 ACTIONS_PER_CALL = 500
-"""Actions written at once: nothing else is done meanwhile, not even in other threads."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SessionSnapshot:
-    """A session as its log has it, at one moment."""
-
-    session: str
-    sequence: int
-    log_digest: bytes
-    changed_at: int
-    """the tick at which the latest change was done"""
-    paused: bool
-    playback_speed: PlaybackSpeed
-    timeline: Timeline
-    undo_stack: UndoStack
-    partial_changes: frozenset[int]
-    conversation: Conversation
-    last_line: int
-    lines: Sequence[LogEvent]
-
-    @staticmethod
-    def take(session: Session) -> SessionSnapshot:
-        """A session as it is now; for its own thread."""
-        last, lines = session.log.durable_lines()
-        return SessionSnapshot(
-            session=session.id,
-            sequence=session.sequence,
-            log_digest=session.log_position.digest,
-            changed_at=session.log_position.tick,
-            paused=session.log_position.paused,
-            playback_speed=session.playback_speed,
-            timeline=session.timeline.copy(),
-            undo_stack=session.undo_stack.copy(),
-            partial_changes=frozenset(session.partial_changes),
-            conversation=session.conversation.durable,
-            last_line=last,
-            lines=lines,
-        )
-
-    def apply_to(self, session: Session) -> None:
-        """Make this of a new session, as its log has it."""
-        session.sequence, session.playback_speed, session.paused = (
-            self.sequence,
-            self.playback_speed,
-            self.paused,
-        )
-        session.timeline, session.undo_stack, session.partial_changes = (
-            self.timeline,
-            self.undo_stack,
-            set(self.partial_changes),
-        )
-        session.conversation = self.conversation
-        session.log_position.commit(self.paused, self.changed_at)
-        session.log_position.digest = self.log_digest
-        session.log.skip(self.last_line - len(self.lines))
-        for line in self.lines:
-            session.log.add(line.tick, line.type, line.text, line.ids, line.cell)
+"""Actions dumped in one call, which holds the interpreter lock."""
 
 
 def encode(frozen: SessionSnapshot, thinned: int = 1) -> tuple[dict[str, Any], set[str]]:
-    """It as JSON values, with one of so many states on the way, and the planners that drive in it."""
+    """A snapshot as JSON values, with one of `thinned` intermediate states, and its planners."""
     writing = _Encoder(frozen, thinned)
     return writing.values, writing.packer.planners()
 
 
 class _Encoder:
-    """Numbers for what is shared: entries of logs, the logs, states, timelines."""
+    """Numbers shared parts, so that each is written once: entries, logs, states and timelines."""
 
     def __init__(self, frozen: SessionSnapshot, thinned: int) -> None:
         self.packer = Packer()
@@ -144,7 +77,7 @@ class _Encoder:
         }
 
     def _gap_beside(self, beside: Iterable[Timeline]) -> int:
-        """One of how many states is written of what is beside the present timeline, so that all have room."""
+        """One of how many states to write of timelines other than the present one, so that all fit."""
         others = {id(each) for timeline in beside for each in timeline.parts()[3]} - self._main
         room, gap = max(1, MAX_STATES - len(self._main)), self._thinned
         while len(others) > room * gap:
@@ -152,7 +85,7 @@ class _Encoder:
         return gap
 
     def _encode_logs(self, timelines: Sequence[Timeline]) -> tuple[dict[int, int], list[Any]]:
-        """Each list that logs are beginnings of: how much is as in the one before, and what follows."""
+        """The distinct logs, each as the length of the prefix it shares with the one before, and the rest."""
         most: dict[int, int] = {}
         lists: dict[int, Sequence[Entry]] = {}
         log: Sequence[Entry]
@@ -215,7 +148,7 @@ def _ascii(moves: bytes) -> str:
 
 
 def _entries(entries: Sequence[Entry]) -> list[Any]:
-    """Sequences, ticks, which action each is, and the actions, each once."""
+    """Sequences, ticks, which action each entry has, and the distinct actions."""
     numbers: dict[str, int] = {}
     actions: list[Any] = []
     which = []
@@ -231,9 +164,9 @@ def _entries(entries: Sequence[Entry]) -> list[Any]:
 
 
 def decode(values: Mapping[str, Any], session: str) -> SessionSnapshot:
-    """What was written.
+    """The snapshot from JSON values.
 
-    Raises `ValueError`, `TypeError` or `LookupError` for what cannot be read.
+    Raises `ValueError`, `TypeError` or `LookupError` for invalid values.
     """
     states = Unpacker(values["states"])
     sequences, ticks, which, dumped = values["entries"]
@@ -302,7 +235,7 @@ def decode(values: Mapping[str, Any], session: str) -> SessionSnapshot:
 
 
 def _common_prefix_length(one: Sequence[Entry], other: Sequence[Entry]) -> int:
-    """How many entries both begin with."""
+    """The number of entries that both begin with."""
     low, high = 0, min(len(one), len(other))
     while low < high:  # whole slices: comparing them is quick where they are the same objects
         middle = (low + high + 1) // 2
@@ -314,7 +247,7 @@ def _common_prefix_length(one: Sequence[Entry], other: Sequence[Entry]) -> int:
 
 
 def _encode_runs(numbers: Sequence[int]) -> list[int]:
-    """Numbers as stretches of such that follow each other: the first of each, and how many."""
+    """Numbers as runs of consecutive ones: the first of each run, and its length."""
     stretches: list[int] = []
     for number in numbers:
         if stretches and number == stretches[-2] + stretches[-1]:

@@ -1,8 +1,8 @@
-"""When snapshots of sessions are made: rarely, beside everything else, and never waited for.
+"""The snapshot scheduler: decides when to take snapshots, and saves them in the background.
 
-After a change that makes coming back long, when a session goes to sleep or the service stops, and when one
-came back the long way. What it was is taken down at once, which is quick; it is written in a thread and
-stored later, one session after the other. Where that fails nobody is told but the log, and that once.
+A snapshot is taken after a change that makes a restore slow, when a session is evicted, when the service
+stops, and when a session was restored without one. Taking it is quick; it is encoded in a thread and stored
+later, one session after another. A failure is logged once and affects restore time only.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from typing import Literal
 import structlog
 from anyio import to_thread
 
-from service.sessions.persistence.snapshot_codec import SessionSnapshot
+from service.sessions.persistence.session_snapshot import SessionSnapshot
 from service.sessions.persistence.snapshots import TooLargeError, UnfitError, pack
 from service.sessions.session import Session
 from service.settings import Settings
@@ -26,26 +26,26 @@ from service.store import SnapshotRecord, Store, StoreError
 _LOG = structlog.get_logger(__name__)
 
 DELAY_S = 0.25
-"""How long is waited before each: what came just before has others to serve."""
+"""Pause before each snapshot, so that requests go first."""
 
 ENTRIES_PER_WORK = 2
-"""One work for so many entries: writing a long log takes as long as that."""
+"""Encoding so many entries of a log takes as long as one tick of work."""
 
 THINGS_PER_DOUBLING = 100
-"""A road with so many things on it takes twice as long as an empty one."""
+"""A road with so many things takes twice as long to simulate as an empty one."""
 
 MAX_DUE = 64
-"""Sessions whose snapshot is waiting to be written: each is held in memory as it was."""
+"""Largest number of pending snapshots, each of which holds a session in memory."""
 
 REMOVE_FRACTION = 4
-"""Of the work after which one is kept, one part of so many is enough where the session is let go of."""
+"""At an eviction, this fraction of the interval is enough for a snapshot (one in so many)."""
 
 SnapshotResult = Literal["kept", "used", "unfit", "failed"]
 SNAPSHOT_RESULTS: tuple[SnapshotResult, ...] = ("kept", "used", "unfit", "failed")
 
 
 class SnapshotScheduler:
-    """Keeps snapshots of the sessions of one service."""
+    """Takes and saves snapshots of the sessions of one service."""
 
     def __init__(self, store: Store, settings: Settings) -> None:
         self._store = store
@@ -57,32 +57,32 @@ class SnapshotScheduler:
         self._hurry = asyncio.Event()
         self._said = False
         self.counts: Counter[SnapshotResult] = Counter()
-        """what became of snapshots"""
+        """snapshots by result"""
 
     def add(self, session: Session) -> None:
-        """A session is live from now on."""
+        """Begin to watch a live session."""
         session.after_change = self._on_change
         position = session.log_position
         if position.add_work(session.timeline.worked, 0) >= self._interval_of(session):
-            self._take(session)
+            self.take(session)
 
     def add_fork(self, session: Session) -> None:
-        """A session is live from now on, and has no snapshot of what it shares."""
+        """Begin to watch a fork, which has no snapshot of the part that it shares."""
         session.log_position.work = session.timeline.work_since(0)
         session.log_position.counted_work = session.timeline.worked
         self.add(session)
 
     def remove(self, session: Session) -> None:
-        """A session is let go of; where its clock stands is stored."""
+        """Take a last snapshot of an evicted session, if its restore would take long."""
         if self._work_of(session) * REMOVE_FRACTION >= self._interval_of(session):
-            self._take(session)
+            self.take(session)
 
     def forget(self, session_id: str) -> None:
-        """A session is no more."""
+        """Drop the pending snapshot of a deleted session."""
         self._due.pop(session_id, None)
 
     async def find(self, session_id: str) -> SnapshotRecord | None:
-        """The snapshot of a session, if there is one that can be had."""
+        """The stored snapshot of a session, if there is one that can be read."""
         try:
             return await self._store.snapshot(session_id)
         except StoreError as error:
@@ -90,27 +90,27 @@ class SnapshotScheduler:
             return None
 
     def record_use(self, session_id: str, unfit: UnfitError | None) -> None:
-        """A snapshot was used for a session that came back; or it did not fit."""
+        """Count a snapshot as used, or as unfit with the reason."""
         if unfit is None:
             self.counts["used"] += 1
         else:
             self._record_unfit(session_id, unfit)
 
     async def flush(self) -> None:
-        """Keep what is to be kept, now."""
+        """Save all pending snapshots now."""
         await self._save_all(within_s=60.0)
         self._until_s = None
         self._hurry.clear()
 
     async def close(self, sessions: Iterable[Session], within_s: float) -> None:
-        """Keep what there is time for, of those that owe most first. Where clocks stand is stored."""
+        """Save what there is time for, sessions with the most work first. Their ticks are stored already."""
         self._until_s = time.monotonic() + within_s
         for session in sorted(sessions, key=self._work_of, reverse=True):
             self.remove(session)
         await asyncio.wait([asyncio.ensure_future(self._save_all(within_s))], timeout=2 * within_s)
 
     async def _save_all(self, within_s: float) -> None:
-        """Keep at once what waits, as far as there is time for it."""
+        """Save pending snapshots at once, within a time."""
         self._until_s = time.monotonic() + within_s
         self._hurry.set()
         if self._worker is not None:
@@ -121,16 +121,17 @@ class SnapshotScheduler:
         return session.log_position.add_work(session.timeline.worked, 0)
 
     def _interval_of(self, session: Session) -> float:
-        """After how much work a snapshot of it is worth its while."""
+        """The work after which a snapshot of a session pays."""
         world = session.run.world
         slow = 1 + (len(world.movers) + len(world.hazards)) / THINGS_PER_DOUBLING
         return max(self._interval / slow, len(session.timeline.entries) / ENTRIES_PER_WORK)
 
     def _on_change(self, session: Session) -> None:
         if session.log_position.add_work(session.timeline.worked, 1) >= self._interval_of(session):
-            self._take(session)
+            self.take(session)
 
-    def _take(self, session: Session) -> None:
+    def take(self, session: Session) -> None:
+        """Take a snapshot now and queue it to be saved, unless the queue is full."""
         if len(self._due) >= MAX_DUE and session.id not in self._due:
             return  # with the next change, or never: it is only a shortcut
         session.log_position.work = 0
@@ -184,6 +185,6 @@ class SnapshotScheduler:
 
 
 def _estimate_s(frozen: SessionSnapshot) -> float:
-    """About how long one takes to be written and stored."""
+    """The estimated time to encode and store a snapshot, in seconds."""
     entries = len(frozen.timeline.entries) + len(frozen.undo_stack.done)
     return 0.01 + 4e-6 * entries + 1e-4 * len(frozen.timeline.parts()[3])

@@ -1,10 +1,9 @@
-"""What a session's log comes to, kept so that coming back takes less than doing it all again.
+"""Snapshot records: packed snapshots, and the checks before one is used.
 
-Only ever a shortcut: a snapshot is used where everything about it fits, and ignored otherwise. It must be
-whole (a checksum), of this session, of this very program (`version`: the sources of the rules and of
-sessions are part of it), made of the log as it is in the store now (the trail), lead to the world that the
-log itself names, and stand no later than what is still to be done. What follows it in the log is
-done again, and checked, like in any replay.
+A snapshot only saves time: it is used where everything about it fits, and ignored otherwise. It must be whole
+(checksum), of this session, of this very program (`version`: a digest of the sources of the rules and of
+sessions), made from the log that is in the store now (the log digest), lead to the world that the log names,
+and not be later than the entries that follow. Those entries are replayed and checked like in any replay.
 """
 
 from __future__ import annotations
@@ -23,7 +22,8 @@ import orjson
 from pydantic import ValidationError
 
 from service.sessions.persistence.log_position import LogPosition
-from service.sessions.persistence.snapshot_codec import SessionSnapshot, decode, encode
+from service.sessions.persistence.session_snapshot import SessionSnapshot
+from service.sessions.persistence.snapshot_codec import decode, encode
 from service.store import EntryRecord, SessionRecord, SnapshotRecord
 from service.version import VERSION
 from sim.plan.safe_planning import is_foreign
@@ -32,10 +32,10 @@ from sim.session.saved_config import saved_config
 from sim.session.serialization import BeliefError
 
 FORMAT = 2
-"""Of the JSON values."""
+"""Version of the JSON values."""
 
 MAX_BYTES = 4_000_000
-"""Of one snapshot; where it would be more, fewer states on the way are in it."""
+"""Largest packed snapshot; larger ones get fewer intermediate states."""
 
 MAX_PLAIN_BYTES = 200_000_000
 
@@ -61,12 +61,12 @@ class UnfitError(Exception):
 
 
 class TooLargeError(Exception):
-    """A session that no snapshot is made of."""
+    """A session that is too large for a snapshot."""
 
 
 @cache
 def version() -> str:
-    """Of the form, and of the program: worlds of other rules are other worlds."""
+    """The version of the format and of the program's sources, since worlds of other rules differ."""
     digest = blake2b(VERSION.encode(), digest_size=16)
     for pattern in _SOURCES:
         for path in sorted(_ROOT.glob(pattern)):
@@ -75,7 +75,7 @@ def version() -> str:
 
 
 def pack(frozen: SessionSnapshot, lines: int) -> SnapshotRecord:
-    """A snapshot of a session whose log holds so many lines. Raises `TooLargeError`; in any thread."""
+    """The record of a snapshot, for a log of so many lines. Raises `TooLargeError`; in any thread."""
     thinned = 1
     while True:
         try:
@@ -107,7 +107,7 @@ def pack(frozen: SessionSnapshot, lines: int) -> SnapshotRecord:
 def unpack(
     snapshot: SnapshotRecord, record: SessionRecord, entries: Sequence[EntryRecord], lines: int
 ) -> tuple[SessionSnapshot, int]:
-    """What a session with this log was, and how many entries that is. Raises `UnfitError`; in any thread."""
+    """The snapshot in a record, and the number of entries it covers. Raises `UnfitError`; in any thread."""
     if snapshot.session != record.id or snapshot.version != version():
         raise UnfitError("it is of another session, or made by another version")
     parts = (snapshot.session, snapshot.sequence, snapshot.tick, snapshot.version)
@@ -131,7 +131,7 @@ def unpack(
 def _position(
     snapshot: SnapshotRecord, record: SessionRecord, entries: Sequence[EntryRecord], trail: str
 ) -> int:
-    """How many of the entries it is made of."""
+    """The number of entries that the snapshot was made from."""
     shared = 0 if record.branch is None else record.branch.sequence
     log_position, position = LogPosition(record), 0
     for entry in takewhile(lambda each: each.sequence <= snapshot.sequence, entries):
@@ -149,7 +149,7 @@ def _position(
 def _check(
     frozen: SessionSnapshot, snapshot: SnapshotRecord, record: SessionRecord, last: EntryRecord | None
 ) -> None:
-    """Raise `UnfitError` where it does not end where the log does, as far as the log tells."""
+    """Raise `UnfitError` unless the snapshot leads to the state that the log names."""
     config = saved_config(record.config)
     if frozen.timeline.tick != snapshot.tick or frozen.timeline.config != config:
         raise UnfitError("it is of another moment, or another road")
@@ -161,7 +161,7 @@ def _check(
 
 
 def _foreign(planners: Iterable[str]) -> dict[str, str]:
-    """Those of other packages, each with the version of its package."""
+    """The planners of other packages, each with the version of its package."""
     return {name: _version_of(name) for name in sorted(planners) if is_foreign(name)}
 
 

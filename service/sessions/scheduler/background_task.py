@@ -1,7 +1,7 @@
-"""Work that would hold up the clock, done in a thread and taken back in its place.
+"""A background task that runs in a thread, with its result taken in order.
 
-What is owed is taken as soon as it is done, or before anything else that asks for it first: so whatever is
-written after it was begun comes after it, live as in a replay that never does anything beside.
+The result is taken as soon as it is there, or when `finish` is called before something else is written: what
+is written after the task began comes after its result, live as in a replay that uses no threads.
 """
 
 from __future__ import annotations
@@ -18,15 +18,15 @@ _WORKERS = ThreadPoolExecutor(max_workers=1, thread_name_prefix="later")
 
 
 class BackgroundTask(Generic[Result]):
-    """At most one piece of work under way."""
+    """At most one piece of work at a time."""
 
     def __init__(self, take: Callable[[Result], None]) -> None:
-        """`take`: given each result, on the event loop's thread."""
+        """`take`: called with each result, on the event loop's thread."""
         self._on_result = take
         self._future: Future[Result] | None = None
 
     def start(self, work: Callable[[], Result]) -> None:
-        """Do this in a thread; needs a running loop."""
+        """Run work in a thread; needs a running loop."""
         self.finish()
         loop = asyncio.get_running_loop()
 
@@ -39,11 +39,11 @@ class BackgroundTask(Generic[Result]):
 
     @property
     def busy(self) -> bool:
-        """Whether work is under way, so that `settle` would have to wait."""
+        """Whether work is under way, so that `finish` would block."""
         return self._future is not None and not self._future.done()
 
     def finish(self) -> None:
-        """Take what is owed, waiting for it if it is not done yet."""
+        """Take the result of the work, blocking until it is there."""
         owed, self._future = self._future, None
         if owed is not None:
             self._on_result(owed.result())

@@ -15,52 +15,52 @@ SLOT_S = 0.002
 
 
 class Ticker(Protocol):
-    """Something that lives by ticks."""
+    """Something that is ticked."""
 
     @property
     def period_s(self) -> float:
-        """Seconds from one tick to the next; up to `SLOT_S` means as often as can be."""
+        """Seconds from one tick to the next; up to `SLOT_S` means as often as possible."""
 
     def tick(self) -> None:
-        """One tick, quick and without waiting."""
+        """Run one tick; quick and without waiting."""
 
     def tick_failed(self, error: Exception) -> None:
-        """Told when `tick` raised; the ticker is off the clock by then."""
+        """Called when `tick` raised; the ticker is off the clock by then."""
 
 
 class TickOutput(Protocol):
-    """What a ticker has to tell, where it can be told after others have ticked as well."""
+    """The messages of a ticker, which can be sent after other tickers have ticked."""
 
     def hold(self) -> None:
-        """What the next tick has to tell waits for `make` and `send`."""
+        """Hold back the messages of the next tick."""
 
     def encode(self) -> None:
-        """Make what was held ready."""
+        """Encode the messages held back."""
 
     def send(self) -> None:
-        """Tell it."""
+        """Send the encoded messages."""
 
 
 class Clock(Protocol):
-    """What sessions need of a clock; tests use one moved by hand."""
+    """The clock that sessions need."""
 
     def start(self) -> None:
-        """Begin to serve deadlines; needs a running loop."""
+        """Begin to tick; needs a running loop."""
 
     def stop(self) -> None:
-        """Serve no more."""
+        """Stop ticking."""
 
     def add(self, ticker: Ticker) -> None:
-        """Tick it every period, first one period from now, or some later where many are due then.
+        """Tick a ticker every period, first one period from now, or a little later where many are due then.
 
-        Once there, adding again is no matter.
+        Adding it twice is the same as once.
         """
 
     def remove(self, ticker: Ticker) -> None:
-        """Tick it no more. Unknown tickers are no matter."""
+        """Stop ticking a ticker; an unknown one is ignored."""
 
     def lateness(self) -> Lateness:
-        """How punctual the latest ticks were."""
+        """How late the latest ticks were."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +74,7 @@ class Lateness:
 
     @staticmethod
     def from_samples(samples_s: Sequence[float]) -> Lateness:
-        """The figures of some ticks' lateness in seconds."""
+        """The figures of samples in seconds."""
         if not samples_s:
             return Lateness(0, 0.0, 0.0, 0.0)
         ordered = sorted(samples_s)

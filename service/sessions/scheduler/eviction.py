@@ -1,9 +1,9 @@
-"""Sessions that nobody needs sleep: they are let go from memory, and come back when they are asked for.
+"""Eviction: drops idle sessions from memory.
 
-All that a session is stands in the store, so letting go is to remember where its clock stood, and waking
-is what happens after a restart: the same ids, sequence and digest, paused. It befalls sessions that are
-paused (or running too, where the setting says so), that nobody watches, and that nobody has asked for
-in a while. Leaves out lines of the log that no entry made: they are forgotten.
+A session is wholly stored, so evicting it means storing its tick, and restoring it is what happens after a
+restart: the same ids, sequence and digest, paused. Sessions are evicted that are paused (running ones too,
+where the setting says so), have no subscribers and were not asked for in a while. Transient lines of the log
+are lost.
 """
 
 from __future__ import annotations
@@ -20,33 +20,33 @@ from service.store import StoreError
 _LOG = structlog.get_logger(__name__)
 
 CHECKS_PER_TIMEOUT = 4
-"""How often it is looked in the time after which a session sleeps."""
+"""Number of checks in the time after which a session is evicted."""
 
 
 class IdleTimes:
-    """When each session was last asked for, by a clock that never runs backwards."""
+    """When each session was last used, by a monotonic clock."""
 
     def __init__(self, now: Callable[[], float] = time.monotonic) -> None:
         self.now = now
         self._used_s: dict[str, float] = {}
 
     def touch(self, session_id: str) -> None:
-        """It was asked for just now."""
+        """Record that a session is used now."""
         self._used_s[session_id] = self.now()
 
     def forget(self, session_id: str) -> None:
-        """It is no more, or asleep."""
+        """Forget a session that was deleted or evicted."""
         self._used_s.pop(session_id, None)
 
     def idle_s(self, session: Session) -> float:
-        """How long nobody has needed it; whoever watches or is being answered does."""
+        """Seconds since the session was last used; one with subscribers or work under way is in use."""
         if len(session.subscribers) or session.busy:
             self.touch(session.id)
         return self.now() - self._used_s.setdefault(session.id, self.now())
 
 
 class Evictor:
-    """Puts sessions to sleep that have been idle for `after_s`."""
+    """Evicts sessions that have been idle for `after_s`."""
 
     def __init__(
         self,
@@ -65,17 +65,17 @@ class Evictor:
         self._running = running
 
     def is_evictable(self, session: Session) -> bool:
-        """Whether nobody would miss it."""
+        """Whether the session is idle and may be evicted."""
         idle_s = self._idleness.idle_s(session)
         return idle_s >= self._after_s and (session.paused or self._running)
 
     async def evict_idle(self) -> int:
-        """Look once; how many went to sleep."""
+        """Evict idle sessions once; returns how many."""
         idle = [session for session in self._live() if self.is_evictable(session)]
         return await self._evict(idle, self.is_evictable) if idle else 0
 
     async def run(self) -> None:
-        """Look every now and then, until cancelled."""
+        """Evict idle sessions from time to time, until cancelled."""
         while True:
             await asyncio.sleep(self._after_s / CHECKS_PER_TIMEOUT)
             try:

@@ -1,7 +1,7 @@
-"""A live session's next move, where a planner of another package decides it.
+"""External planners: asks a planner of another package for a live session's next move.
 
-It is asked for, and taken when it is there: the event loop never waits. Until then the session does not tick,
-and everything else goes on. An answer to a state that is no longer the present one is dropped.
+The event loop never waits for the answer: until it is there the session does not tick, and everything else
+goes on. An answer for a state that is no longer the present one is dropped.
 """
 
 from __future__ import annotations
@@ -25,17 +25,17 @@ class ExternalPlanner:
     """At most one question under way."""
 
     def __init__(self, take: Callable[[SimState, Decision], None]) -> None:
-        """`take`: given each decision with the state that was asked about, on the event loop's thread."""
+        """`take`: called with the state that was asked about and the decision, on the event loop's thread."""
         self._on_decision = take
         self._asked: Future[Answer] | None = None
 
     @property
     def busy(self) -> bool:
-        """Whether an answer is waited for."""
+        """Whether an answer is awaited."""
         return self._asked is not None
 
     def ask(self, run: SimState) -> bool:
-        """Ask what a state leads to, if another package's planner is to say; needs a running loop."""
+        """Ask for the decision in a state if an external planner takes it; needs a running loop."""
         if not is_external_turn(run):
             return False
         percept, loop = sense(run)[0], asyncio.get_running_loop()
@@ -50,7 +50,7 @@ class ExternalPlanner:
         return True
 
     def cancel(self) -> None:
-        """Whatever is answered yet is not taken."""
+        """Drop the answer that is awaited."""
         self._asked = None
 
     def _on_answer(self, asked: Future[Answer], run: SimState, percept: Percept) -> None:
@@ -60,7 +60,7 @@ class ExternalPlanner:
 
 
 def is_external_turn(run: SimState) -> bool:
-    """Whether a planner of another package decides the next move."""
+    """Whether a planner of another package takes the next decision."""
     by_hand = bool(run.queue) or run.mode is Mode.MANUAL
     alone = len(run.world.avs) == 1  # of several egos one decides after the other
     return alone and not by_hand and run.world.outcome is Outcome.RUNNING and is_foreign(run.config.planner)

@@ -1,7 +1,7 @@
-"""Work for which planners of other packages may be asked: beside the event loop, and for a limited time.
+"""Runs work in threads, with a time limit for planners of other packages.
 
-Where such a planner is asked many times, as for an explanation, the work has threads of its own, so that slow
-planners hold up each other and nobody else. All of a piece of work has one time for their answers.
+Work that may ask such a planner many times, such as an explanation, has threads of its own, so that slow
+planners delay each other and nobody else. One piece of work has one time limit for all their answers.
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ from sim.planner_names import installed
 from sim.session.timeline import Timeline
 
 QUESTION_S: Final = 10.0
-"""How long foreign planners are waited for, in all, for the answer to a question."""
+"""Time limit for planners of other packages in all, for a question."""
 STEPS_S: Final = 60.0
-"""The same for steps, and for what is undone or made again."""
+"""The same for steps, undo and redo."""
 REPLAY_S: Final = 120.0
-"""The same for a session that comes back."""
+"""The same for the replay of a session."""
 THREADS: Final = 4
 
 Result = TypeVar("Result")
@@ -34,7 +34,7 @@ _THREADS = ThreadPoolExecutor(max_workers=THREADS, thread_name_prefix="foreign")
 
 
 async def run_in_thread(foreign: bool, seconds: float, work: Callable[[], Result]) -> Result:
-    """What the work results in, done in a thread; `foreign`: a planner of another package will be asked."""
+    """The result of work in a thread; `foreign`: a planner of another package will be asked."""
     patient = with_time_limit(seconds, work)
     if not foreign:
         return await to_thread.run_sync(patient)
@@ -42,7 +42,7 @@ async def run_in_thread(foreign: bool, seconds: float, work: Callable[[], Result
 
 
 def with_time_limit(seconds: float, work: Callable[[], Result]) -> Callable[[], Result]:
-    """The work, with foreign planners waited for so long in all."""
+    """The work, with so many seconds in all for planners of other packages."""
 
     def done() -> Result:
         with time_limit(seconds):
@@ -52,11 +52,11 @@ def with_time_limit(seconds: float, work: Callable[[], Result]) -> Callable[[], 
 
 
 def uses_external_planner(timeline: Timeline) -> bool:
-    """Whether a question about a timeline is one for a planner of another package."""
+    """Whether a question about a timeline asks a planner of another package."""
     return is_foreign(timeline.state.config.planner) or is_foreign(timeline.config.planner)
 
 
 def names_external_planner(actions: Iterable[Action]) -> bool:
-    """Whether one of these chooses a planner of another package."""
+    """Whether one of the actions selects a planner of another package."""
     chosen = (getattr(action, key, None) for action in actions for key in ("planner", "value"))
     return any(isinstance(each, str) and each in installed() for each in chosen)

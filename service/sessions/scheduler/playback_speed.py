@@ -1,8 +1,8 @@
-"""How fast the clock plays a session: from a quarter of real time to as fast as possible.
+"""Playback speed: how fast the clock plays a session, from a quarter of real time to as fast as possible.
 
-Like pause it is about the clock and no world: no digest knows it, and it is no step to undo. It is
-said by an action like any other, so it stands in the log, and comes back with it after a restart, in
-a fork and in a recording. Leaves out `step_seconds`, which is how long a tick is in the world.
+Like a pause it concerns the clock and no world: it is in no digest and is no step of undo. It is set by an
+action, so it is in the log and is restored after a restart, in a fork and from a recording. `step_seconds` is
+another thing: the length of a tick in the world.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from typing import Final, Literal, TypeAlias
 from sim.actions import Adjust, Set
 
 PlaybackSpeed: TypeAlias = float | Literal["max"]
-"""Simulated seconds in a second, or as many as there is time for."""
+"""Simulated seconds per second, or as many as there is time for."""
 
 SLOWEST: Final = 0.25
 FASTEST: Final = 64.0
@@ -25,17 +25,17 @@ NORMAL: Final = 1.0
 MAX: Final = "max"
 
 SHORTEST_TURN_S: Final = 0.004
-"""Ticks that follow each other sooner than this are taken several in a turn of the clock."""
+"""Shortest turn of the clock: at higher speeds a turn has several ticks."""
 MAX_TURN_TICKS: Final = 8
-"""As fast as possible is this many ticks a turn at most, half of what a watcher's slot holds."""
+"""Largest number of ticks of a turn at `max` speed, half of a subscriber's queue."""
 MAX_TURN_S: Final = 0.001
-"""How long a turn of as fast as possible may hold the clock; the tick that was begun is finished."""
+"""Time limit of a turn at `max` speed; a tick that began is finished."""
 MAX_PERIOD_S: Final = 0.002
-"""From one such turn to the next: half of the time at least is the others'."""
+"""Time between turns at `max` speed, at least half of which is for other sessions."""
 
 
 class PlaybackSpeedError(Exception):
-    """A speed that cannot be: a code with a sentence in `refusals.yaml`; `field` is that of the action."""
+    """An impossible speed: a code with a sentence in `refusals.yaml`; `field` is that of the action."""
 
     def __init__(self, code: str, field: str, **facts: object) -> None:
         super().__init__(code)
@@ -46,7 +46,7 @@ class PlaybackSpeedError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class PlaybackSpeedSet:
-    """The clock was set to another speed, or to the one it had, at a tick."""
+    """Fact: the playback speed was set (perhaps to what it was), at a tick."""
 
     before: PlaybackSpeed
     after: PlaybackSpeed
@@ -54,7 +54,7 @@ class PlaybackSpeedSet:
 
 
 def change_playback_speed(speed: PlaybackSpeed, action: Set | Adjust) -> PlaybackSpeed:
-    """The speed once an action is done. Raises `PlaybackSpeedError`."""
+    """The speed after an action. Raises `PlaybackSpeedError`."""
     if isinstance(action, Set):
         if action.value == MAX:
             return MAX
@@ -82,7 +82,7 @@ def period_s(speed: PlaybackSpeed, step_seconds: float) -> float:
 
 
 def ticks_of_turn(speed: PlaybackSpeed, step_seconds: float) -> Iterable[object]:
-    """Once for each tick of one turn; as fast as possible ends when the turn has become long."""
+    """An iterable with one item for each tick of a turn; at `max` speed it ends after a time limit."""
     return _max_speed_turn() if speed == MAX else range(_ticks_a_turn(speed, step_seconds))
 
 
@@ -95,13 +95,8 @@ def _max_speed_turn() -> Iterator[None]:
 
 
 def is_accelerated(speed: PlaybackSpeed) -> bool:
-    """Whether ticks come sooner than in real time."""
+    """Whether ticks come faster than in real time."""
     return speed == MAX or float(speed) > NORMAL
-
-
-def format_speed(speed: PlaybackSpeed) -> str:
-    """A speed for people: `4×`."""
-    return "as fast as possible" if speed == MAX else f"{float(speed):g}×"
 
 
 @lru_cache(maxsize=256)

@@ -1,9 +1,9 @@
-"""What a session tells, made and sent at once; or, in a turn of the clock, stage by stage.
+"""Tick batches: the messages of a session's ticks, sent at once or stage by stage.
 
-Sessions that are due together are ticked one after the other, then all their messages are made, then all are
-sent. A processor that goes on doing one kind of thing does it in four fifths of the time: what it needs for
-that stays at hand. Nothing else happens in between, and each session tells all in its order. Leaves out
-when the stages are: the clock knows that.
+Sessions that are due together are ticked one after another, then all their messages are encoded, then all are
+sent. Doing one kind of work at a time takes four fifths of the time, since its code and data stay in the
+processor's caches. Nothing else happens in between, and each session sends its messages in order. The clock
+decides when the stages run.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from service.sessions.subscribers import StreamMessage, Subscribers
 
 
 class TickBatch:
-    """What one session has not told yet. Empty whenever no turn of the clock is under way."""
+    """The messages of one session that are not sent yet; empty outside a turn of the clock."""
 
     __slots__ = ("_encoded", "_holding", "_pending", "_subscribers")
 
@@ -25,24 +25,24 @@ class TickBatch:
         self._encoded: list[StreamMessage] = []
 
     def hold(self) -> None:
-        """Ticks are not told until `make` and `send` are called."""
+        """Hold back ticks until `encode` and `send` are called."""
         self._holding = True
 
     def publish_tick(self, tick: int, encode: Callable[[], bytes]) -> None:
-        """Tell of a tick, now or when its stage comes."""
+        """Publish a tick, at once or in its stage."""
         if self._holding:
             self._pending.append((tick, encode))
         else:
             self._subscribers.publish(tick, encode)
 
     def publish_now(self, tick: int, encode: Callable[[], bytes]) -> None:
-        """Tell of something else at once, after all that is not told yet."""
+        """Publish another message at once, after all that is held back."""
         self.encode()
         self.send()
         self._subscribers.publish(tick, encode)
 
     def encode(self) -> None:
-        """Make the messages of what was held. Raises what making one raises; those before it are made."""
+        """Encode the messages held back. Raises what encoding one raises; those before it are encoded."""
         self._holding = False
         if self._pending:
             untold, self._pending = self._pending, []
@@ -52,7 +52,7 @@ class TickBatch:
                     self._encoded.append(notice)
 
     def send(self) -> None:
-        """Hand out what was made."""
+        """Deliver the encoded messages."""
         if self._encoded:
             made, self._encoded = self._encoded, []
             for notice in made:

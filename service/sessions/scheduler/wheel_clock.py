@@ -32,40 +32,40 @@ from service.sessions.scheduler.clock import SLOT_S, Lateness, Ticker, TickOutpu
 _LOG = structlog.get_logger(__name__)
 
 TURN_S = 0.005
-"""How long ticks may hold the event loop before waiting requests get their turn."""
+"""Longest time that ticks hold the event loop before requests get a turn."""
 
 SLOT_CAPACITY = 4
-"""So many due in one slot are enough for one that begins, if there is another slot."""
+"""A slot with so many tickers is full: a new ticker takes another slot, if there is one."""
 
 UNTHROTTLED_TURN_S = 0.002
-"""How long those that tick as often as can be may hold the event loop, all together."""
+"""Longest time that unthrottled tickers hold the event loop, all together."""
 
 UNTHROTTLED_PAUSE_S = 0.001
-"""Until they have their next turn, at least; as long as they took, if that is longer."""
+"""Shortest pause between their turns; a turn that took longer is followed by as long a pause."""
 
 UNTHROTTLED_MAX_WAIT_S = 0.1
-"""After so long they have a turn even where what is due is never done."""
+"""They get a turn after so long even if the clock is behind."""
 
 POSTPONE_MARGIN_S = 0.02
-"""About half of this is left when deadlines are put off."""
+"""Half of this is the lateness that is left when deadlines are postponed."""
 
 OVERLOAD_LATENESS_S = 0.05
-"""So far behind and not more, all is caught up with: to put all off would make more ticks late than that."""
+"""Up to this lateness the clock catches up, since postponing all would make more ticks late."""
 
 OVERLOAD_AFTER_S = 0.2
-"""Who is further behind for so long puts every deadline off."""
+"""A clock that is later than that for so long postpones all deadlines."""
 
 BATCH_SIZE = 32
-"""So many are ticked before what they have to tell is told."""
+"""Largest number of ticks before their output is sent."""
 
 LATENESS_SAMPLES = 4_096
-"""How many of the latest ticks the lateness figures are taken from."""
+"""Number of latest ticks in the figures of lateness."""
 
 
 class WheelClock:
     """The clock of a running service, on the event loop's timer.
 
-    `now` answers seconds that never run backwards; `late` is told the lateness of every tick in seconds.
+    `now` returns seconds of a monotonic clock; `late` is called with the lateness of every tick in seconds.
     """
 
     def __init__(
@@ -77,7 +77,7 @@ class WheelClock:
         self._due: dict[Ticker, float] = {}
         self._postponed_s = 0.0
         self._postponed_lateness: dict[Ticker, float] = {}
-        """how late those are already whose deadline was put off"""
+        """the lateness of tickers whose deadline was postponed"""
         self._behind_since: float | None = None
         self._slots: dict[int, list[Ticker]] = {}
         self._order: list[int] = []
@@ -115,7 +115,7 @@ class WheelClock:
         self._arm()
 
     def remove(self, ticker: Ticker) -> None:
-        """See `Clock.remove`. Its place in the wheel is skipped when its slot comes."""
+        """See `Clock.remove`. Its entry in the wheel is skipped when the slot comes."""
         self._due.pop(ticker, None)
         self._postponed_lateness.pop(ticker, None)
         self._unthrottled.pop(ticker, None)
@@ -125,7 +125,7 @@ class WheelClock:
         return Lateness.from_samples(self._samples)
 
     def serve(self) -> None:
-        """Tick all that is due, for at most `TURN_S`; what is left comes next turn of the loop."""
+        """Tick all that is due, for at most `TURN_S`; the rest is ticked in the next turn of the loop."""
         began = self._time()
         if self._serve_due(began):
             patience_s, self._behind_since = 0.0, None
@@ -137,14 +137,11 @@ class WheelClock:
             self._serve_unthrottled()
 
     def _time(self) -> float:
-        """The time in which deadlines are: it has stood still wherever they were put off."""
+        """The time of the deadlines, which stood still wherever they were postponed."""
         return self._now() - self._postponed_s
 
     def _fall_behind(self, now: float) -> None:
-        """Something due is left, in the first slot; where that goes on and on, put all off by so much.
-
-        That is how late the first is.
-        """
+        """Postpone all deadlines by the lateness of the first, when that has been large for long."""
         late_s = now - self._order[0] * SLOT_S
         if self._behind_since is None:
             self._behind_since = now
@@ -158,7 +155,7 @@ class WheelClock:
                 self._postponed_lateness[ticker] = self._postponed_lateness.get(ticker, 0.0) + given_up_s
 
     def _serve_due(self, began: float) -> bool:
-        """Whether all was ticked that is due."""
+        """Tick what is due; returns whether all of it was ticked."""
         order, due_at, now = self._order, self._due, began
         while order and order[0] * SLOT_S <= now:
             slot = order[0]
@@ -191,7 +188,7 @@ class WheelClock:
         return True
 
     def _serve_unthrottled(self) -> None:
-        """Each in its turn, and nobody twice."""
+        """Tick unthrottled tickers in turn, each at most once."""
         began = now = self._time()
         for ticker in list(self._unthrottled):
             if ticker not in self._unthrottled:
@@ -216,7 +213,7 @@ class WheelClock:
             self._schedule(ticker, due + period)
 
     def _tick(self, ticker: Ticker, stages: TickOutput | None = None) -> None:
-        """Tick one; where it has stages, what it has to tell of that waits for `_tell`."""
+        """Tick one ticker; the output of one that has a batch waits for `_send_output`."""
         try:
             if stages is not None:
                 stages.hold()
@@ -226,7 +223,7 @@ class WheelClock:
             self._handle_failure(ticker, error)
 
     def _send_output(self) -> None:
-        """Let all tell that have ticked, one stage after the other."""
+        """Encode, then send, the output of all that have ticked."""
         if self._ticked:
             telling, self._ticked = self._ticked, []
             for ticker, stages in telling:
@@ -246,9 +243,9 @@ class WheelClock:
         ticker.tick_failed(error)
 
     def _least_loaded(self, due: float, period: float) -> float:
-        """A time from `due` on, within a period, at which few others are due.
+        """A time from `due` on, within a period, in the slot with the fewest tickers.
 
-        Those count that are due then, and those that are a period before and so will be.
+        Tickers count that are due in that slot, or a period before it and so will be.
         """
         first, period_slots = math.ceil(due / SLOT_S), max(1, round(period / SLOT_S))
         found, fewest = first, math.inf
@@ -271,7 +268,7 @@ class WheelClock:
             waiting.append(ticker)
 
     def _arm(self) -> None:
-        """Set the one timer to what comes next, unless it is set to that or to something before."""
+        """Set the one timer to the next deadline, unless it is set to that or an earlier one."""
         if self._loop is None or not (self._order or self._unthrottled):
             return
         at = self._order[0] * SLOT_S if self._order else math.inf

@@ -62,13 +62,13 @@ def test_by_a_snapshot_it_is_what_it_is_by_its_log(
             if number == fork_at:
                 session = await service.manager.fork(session, session.timeline.tick * 2 // 3, paused=True)
             if number == snapshot_at:
-                service.manager.snapshots._take(session)
+                service.manager.snapshots.take(session)
                 await service.manager.snapshots.flush()
             if number in ends:
                 service = Service(service.store, **given)  # as after a kill
                 session = await service.manager.get(session.id)
         if await service.store.snapshot(session.id) is None:
-            service.manager.snapshots._take(session)
+            service.manager.snapshots.take(session)
             await service.manager.snapshots.flush()
             # It is taken where the clock stands; a service that ends stores that.
             await service.store.save_ticks({session.id: session.timeline.tick})
@@ -92,7 +92,7 @@ async def talked(**given: int) -> tuple[Service, Session]:
     session = await service.session(paused=True)
     for actions in ([ADD], [{"do": "step", "ticks": 9}, ADD_CARS], [save("a")], [rewind(4)], [ADD], [UNDO]):
         await do(session, *actions)
-    service.manager.snapshots._take(session)
+    service.manager.snapshots.take(session)
     await service.manager.snapshots.flush()
     await do(session, {"do": "step", "ticks": 5}, ADD)
     await do(session, load("a"))
@@ -303,13 +303,13 @@ async def test_states_on_the_way_are_fewer_where_there_would_be_too_many(
         await do(session, {"do": "step", "ticks": 200}, ADD_CARS, save(f"moment {number % 3}"))
         await do(session, rewind(60))
     keeper = service.manager.snapshots
-    keeper._take(session)
+    keeper.take(session)
     await keeper.flush()
     large = await service.store.snapshot(session.id)
     assert large is not None
     monkeypatch.setattr("service.sessions.persistence.snapshot_codec.MAX_STATES", 8)
     monkeypatch.setattr(module, "MAX_BYTES", len(large.body) * 2 // 3)
-    keeper._take(session)
+    keeper.take(session)
     await keeper.flush()
     small = await service.store.snapshot(session.id)
     assert small is not None
@@ -317,7 +317,7 @@ async def test_states_on_the_way_are_fewer_where_there_would_be_too_many(
     assert len(values_of(small)["snapshots"]) < len(values_of(large)["snapshots"]) / 2
     await compared(service.store, session.id)
     monkeypatch.setattr(module, "MAX_BYTES", 100)
-    keeper._take(session)
+    keeper.take(session)
     await keeper.flush()
     assert keeper.counts["failed"] == 1
     assert await service.store.snapshot(session.id) == small

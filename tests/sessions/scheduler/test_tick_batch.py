@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from datetime import UTC, datetime
 
 import pytest
@@ -102,8 +101,7 @@ async def test_a_message_that_cannot_be_made_pauses_its_own_session_only() -> No
         def decision(self, *_: object) -> str:
             raise RuntimeError("no words")
 
-    services = made[1]._services
-    made[1]._services = replace(services, narrator=Wordless(WORDS._sayings))
+    made[1].narrator = Wordless(WORDS._sayings)
     served(clock, time, 1.2)
     assert [session.paused for session in made] == [False, True, False]
     assert [session.timeline.tick for session in made] == [2, 1, 2]

@@ -1,7 +1,7 @@
 // @ts-check
 /** The panels of the page, each in a file of its own; a new panel is a file and a line here. */
 
-import { byId } from "../ui/slot.js";
+import { byId } from "../ui/dom.js";
 import { createAnnouncer } from "../talk/announcer.js";
 import { createCaption } from "../road/caption.js";
 import { createCard } from "../why/bubbleLoader.js";

@@ -2,7 +2,6 @@
 /** Places in an element that several parts share: each part renders into its own slot and leaves the others alone. */
 
 import { render } from "../../vendor/lit-html.js";
-import { t } from "../core/texts.js";
 
 /**
  * A slot in an element: what is rendered becomes children of the element, before a node of it or at its end.
@@ -29,14 +28,6 @@ export function find(host, selector) {
 }
 
 /**
- * The element with an id, which the page is known to have.
- * @param {string} id
- */
-export function byId(id) {
-  return find(document, `#${id}`);
-}
-
-/**
  * A canvas that fills an element, as sharp as the screen, in CSS pixels from here on. Sets its size where that differs.
  * @param {HTMLCanvasElement} canvas
  * @param {number} width
@@ -50,17 +41,4 @@ export function fitCanvas(canvas, width, height) {
   const pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
   pen.setTransform(ratio, 0, 0, ratio, 0, 0);
   return pen;
-}
-
-/**
- * Fills in the words that `data-text`, `data-label` and `data-title` name.
- * @param {ParentNode} root
- */
-export function fillTexts(root) {
-  for (const element of /** @type {NodeListOf<HTMLElement>} */ (root.querySelectorAll("[data-text], [data-label], [data-title]"))) {
-    const { text, label, title } = element.dataset;
-    if (text) element.textContent = t(text);
-    if (label) element.setAttribute("aria-label", t(label));
-    if (title) element.title = `${t(title)}${element.dataset.key ? `  ${element.dataset.key}` : ""}`;
-  }
 }
