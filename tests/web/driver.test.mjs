@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { handOver } from "../../web/src/panels/driver.js";
-import { createRoads } from "../../web/src/talk/roadFamilies.js";
+import { roadCommands } from "../../web/src/talk/conversation.js";
 import { changeWords } from "../../web/src/core/words.js";
 
 const SET_ASTAR = { do: "set", parameter: "planner", value: "astar" };
@@ -21,7 +21,7 @@ test("a planner that is chosen while a person drives takes the wheel", () => {
 });
 
 test("a new road of each family can be chosen, in the present", () => {
-  const commands = createRoads().commands ?? [];
+  const commands = roadCommands();
   const offered = commands.map((act) => act.now({ world, past: null }));
   assert.deepEqual(offered.map(({ label }) => label), [
     "New road: walls with gaps", "New road: narrow streets", "New road: dead ends", "New road: crossing traffic", "New road: a maze",

@@ -90,7 +90,7 @@ function example(text, what, page) {
 }
 
 /** New roads to choose from the palette, one of each family. @returns {Command[]} */
-function roadCommands() {
+export function roadCommands() {
   return LAYOUTS.map((layout) => ({
     name: `road-${layout}`,
     group: t("groups.new_road"),
