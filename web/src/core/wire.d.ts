@@ -213,7 +213,7 @@ export interface Command {
   id: string;
   text: string;
   dry_run?: boolean;
-  language?: string;
+  language?: string | null;
 }
 
 /** What was done. */
@@ -626,6 +626,8 @@ export interface NewSession {
   paused?: boolean | null;
   /** Replay this; alone but for name and paused. */
   recording?: Recording | null;
+  /** Of its log, narration and replies, and of `scenario`; `GET /language` names them. Default: a recording's own, else en. A link that names a session keeps that session's. */
+  language?: string | null;
   /** Open this; alone but for name and paused. See `link`. */
   link?: string | null;
 }
@@ -753,8 +755,8 @@ export interface ProblemMessage {
 /** A question, and nothing but one. */
 export interface Question {
   question: string;
-  /** In which language; `GET /language` names them. */
-  language?: "en" | "de";
+  /** In which language; `GET /language` names them. Default: the session's. */
+  language?: string | null;
 }
 
 /** The store answers. */
@@ -820,6 +822,8 @@ export interface Recording {
   entries: RecordedEntry[];
   /** Where it ends. */
   tick: number;
+  /** Of its log; en where none is named. */
+  language?: string | null;
   /** What the world at its end must be. */
   digest: string;
 }
@@ -890,8 +894,8 @@ export interface Said {
   text: string;
   /** Say what would be done, and do nothing. */
   dry_run?: boolean;
-  /** In which language; `GET /language` names them. */
-  language?: "en" | "de";
+  /** In which language; `GET /language` names them. Default: the session's. */
+  language?: string | null;
 }
 
 /** Keep the session under a name. */
@@ -970,6 +974,8 @@ export interface Session {
   sequence: number;
   seed: number;
   config: { [key: string]: unknown };
+  /** The code of the language that its log and narration are in. */
+  language: string;
   /** The version of the rules that it runs under. */
   rules: number;
   /** What to tell whoever opens it, where these are not the rules of today. */
