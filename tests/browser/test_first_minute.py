@@ -114,7 +114,7 @@ def test_simulating_a_highway(visit: Visit) -> None:
     assert visitor.script.count("vehicle") == 2
     road = visitor.page.locator("#road .road-canvas")
     expect(road).to_have_attribute("aria-label", re.compile(" 10 potholes"))
-    expect(road).to_have_attribute("aria-label", re.compile(" 2 vehicles"))
+    expect(road).to_have_attribute("aria-label", re.compile(" 2 cars"))
 
 
 def test_what_is_not_understood_changes_nothing(visit: Visit) -> None:
