@@ -95,7 +95,6 @@ RESOURCES = (
     sse,
     ws_tickets,
     forks,
-    frame,
     rewind,
     bookmarks,
     links,

@@ -9,7 +9,7 @@ from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 
-from service.http.static import ServedFile
+from service.http.static import StaticFile
 from service.resources import guide_folder
 
 _KINDS = frozenset((".html", ".css", ".js", ".svg", ".png", ".webp", ".gif", ".ico", ".txt"))
@@ -35,7 +35,7 @@ If it does not appear, run <code>make docs</code> in the project's folder.</p>
 
 def install(app: FastAPI) -> None:
     """Serves the site below `/guide/`, or a page that says how to build it."""
-    served: dict[str, ServedFile] = {}
+    served: dict[str, StaticFile] = {}
 
     async def start(_: Request) -> Response:
         return RedirectResponse("/guide/", status_code=308)
@@ -47,7 +47,7 @@ def install(app: FastAPI) -> None:
             return _not_built(path)
         if path not in served:
             served[path] = _file(folder, path)
-        return served[path].answer(request.headers)
+        return served[path].respond(request.headers)
 
     app.add_route("/guide", start, methods=["GET"], include_in_schema=False)
     app.add_route("/guide/{path:path}", serve, methods=["GET"], include_in_schema=False)
@@ -61,7 +61,7 @@ def _not_built(path: str) -> Response:
     )
 
 
-def _file(folder: Path, path: str) -> ServedFile:
+def _file(folder: Path, path: str) -> StaticFile:
     """Raises a 404 for anything that is not a file of the site, wherever the path leads."""
     try:
         file = (folder / path).resolve()
@@ -69,5 +69,5 @@ def _file(folder: Path, path: str) -> ServedFile:
     except (OSError, ValueError):  # longer than a name can be, or with a NUL in it
         inside = False
     if inside and (file.suffix in _KINDS or file.is_relative_to(folder.resolve() / _DOWNLOADS)):
-        return ServedFile(file, _POLICY)
+        return StaticFile(file, _POLICY)
     raise HTTPException(404)
