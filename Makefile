@@ -48,7 +48,7 @@ types: $(VENV)/.ready-dev node_modules/.ready
 	$(BIN)/mypy
 	$(NODE_PATH) npx tsc
 
-types-page: $(VENV)/.ready-dev ## write the page's types of the wire from the service's models
+types-page: $(VENV)/.ready-dev ## Generate the page's wire types from the service's models
 	$(BIN)/python -m tools.wire_types
 
 format: $(VENV)/.ready-dev ## Rewrite the code in the project's style

@@ -5,16 +5,12 @@ from __future__ import annotations
 import inspect
 from typing import Any
 
-import typer
-
-from service.cli.main import cli
+from service.cli.main import COMMANDS, load_command
 
 
 def commands() -> str:
     """Returns a section in Markdown for each command: its help, arguments and options."""
-    group = typer.main.get_command(cli)
-    found: dict[str, Any] = group.commands  # type: ignore[attr-defined]
-    return "\n\n".join(_section(name, command) for name, command in sorted(found.items()))
+    return "\n\n".join(_section(name, load_command(name)) for name in sorted(COMMANDS))
 
 
 def _section(name: str, command: Any) -> str:

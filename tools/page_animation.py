@@ -1,7 +1,7 @@
-"""Makes the README's animated picture: `python -m tests.browser.animation`.
+"""Makes the README's animated picture: `python -m tools.page_animation`.
 
 A real browser shows the page while a road runs and somebody types. Chromium's screencast gives the
-frames; they are written as an animated WebP beside the other pictures.
+frames; they are written as an animated WebP to `docs/pictures`.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from tests.browser.conftest import QUIET, chromium
 from tests.browser.visitor import Visitor
 from tests.support.service_process import ServiceProcess
 
-FILE = Path(__file__).parent / "pictures" / "first-minute.webp"
+FILE = Path(__file__).parents[1] / "docs" / "pictures" / "first-minute.webp"
 MOST_BYTES = 1_500_000
 VIEW = {"width": 1280, "height": 800}
 WIDTH = 880
