@@ -150,7 +150,7 @@ def test_a_link_opens_to_the_same_digest(
     async def way() -> None:
         _, session = await talked(said)
         tick = round(session.timeline.tick * share)
-        found = open_link(_carry(session.timeline, tick), 1_000_000)
+        found = open_link(_carry(session.timeline, tick, "en"), 1_000_000)
         assert not isinstance(found, Named)
         assert (found.tick, found.digest) == (tick, session.timeline.at(tick).world.digest())
         entries = [

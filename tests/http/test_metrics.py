@@ -74,18 +74,18 @@ async def test_those_that_sleep_are_counted_also_after_a_restart(service: Servic
     first, _ = await service.session(), await service.session()
     manager = service.app.state.context.manager
     assert (await figures(service))["roadtalk_sleeping_sessions", ""] == 0
-    await manager._let_go([await manager.get(first.rpartition("/")[2])], lambda _: True)
+    await manager.evict([await manager.get(first.rpartition("/")[2])], lambda _: True)
     assert (await figures(service))["roadtalk_sleeping_sessions", ""] == 1
     again = create_app(Settings(database="memory:"), store=service.store, clock=HandClock())
     async with again.router.lifespan_context(again):
         manager = again.state.context.manager
-        assert (manager.live, manager.sleeping) == (0, 2)
+        assert (manager.live_count, manager.evicted_count) == (0, 2)
         session = await manager.get(first.rpartition("/")[2])
-        assert (manager.live, manager.sleeping) == (1, 1)
+        assert (manager.live_count, manager.evicted_count) == (1, 1)
         await manager.fork(session, None)
-        assert (manager.live, manager.sleeping) == (2, 1)
+        assert (manager.live_count, manager.evicted_count) == (2, 1)
         await manager.delete(session.id)
-        assert (manager.live, manager.sleeping) == (1, 1)
+        assert (manager.live_count, manager.evicted_count) == (1, 1)
 
 
 async def test_every_metric_is_described(service: Service) -> None:

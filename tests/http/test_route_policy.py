@@ -12,7 +12,7 @@ from service.http.route_policy import RoutePolicy, policy
 from service.http.session_json import PREFIX
 from tests.contract.document import asked
 
-OPEN = {"/", "/docs", "/openapi.json", "/healthz", "/readyz"}
+OPEN = {"/", "/docs", "/guide", "/openapi.json", "/healthz", "/readyz"}
 """Open to all, besides files."""
 
 
@@ -23,7 +23,7 @@ def test_every_route_but_pages_and_health_is_guarded() -> None:
     assert "/metrics" in guarded
     assert guarded.isdisjoint(OPEN)
     files = {each.path for each in routes} - guarded - OPEN
-    assert all("{path:path}" in path or path.rpartition(".")[2] in ("js", "css", "svg") for path in files)
+    assert all("{path:path}" in path or path.rpartition(".")[2] in ("js", "css", "svg", "json") for path in files)
 
 
 async def test_a_route_has_the_policy_of_its_endpoint_and_the_ordinary_one_otherwise() -> None:
