@@ -16,7 +16,7 @@ from pydantic import ValidationError
 from starlette.types import Message, Scope
 
 from service import gc_tuning as garbage
-from service import log_format as logs
+from service import logging_setup as logs
 from service.app import create_app
 from service.env_check import strays
 from service.grammar import LanguageDataError

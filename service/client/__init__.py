@@ -36,10 +36,10 @@ from service.contract.decision import BlockedMove, Decision
 from service.contract.forecast import Expected, Judged
 from service.contract.language import LanguageGuide as Guide
 from service.contract.model import Page
-from service.contract.operations import Ticket
 from service.contract.session import Link, Parent, SavedMoment, SavedMoments, SessionMoment, SessionSummary
 from service.contract.session import Session as SessionInfo
 from service.contract.state import State
+from service.contract.ticket import Ticket
 from service.contract.timeline import LogEvent, Moment, Moments, RoadChange, RoadChanges
 from service.contract.timeline import TimelinePage as Timeline
 

@@ -15,8 +15,8 @@ from service.contract.command import (
 from service.contract.counterfactual import Counterfactual, End, PlayedTick, Side
 from service.contract.decision import BlockedMove, BriefDecision, Decision, DecisionPage, Option
 from service.contract.forecast import Expected, ExpectedTick, Judged, JudgedDecision
+from service.contract.health import Health, Lateness, Ready
 from service.contract.language import IntentGuide, LanguageGuide, Preview, Saying, TaughtPhrase
-from service.contract.operations import Health, Lateness, Ready, Ticket
 from service.contract.problem import ChoiceModel, FieldProblemModel, ProblemDocument
 from service.contract.session import (
     Link,
@@ -30,6 +30,7 @@ from service.contract.session import (
     SessionSummary,
 )
 from service.contract.state import CrashCause, Hazard, Metrics, MoveCounts, Mover, State, Vehicle
+from service.contract.ticket import Ticket
 from service.contract.timeline import (
     EventPage,
     LogEvent,

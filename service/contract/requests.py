@@ -13,7 +13,7 @@ from pydantic.warnings import UnsupportedFieldAttributeWarning
 
 from service.actions import Action, load
 from service.contract.model import Tick
-from service.contract.text import Letters, Name, check_letters
+from service.contract.text import Name, StorableText, check_letters
 from service.http.config_schema import CONFIG_SCHEMA
 from sim.actions import PlaceableKind, Weather
 
@@ -54,7 +54,7 @@ class RecordedEntry(Sent):
 
     sequence: int = Field(ge=1)
     tick: Tick
-    text: Letters | None
+    text: StorableText | None
     actions: Strictly[list[Action]] = Field(max_length=MAX_ACTIONS)
     digest: str | None = Field(
         None, max_length=64, description="What the world after it must be; not said by older recordings."
@@ -81,7 +81,7 @@ class NewSession(Sent):
     """How a session begins. Everything may be left out; without a seed one is drawn and told."""
 
     name: Name | None = None
-    scenario: Letters | None = Field(None, description="A sentence that describes a road.")
+    scenario: StorableText | None = Field(None, description="A sentence that describes a road.")
     config: ConfigParts | None = None
     seed: int | None = Field(None, ge=0, le=2**53 - 1)
     planner: str | None = None
@@ -120,7 +120,7 @@ class RewindTo(Sent):
 class Said(Sent):
     """Something said to a session."""
 
-    text: Letters = Field(description="At most 500 characters, unless the service is set otherwise.")
+    text: StorableText = Field(description="At most 500 characters, unless the service is set otherwise.")
     dry_run: bool = Field(False, description="Say what would be done, and do nothing.")
     language: str | None = Field(None, max_length=16, description=_LANGUAGE)
 
@@ -141,21 +141,23 @@ class StepTicks(Sent):
 class Question(Sent):
     """A question, and nothing but one."""
 
-    question: Letters
+    question: StorableText
     language: str | None = Field(None, max_length=16, description=_LANGUAGE)
 
 
 class Text(Sent):
     """A sentence to be understood."""
 
-    text: Letters
+    text: StorableText
     language: str = Field("en", max_length=16, description="In which language; `GET /language` names them.")
 
 
 class AdviceQuestion(Sent):
     """A hazard ahead, as a sentence or in figures."""
 
-    text: Letters | None = Field(None, description="As a sentence; then without hazard, distance and speed.")
+    text: StorableText | None = Field(
+        None, description="As a sentence; then without hazard, distance and speed."
+    )
     hazard: PlaceableKind | None = None
     distance_m: float | None = Field(None, description="From 0.1 to 1,000.")
     speed_kmh: float | None = Field(None, description="From 1 to 300.")

@@ -8,7 +8,7 @@ from pydantic import Discriminator, Field
 
 from service.actions import Action
 from service.contract.requests import MAX_ACTIONS, Sent, Strictly
-from service.contract.text import Letters
+from service.contract.text import StorableText
 
 Id = Annotated[str, Field(max_length=100, description="Chosen by the client, given back with the answer.")]
 
@@ -18,7 +18,7 @@ class Command(Sent):
 
     type: Literal["command"]
     id: Id
-    text: Letters
+    text: StorableText
     dry_run: bool = False
     language: str | None = Field(None, max_length=16)
 

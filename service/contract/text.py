@@ -25,7 +25,7 @@ def _checked(text: str) -> str:
 
 _SCHEMA = {"pattern": "^[^\\u0000]*$"}
 
-Letters = Annotated[str, Field(json_schema_extra=_SCHEMA), AfterValidator(_checked)]
+StorableText = Annotated[str, Field(json_schema_extra=_SCHEMA), AfterValidator(_checked)]
 """A text that can be kept anywhere."""
 
 Name = Annotated[str, Field(min_length=1, max_length=80, json_schema_extra=_SCHEMA), AfterValidator(_checked)]

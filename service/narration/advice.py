@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from service.contract.encode.advice import advice_json
-from service.narration.question_handler import Json
+from service.narration.answerer import Json
 from service.narration.sayings import Sayings
 from service.sessions.facts import Advised
 from sim.hazard_advice import Advice, Choice, Ending

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from service.narration.advice import Advices
+from service.narration.answerer import Answerer, Json
 from service.narration.confidence import Confidences
 from service.narration.maintenance import Maintenance
 from service.narration.metrics import Figures
 from service.narration.next import Next
-from service.narration.question_handler import Answerer, Json
 from service.narration.sayings import Sayings
 from service.narration.scene import Scenes
 from service.narration.status import Help, Status

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import ceil, floor
 
 from service.contract.encode.confidence import confidence_json
-from service.narration.question_handler import Json, plain
+from service.narration.answerer import Json, plain
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.explain.confidence import Clarity, Confidence, Method, confidence

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from service.contract.encode.explanation import crash_json
+from service.narration.answerer import Json, not_so, plain
 from service.narration.explanation import called
 from service.narration.inflection import capital
 from service.narration.naming import Naming
 from service.narration.options import Options
-from service.narration.question_handler import Json, not_so, plain
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.explain import QuestionError

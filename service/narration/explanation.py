@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from service.narration.inflection import is_told, lower_first
 from service.narration.naming import Naming
-from service.narration.outlook import outlook
+from service.narration.planner_reasons import planner_reasons
 from service.narration.sayings import Sayings
 from sim.actions import Prefer
 from sim.explain import Cause, Counterfactual, Explanation, Future
@@ -40,7 +40,7 @@ class _Telling:
         self._explanation = explanation
         self._decision = explanation.decision
         self._naming = Naming(sayings, explanation.moment, ego=explanation.decision.av)
-        self._outlook = outlook(sayings, explanation.decision, explanation.moment)
+        self._planner_reasons = planner_reasons(sayings, explanation.decision, explanation.moment)
 
     def with_imagined(self, told: str) -> str:
         """What was told, and of the causes that were not there that they were not, where it was not told."""
@@ -63,10 +63,10 @@ class _Telling:
             return self._say("fact_asked", tick=decision.tick, did=self._did(decision.move))
         if decision.measure is not Measure.RANK and decision.asked is None:
             return self._joined([self._weighed(), *self._proofs()])
-        if self._outlook is not None and (reasons := self._outlook.reasons("then")):
+        if self._planner_reasons is not None and (reasons := self._planner_reasons.reasons("then")):
             fact = self._fact([decision.option(Move.FORWARD)] if decision.move is not Move.FORWARD else [])
             told = self._say("because", fact=fact, reasons=reasons)
-            return self._joined([told, self._outlook.choice_of_side(), *self._proofs()])
+            return self._joined([told, self._planner_reasons.choice_of_side(), *self._proofs()])
         if decision.held_back and decision.asked is not None:
             asked = self._sayings.move(decision.asked, "do")
             fact = self._say("fact_held_back", tick=decision.tick, asked=asked)
@@ -108,7 +108,11 @@ class _Telling:
         decision = self._decision
         if decision.measure is not Measure.RANK and option.verdict == "free":
             return self._not_worth(option, do)
-        if option.verdict == "free" and self._outlook is not None and (but := self._outlook.not_made(option)):
+        if (
+            option.verdict == "free"
+            and self._planner_reasons is not None
+            and (but := self._planner_reasons.not_made(option))
+        ):
             return self._say("not_but", tick=decision.tick, but=lower_first(but).rstrip("."))
         if option.verdict == "free":
             return self._say(

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Final
 
-from service.narration.question_handler import Json, plain
+from service.narration.answerer import Json, plain
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.metrics import Metrics

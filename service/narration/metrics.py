@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from service.contract.encode.forecast import figures_json
+from service.narration.answerer import Json, plain
 from service.narration.inflection import capital
-from service.narration.question_handler import Json, plain
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.metrics import Metrics

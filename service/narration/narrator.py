@@ -11,7 +11,7 @@ from service.narration.answers import Answers
 from service.narration.episode_end import Ends
 from service.narration.naming import Naming
 from service.narration.options import Options
-from service.narration.outlook import outlook
+from service.narration.planner_reasons import planner_reasons
 from service.narration.replies import Replies, speed
 from service.narration.sayings import Sayings
 from service.narration.side_by_side import SidesBySide
@@ -87,7 +87,7 @@ class Narrator:
         chosen = decision.chosen
         if first.reason.blocks and decision.move is not Move.STAY:
             return self._other(decision.move, first, naming)
-        ahead = outlook(self._sayings, decision, run, forecast)
+        ahead = planner_reasons(self._sayings, decision, run, forecast)
         if ahead is not None and not chosen.reason.blocks:
             return self._say("other", move=self._named(decision.move), reason=ahead.reason("now"))
         if decision.move is not Move.STAY:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from itertools import groupby
 
 from service.contract.encode.forecast import way_json
+from service.narration.answerer import Json, plain
 from service.narration.naming import Naming
-from service.narration.question_handler import Json, plain
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.episode_record import DetourReason

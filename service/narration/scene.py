@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from typing import Final
 
 from service.contract.encode.scene import misperception_json, scene_json
+from service.narration.answerer import Json, plain
 from service.narration.naming import Naming
-from service.narration.question_handler import Json, plain
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.decide import sense

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from service.narration.question_handler import Json, plain
+from service.narration.answerer import Json, plain
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.state import SimState

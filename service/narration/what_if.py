@@ -5,8 +5,8 @@ from __future__ import annotations
 from service.actions import Ask
 from service.actions.table import imagined_actions
 from service.contract.encode.forecast import what_if_json
+from service.narration.answerer import Json, not_so, plain
 from service.narration.naming import Naming
-from service.narration.question_handler import Json, not_so, plain
 from service.narration.replies import value_of
 from service.narration.sayings import Sayings
 from service.refusals import refusals

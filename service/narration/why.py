@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from service.contract.encode.explanation import explanation_json
+from service.narration.answerer import Json, not_so, plain
 from service.narration.crash import Crashes
 from service.narration.explanation import Explained
 from service.narration.options import Options
-from service.narration.question_handler import Json, not_so, plain
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.explain import QuestionError, why, why_not

@@ -30,7 +30,7 @@ ELSEWHERE = {
     "sessions/persistence/replay.py": "recordings that do not fit",
     "sessions/persistence/restore.py": "the service's log",
     "sessions/persistence/snapshot_scheduler.py": "the service's log",
-    "sessions/persistence/snapshots.py": "the service's log",
+    "sessions/persistence/snapshot_records.py": "the service's log",
     "sessions/rewind.py": "a field and its message",
     "sessions/scheduler/eviction.py": "the service's log",
     "sessions/session.py": "the service's log",

@@ -10,7 +10,7 @@ import { cracksOf, paintBarrier, paintPothole } from "../../web/src/road/paint/h
 import { paintWarning } from "../../web/src/road/paint/signals.js";
 import { drawThing } from "../../web/src/road/paint/things.js";
 import { lookOf, paintEgo, paintVehicle } from "../../web/src/road/paint/vehicle.js";
-import { drawWalker } from "../../web/src/road/paint/pedestrian.js";
+import { drawPedestrian } from "../../web/src/road/paint/pedestrian.js";
 import { STEPS } from "../../web/src/why/forecast.js";
 import { worldAfter, worldOf } from "../../web/src/road/world.js";
 import { tick, wireState } from "./fakes.mjs";
@@ -202,7 +202,7 @@ test("all that is solid of a thing lies within its box, and vehicles fill theirs
   for (const id of names("pedestrian")) {
     for (const stride of [0, 0.25, 0.5, 0.75]) {
       for (const facing of [0, 0.8, Math.PI / 2, Math.PI]) {
-        check("pedestrian", (pen) => { pen.rotate(facing); drawWalker(pen, id, stride, stride === 0); });
+        check("pedestrian", (pen) => { pen.rotate(facing); drawPedestrian(pen, id, stride, stride === 0); });
       }
     }
   }

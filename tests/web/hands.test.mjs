@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { fetchBeside, nameOfOther, partOf, titleOf } from "../../web/src/why/counterfactual.js";
+import { fetchComparison, nameOfOther, partOf, titleOf } from "../../web/src/why/counterfactual.js";
 import { isDriving, moveOf } from "../../web/src/road/drivingKeys.js";
 import { hindrance, isLoose, moving, placing, removing } from "../../web/src/road/edit.js";
 import { onRoad, thingAt, thingIn } from "../../web/src/road/hitTest.js";
@@ -211,7 +211,7 @@ test("cells are found on a picture that the service has drawn", () => {
 
 test("both runs come as worlds in step", async () => {
   const { http, asked } = answering(TOLD);
-  const found = await fetchBeside("s 1", { kind: "move", tick: 9, move: "forward" }, http);
+  const found = await fetchComparison("s 1", { kind: "move", tick: 9, move: "forward" }, http);
   assert.deepEqual(asked, [["/api/v1/sessions/s%201/counterfactual", { move: "forward", at_tick: 9 }]]);
   assert.deepEqual(found.real.frames.map(({ world }) => world.tick), [9, 10, 11, 12]);
   assert.deepEqual(found.changed.frames.at(-1).world.things.get("av-1").cell, [4, 18]);
@@ -225,14 +225,14 @@ test("both runs come as worlds in step", async () => {
 test("a change now is sent without a tick", async () => {
   const { http, asked } = answering({ ...TOLD, changed: TOLD.real });
   const actions = [{ do: "reset" }];
-  const found = await fetchBeside("s1", { kind: "change", tick: null, actions, label: "x" }, http);
+  const found = await fetchComparison("s1", { kind: "change", tick: null, actions, label: "x" }, http);
   assert.deepEqual(asked[0][1], { actions });
   assert.equal(partOf(found), null);
 });
 
 test("a refusal is told with its reason, and a service that is not there too", async () => {
   const { http } = answering({ detail: "no", errors: [{ field: "move", message: "That move leads off the road." }] }, false);
-  await assert.rejects(fetchBeside("s1", { kind: "move", tick: 1, move: "left" }, http), /leads off the road/);
+  await assert.rejects(fetchComparison("s1", { kind: "move", tick: 1, move: "left" }, http), /leads off the road/);
   const gone = async () => {
     throw new TypeError("network");
   };

@@ -9,7 +9,7 @@ import { drawOccupancy } from "../../web/src/road/paint/occupancy.js";
 import { drawBoxes, drawForecast, drawHazards } from "../../web/src/road/paint/overlays.js";
 import { drawSignal, paintWarning } from "../../web/src/road/paint/signals.js";
 import { drawLines } from "../../web/src/road/paint/surface.js";
-import { drawWalker, paintWalkerShadow } from "../../web/src/road/paint/pedestrian.js";
+import { drawPedestrian, paintWalkerShadow } from "../../web/src/road/paint/pedestrian.js";
 
 /** A canvas that writes down every call, with the colour in force, and knows no colours but the palette's. */
 function recording() {
@@ -41,8 +41,8 @@ const pose = (kind, column, row, changes = {}) => ({ thing: { id: `${kind}-1`, k
 const PAINTED = {
   pothole: (pen) => paintPothole(pen, "pothole-3", PALETTE),
   barrier: (pen) => paintBarrier(pen, "barrier-3", PALETTE),
-  walker: (pen) => drawWalker(pen, "pedestrian-2", 0.3, false),
-  "walker, hurt": (pen) => drawWalker(pen, "pedestrian-2", 0, true),
+  walker: (pen) => drawPedestrian(pen, "pedestrian-2", 0.3, false),
+  "walker, hurt": (pen) => drawPedestrian(pen, "pedestrian-2", 0, true),
   "walker's shadow": (pen) => paintWalkerShadow(pen, PALETTE),
   trail: (pen) => drawTrail(pen, [[4, 20], [4, 19], [3, 18]], PALETTE),
   wait: (pen) => drawWait(pen, [4, 20], 0.4, PALETTE),

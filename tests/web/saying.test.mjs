@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { foresee, guide, previewWords } from "../../web/src/talk/language.js";
-import { Latest, turns } from "../../web/src/core/latest.js";
+import { Latest, newestOnly } from "../../web/src/core/latest.js";
 import { rank } from "../../web/src/talk/palette.js";
 
 /** A clock that is moved by hand, and answers that come when they are told to. */
@@ -46,7 +46,7 @@ function asking() {
 }
 
 test("of questions that overtake one another only the newest is answered", () => {
-  const asking = turns();
+  const asking = newestOnly();
   const first = asking();
   assert.ok(first());
   const second = asking();

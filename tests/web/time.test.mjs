@@ -36,27 +36,27 @@ test("ends and beginnings are marked once", () => {
   assert.deepEqual(events, [{ tick: 11, kind: "crash", ids: ["vehicle-1"] }, { tick: 13, kind: "episode" }]);
 });
 
-test("only what may have rewritten the past raises the edition", () => {
+test("only what may have rewritten the past raises the maybeChanged", () => {
   const state = after(opened(), tick());
-  const { edition } = state.timeline;
+  const { maybeChanged } = state.timeline;
   const paused = changed({ changes: [{ path: "paused", before: false, after: true }], state: wireState({ tick: 11 }) });
-  assert.equal(after(state, paused).timeline.edition, edition);
-  assert.equal(after(state, changed({ sequence: 100, state: wireState({ tick: 11 }) })).timeline.edition, edition);
+  assert.equal(after(state, paused).timeline.maybeChanged, maybeChanged);
+  assert.equal(after(state, changed({ sequence: 100, state: wireState({ tick: 11 }) })).timeline.maybeChanged, maybeChanged);
   const more = changed({ sequence: 102, changes: [{ path: "potholes", before: 1, after: 2 }], state: wireState({ tick: 11 }) });
-  assert.equal(after(state, more).timeline.edition, edition + 1);
+  assert.equal(after(state, more).timeline.maybeChanged, maybeChanged + 1);
 });
 
 test("going back takes away what came after, and before the stream began there is nothing to keep", () => {
   const state = after(opened(), tick({ moved: { "vehicle-1": [4, 20] } }), tick({ tick: 12, decision: { tick: 11, move: "left" } }));
   const back = after(state, changed({ sequence: 102, changes: [{ path: "tick", before: 12, after: 10 }], state: wireState({ tick: 10 }) }));
   assert.deepEqual([back.timeline.letters, back.timeline.events], ["?".repeat(10), []]);
-  assert.equal(back.timeline.edition, state.timeline.edition + 1);
+  assert.equal(back.timeline.maybeChanged, state.timeline.maybeChanged + 1);
   const further = after(state, changed({ sequence: 102, changes: [{ path: "tick", before: 12, after: 4 }], state: wireState({ tick: 4 }) }));
   assert.equal(further.timeline.letters, "????");
 });
 
 const filled = (letters, events = []) => ({ ...NO_TIMELINE, letters, events });
-const page = (timeline, from, moves, marks = []) => timelineAfter(timeline, { type: "timeline-page", age: timeline.age, from, moves, marks }, opened().world);
+const page = (timeline, from, moves, marks = []) => timelineAfter(timeline, { type: "timeline-page", version: timeline.version, from, moves, marks }, opened().world);
 
 test("a timeline is filled from both ends and knows what is missing", () => {
   let timeline = page(filled("?".repeat(1_200)), 1_198, "F");
@@ -75,7 +75,7 @@ test("a timeline is filled from both ends and knows what is missing", () => {
 test("a page tells nothing of what has not come yet, or of a run that is no more", () => {
   const timeline = filled("FF??");
   assert.equal(page(timeline, 2, "sssss").letters, "FFss");
-  const late = { type: "timeline-page", age: timeline.age - 1, from: 2, moves: "ss", marks: [] };
+  const late = { type: "timeline-page", version: timeline.version - 1, from: 2, moves: "ss", marks: [] };
   assert.equal(timelineAfter(timeline, late, opened().world), timeline);
 });
 

@@ -80,12 +80,12 @@ test("when something was taken back, the run is asked for from where it now diff
   await pass(1_000);
   assert.deepEqual(commands(store), ["said 1", "said 2"]);
   asked.length = 0;
-  const { age } = timeline();
+  const { version } = timeline();
   service.changes = [said(100, 1)];
   say(store, 101, 1_200);
   await pass(1_000);
   assert.deepEqual(asked, ["s1/changes?limit=1000", "s1/timeline?from=900&limit=300"]);
-  assert.equal(timeline().age, age + 1);
+  assert.equal(timeline().version, version + 1);
   assert.deepEqual(commands(store), ["said 1"]);
 });
 

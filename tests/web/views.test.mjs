@@ -11,7 +11,7 @@ import { drawPlan } from "../../web/src/road/paint/plan.js";
 import { pictureOf } from "../../web/src/road/serverVideo.js";
 import { sightOf } from "../../web/src/panels/plan.js";
 import { INITIAL, reduce } from "../../web/src/core/state.js";
-import { AT_FIRST, viewsAfter } from "../../web/src/ui/views.js";
+import { INITIAL_VIEWS, viewsAfter } from "../../web/src/ui/views.js";
 import { moveOptions } from "../../web/src/why/moveOptions.js";
 import { worldOf } from "../../web/src/road/world.js";
 import { hello, settle, tick, wireState } from "./fakes.mjs";
@@ -27,8 +27,8 @@ function recorder() {
 }
 
 test("views are changed by name, and what the page does not know is left out", () => {
-  assert.equal(viewsAfter(AT_FIRST, { plan: true, sensors: true, path: "no" }), AT_FIRST);
-  assert.deepEqual(viewsAfter(AT_FIRST, { plan: false, potholes: true }), { ...AT_FIRST, plan: false, potholes: true });
+  assert.equal(viewsAfter(INITIAL_VIEWS, { plan: true, sensors: true, path: "no" }), INITIAL_VIEWS);
+  assert.deepEqual(viewsAfter(INITIAL_VIEWS, { plan: false, potholes: true }), { ...INITIAL_VIEWS, plan: false, potholes: true });
 });
 
 test("what is said of views leaves road, log and decision as they are", () => {

@@ -7,7 +7,7 @@ from typing import Annotated
 from fastapi import Body, Response
 from pydantic import BaseModel, ConfigDict
 
-from service.contract.operations import Ticket
+from service.contract.ticket import Ticket
 from service.http.content_type import JSON_ONLY
 from service.http.deps import Here
 from service.http.errors import problem_responses

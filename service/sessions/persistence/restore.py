@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import structlog
 
 from service.sessions.persistence.replay import ReplayError, replay
-from service.sessions.persistence.snapshots import UnfitError, unpack
+from service.sessions.persistence.snapshot_records import UnfitError, unpack
 from service.sessions.services import SessionServices
 from service.sessions.session import Session
 from service.store import EntryRecord, SessionRecord, SnapshotRecord

@@ -18,7 +18,7 @@ import structlog
 from anyio import to_thread
 
 from service.sessions.persistence.session_snapshot import SessionSnapshot
-from service.sessions.persistence.snapshots import TooLargeError, UnfitError, pack
+from service.sessions.persistence.snapshot_records import TooLargeError, UnfitError, pack
 from service.sessions.session import Session
 from service.settings import Settings
 from service.store import SnapshotRecord, Store, StoreError

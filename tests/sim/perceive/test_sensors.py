@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from service.sessions.persistence.snapshots import TooLargeError
+from service.sessions.persistence.snapshot_records import TooLargeError
 from sim import sensor_names
 from sim.batch import Batch
 from sim.config import Config, ConfigError

@@ -3,7 +3,7 @@
 
 import { hashOf, placeInHash } from "./address.js";
 import { errorText } from "./http.js";
-import { turns } from "./latest.js";
+import { newestOnly } from "./latest.js";
 import { createSession, findSession, openLink } from "./sessions.js";
 import { Connection } from "./socket.js";
 import { t } from "./texts.js";
@@ -15,7 +15,7 @@ import { t } from "./texts.js";
 export class Connector {
   /** @type {Connection | null} */ #connection = null;
   /** Where to go next: a session that was made for an earlier wish, and comes late, is not gone to. */
-  #going = turns();
+  #going = newestOnly();
 
   /** Called with each picture that the service sends. @type {Set<(data: ArrayBuffer) => void>} */ pictures = new Set();
 

@@ -9,7 +9,7 @@
  * belongs to nothing that is seen.
  * @returns {() => () => boolean}
  */
-export function turns() {
+export function newestOnly() {
   let newest = 0;
   return () => {
     const mine = ++newest;

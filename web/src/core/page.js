@@ -11,7 +11,7 @@ import { LANGUAGE } from "./texts.js";
 /** @import { TimeTravel } from "../timeline/timeTravel.js" */
 /** @import { Views } from "../ui/views.js" */
 /** @import { Foresight } from "../why/forecast.js" */
-/** @import { Otherwise } from "../why/alternatives.js" */
+/** @import { Hypothesis } from "../why/alternatives.js" */
 
 /**
  * @typedef {object} Page
@@ -27,7 +27,7 @@ import { LANGUAGE } from "./texts.js";
  * @property {(foresight: Foresight) => void} foresee  what is about to happen has become known
  * @property {(views: Views, large?: string | null) => void} arrange  show (true), hide (false), enlarge
  * @property {(notice: Notice | null) => void} tell  a passing line over the page, read aloud as well
- * @property {(other: Otherwise) => void} pick  play what would have been beside what was
+ * @property {(other: Hypothesis) => void} pick  play what would have been beside what was
  * @property {TimeTravel} timeTravel  which tick is looked at, and the way to others
  * @property {() => void} startSession
  * @property {() => void} reconnect  now rather than after the pause

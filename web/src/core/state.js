@@ -12,7 +12,7 @@ import { t } from "./texts.js";
 import { NO_STEPS, stepsAfter } from "./undoStack.js";
 import { answerExchange, beginExchange, endUnanswered, refuseExchange } from "../talk/exchanges.js";
 import { NO_TIMELINE, timelineAfter } from "../timeline/timelineState.js";
-import { AT_FIRST, viewsAfter } from "../ui/views.js";
+import { INITIAL_VIEWS, viewsAfter } from "../ui/views.js";
 import { worldAfter, worldOf } from "../road/world.js";
 import { NO_REGRET, regretAfter } from "../why/regret.js";
 
@@ -24,7 +24,7 @@ import { NO_REGRET, regretAfter } from "../why/regret.js";
 /** @import { Exchange } from "../talk/exchanges.js" */
 /** @import { LoaderEvent, Timeline } from "../timeline/timelineState.js" */
 /** @import { Regret, RegretEvent } from "../why/regret.js" */
-/** @import { Otherwise } from "../why/alternatives.js" */
+/** @import { Hypothesis } from "../why/alternatives.js" */
 /** @import { Views } from "../ui/views.js" */
 /** @import { World } from "../road/world.js" */
 
@@ -61,7 +61,7 @@ import { NO_REGRET, regretAfter } from "../why/regret.js";
 
 /** @typedef {{text: string}} Draft  another object each time, though the text be the same */
 
-/** @typedef {{other: Otherwise}} Comparison  another object each time */
+/** @typedef {{other: Hypothesis}} Comparison  another object each time */
 
 /** @typedef {{ids: string[], cells: Cell[]}} Highlight */
 
@@ -86,7 +86,7 @@ import { NO_REGRET, regretAfter } from "../why/regret.js";
  *   | {type: "look", tick: number | null, playing: boolean}
  *   | {type: "past", past: Past}
  *   | {type: "draft", text: string}
- *   | {type: "comparison", other: Otherwise}
+ *   | {type: "comparison", other: Hypothesis}
  *   | LoaderEvent | RegretEvent} PageEvent  what happened on this side of the wire
  */
 
@@ -109,7 +109,7 @@ export const INITIAL = {
   notice: null,
   prior: null,
   foresight: null,
-  views: AT_FIRST,
+  views: INITIAL_VIEWS,
   large: null,
   steps: NO_STEPS,
   regret: NO_REGRET,

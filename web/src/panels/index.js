@@ -23,7 +23,7 @@ import { createServerVideo } from "../road/serverVideoLoader.js";
 import { createPlan } from "./plan.js";
 import { createRoad } from "../road/road.js";
 import { createSchematic } from "./schematic.js";
-import { createShare } from "../timeline/share.js";
+import { createSessionMenu } from "../timeline/sessionMenu.js";
 import { createReader } from "../talk/speech.js";
 import { createStatus } from "./status.js";
 import { createTalk } from "../talk/conversation.js";
@@ -53,7 +53,7 @@ export function createPanels(page) {
     createVerdict(byId("road"), page),
     createTimeline(byId("timeline"), page),
     createPast(byId("past"), page),
-    createShare(byId("session-menu"), page),
+    createSessionMenu(byId("session-menu"), page),
     createExport(byId("files"), page),
     createNotice(byId("notice"), page),
     createSchematic(byId("schematic"), road.places),

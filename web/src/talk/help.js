@@ -3,7 +3,7 @@
 
 import { html, nothing, render } from "../../vendor/lit-html.js";
 import { errorText } from "../core/http.js";
-import { turns } from "../core/latest.js";
+import { newestOnly } from "../core/latest.js";
 import { chooseLanguage, LANGUAGE, languages, t } from "../core/texts.js";
 import { chooseTheme, theme } from "../core/theme.js";
 import { plain } from "../core/words.js";
@@ -41,7 +41,7 @@ const MORE_KEYS = [
 
 /** @param {HTMLDialogElement} dialog @param {Page} page */
 export function createHelp(dialog, page) {
-  const asking = turns();
+  const asking = newestOnly();
   const put = (/** @type {string} */ text) => {
     dialog.close();
     page.put(text);

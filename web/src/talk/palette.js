@@ -3,7 +3,7 @@
 
 import { html, live, nothing, render } from "../../vendor/lit-html.js";
 import { runCommand } from "../core/commands.js";
-import { turns } from "../core/latest.js";
+import { newestOnly } from "../core/latest.js";
 import { t } from "../core/texts.js";
 import { guide } from "./language.js";
 
@@ -19,7 +19,7 @@ const MOST_EXAMPLES = 3;
 /** @param {HTMLDialogElement} dialog @param {Page} page */
 export function createPalette(dialog, page) {
   /** @type {Shown} */ let shown = { entries: [], typed: "", at: 0 };
-  const asking = turns();
+  const asking = newestOnly();
   const found = () => rank(shown.entries, shown.typed).slice(0, MOST_SHOWN);
 
   /** @param {Partial<Shown>} change @param {boolean} [scroll] */

@@ -8,7 +8,7 @@ import { createMomentsDialog } from "./momentsDialog.js";
 import { createSessionsDialog } from "./sessionsDialog.js";
 
 /** @import { Page } from "../core/page.js" */
-/** @import { Dialogs } from "./share.js" */
+/** @import { Dialogs } from "./sessionMenu.js" */
 
 /** @param {Page} page @returns {Dialogs} */
 export function createDialogs(page) {

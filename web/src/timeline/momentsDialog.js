@@ -3,7 +3,7 @@
 
 import { html, live, nothing } from "../../vendor/lit-html.js";
 import { askJson, errorText } from "../core/http.js";
-import { turns } from "../core/latest.js";
+import { newestOnly } from "../core/latest.js";
 import { sessionPath } from "../core/protocol.js";
 import { t } from "../core/texts.js";
 import { dialogSlot, makeDialog } from "../ui/dialog.js";
@@ -23,7 +23,7 @@ export function createMomentsDialog(page) {
   const body = dialogSlot(dialog);
   /** @type {Shown} */ let shown = { name: "", note: { text: "", bad: false }, moments: null, session: null };
   /** @type {string | null} the exchange whose answer is waited for */ let waiting = null;
-  const asking = turns();
+  const asking = newestOnly();
 
   /** @param {Partial<Shown>} change */
   function show(change) {

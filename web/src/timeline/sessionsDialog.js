@@ -4,7 +4,7 @@
 import { html, nothing, repeat } from "../../vendor/lit-html.js";
 import { hashOf } from "../core/address.js";
 import { ask, askJson, errorText } from "../core/http.js";
-import { turns } from "../core/latest.js";
+import { newestOnly } from "../core/latest.js";
 import { SESSIONS_PATH, sessionPath } from "../core/protocol.js";
 import { dateText, t } from "../core/texts.js";
 import { dialogSlot, makeDialog } from "../ui/dialog.js";
@@ -31,7 +31,7 @@ export function createSessionsDialog(page) {
   const dialog = makeDialog(t("sessions.title"));
   const body = dialogSlot(dialog);
   let shown = NOTHING;
-  const asking = turns();
+  const asking = newestOnly();
   const does = {
     close: () => dialog.close(),
     more: () => void next(),

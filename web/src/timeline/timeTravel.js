@@ -160,7 +160,7 @@ export class TimeTravel {
       return this.live();
     }
     const reopened = before.past !== null && state.past === null && state.look.tick !== null;
-    if (reopened || state.timeline.age !== before.timeline.age) this.#rewritten();
+    if (reopened || state.timeline.version !== before.timeline.version) this.#rewritten();
   }
 
   /** The past may have become another one: ask anew, and show what is there now. */

@@ -6,7 +6,7 @@
  */
 
 import { askJson, errorText } from "../core/http.js";
-import { turns } from "../core/latest.js";
+import { newestOnly } from "../core/latest.js";
 import { forks } from "./links.js";
 import { sessionPath } from "../core/protocol.js";
 import { gapOf } from "./timelineState.js";
@@ -35,7 +35,7 @@ export class TimelineLoader {
   #waiting = false;
   #failed = false;
   /** Questions under way about what stands. */ #revisions = 0;
-  #revising = turns();
+  #revising = newestOnly();
 
   /** @param {Store<State, Event>} store @param {Around} around */
   constructor(store, { storage, http, later = (work, ms) => setTimeout(work, ms) }) {
@@ -53,7 +53,7 @@ export class TimelineLoader {
       this.#failed = false;
     }
     if (state.timeline === before.timeline || state.world === null) return;
-    if (state.timeline.edition !== before.timeline.edition) void this.#revise();
+    if (state.timeline.maybeChanged !== before.timeline.maybeChanged) void this.#revise();
     if (gapOf(state.timeline, 1)) this.#fillIn(this.#pages < QUICK_PAGES ? PAUSE_MS.page : PAUSE_MS.later);
     this.#tellLoading();
   }
@@ -96,8 +96,8 @@ export class TimelineLoader {
     const gap = gapOf(timeline, PAGE_TICKS);
     if (this.#asking || !session || gap === null) return;
     this.#asking = true;
-    const { age } = timeline;
-    const here = () => this.store.state().session === session && this.store.state().timeline.age === age;
+    const { version } = timeline;
+    const here = () => this.store.state().session === session && this.store.state().timeline.version === version;
     let pause = PAUSE_MS.page;
     try {
       const path = `${sessionPath(session)}/timeline?from=${gap.from}&limit=${gap.limit}`;
@@ -107,7 +107,7 @@ export class TimelineLoader {
         this.#pages += 1;
         if (this.#pages >= QUICK_PAGES) pause = PAUSE_MS.later;
         this.#tell(null);
-        this.store.dispatch({ type: "timeline-page", age, from, moves, marks });
+        this.store.dispatch({ type: "timeline-page", version, from, moves, marks });
       }
     } catch (error) {
       if (here()) {

@@ -27,8 +27,8 @@ import { egoOf } from "../road/world.js";
  * @typedef {object} Timeline
  * @property {string} letters  see `LETTERS`, one for each tick until now; "?" where it is not known
  * @property {TimelineEvent[]} events  without waits and detours, which are read off the letters
- * @property {number} edition  raised when the past may have become another one
- * @property {number} age  raised when it has: what was asked for before is of a run that is no more
+ * @property {number} maybeChanged  raised when the past may have become another one
+ * @property {number} version  raised when it has: what was asked for before is of a run that is no more
  * @property {number} sequence  how many changes the session has accepted
  * @property {string[]} changes  tick and number of each change that stands, as last heard
  * @property {boolean} loading  whether more of it is about to be known
@@ -36,8 +36,8 @@ import { egoOf } from "../road/world.js";
  */
 
 /**
- * What comes of questions about it. An `age` is that of the timeline when it was asked.
- * @typedef {{type: "timeline-page", age: number, from: number, moves: string, marks: Pick<TimelineMark, "tick" | "kind" | "ids">[]}
+ * What comes of questions about it. An `version` is that of the timeline when it was asked.
+ * @typedef {{type: "timeline-page", version: number, from: number, moves: string, marks: Pick<TimelineMark, "tick" | "kind" | "ids">[]}
  *   | {type: "timeline-changes", items: Pick<RoadChange, "tick" | "sequence" | "text">[], more: boolean, forks: Fork[]}
  *   | {type: "timeline-trouble", text: string | null}
  *   | {type: "timeline-loading", loading: boolean}} LoaderEvent
@@ -55,7 +55,7 @@ const LETTERS = /** @type {Record<Move, string>} */ ({
 const UNKNOWN = "?";
 
 /** @type {Timeline} */
-export const NO_TIMELINE = { letters: "", events: [], edition: 0, age: 0, sequence: 0, changes: [], loading: false, trouble: null };
+export const NO_TIMELINE = { letters: "", events: [], maybeChanged: 0, version: 0, sequence: 0, changes: [], loading: false, trouble: null };
 
 const CLOCK = new Set(["paused", "tick", "playback_speed"]);
 
@@ -70,7 +70,7 @@ export function timelineAfter(timeline, event, before) {
   if (before === null && event.type !== "hello") return timeline;
   switch (event.type) {
     case "hello":
-      return { ...cut(timeline, event.state.tick), edition: timeline.edition + 1, sequence: event.sequence };
+      return { ...cut(timeline, event.state.tick), maybeChanged: timeline.maybeChanged + 1, sequence: event.sequence };
     case "tick":
       return afterTick(timeline, event, before);
     case "state":
@@ -78,7 +78,7 @@ export function timelineAfter(timeline, event, before) {
     case "changed":
       return afterChange(timeline, event);
     case "timeline-page":
-      return event.age === timeline.age ? afterPage(timeline, event) : timeline;
+      return event.version === timeline.version ? afterPage(timeline, event) : timeline;
     case "timeline-changes":
       return afterChanges(timeline, event);
     case "timeline-trouble":
@@ -110,7 +110,7 @@ function afterChange(timeline, message) {
   const back = nowOf(until) < nowOf(timeline);
   // Words about the clock alone leave the road's past as it is; anything else may have rewritten it.
   if (message.sequence === timeline.sequence || (aboutClock && !back)) return until;
-  return { ...until, edition: timeline.edition + 1 };
+  return { ...until, maybeChanged: timeline.maybeChanged + 1 };
 }
 
 /** The present is this tick: what was beyond it is gone, but not what was forked from there. @param {Timeline} timeline @param {number} tick @returns {Timeline} */
@@ -119,7 +119,7 @@ function cut(timeline, tick) {
   if (missing === 0) return timeline;
   if (missing > 0) return { ...timeline, letters: timeline.letters + UNKNOWN.repeat(missing) };
   const events = timeline.events.filter((each) => each.tick <= tick || each.kind === "fork");
-  return { ...timeline, letters: timeline.letters.slice(0, tick), events, age: timeline.age + 1 };
+  return { ...timeline, letters: timeline.letters.slice(0, tick), events, version: timeline.version + 1 };
 }
 
 /** @param {Timeline} timeline @param {LoaderEvent & {type: "timeline-page"}} page @returns {Timeline} */
@@ -159,12 +159,12 @@ function afterChanges(timeline, { items, more, forks }) {
 
 /** From this tick on the run is another, and not known. @param {Timeline} timeline @param {number} tick @returns {Timeline} */
 function forget(timeline, tick) {
-  const { letters, events, age } = timeline;
+  const { letters, events, version } = timeline;
   return {
     ...timeline,
     letters: letters.slice(0, tick) + UNKNOWN.repeat(letters.length - tick),
     events: events.filter(({ tick: at, kind }) => at <= tick && !(tick === 0 && kind === "episode")),
-    age: age + 1,
+    version: version + 1,
   };
 }
 

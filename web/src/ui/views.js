@@ -18,7 +18,7 @@ export const LAYERS = ["path", "potholes", "forecast", "boxes"];
 const NARROW_PX = 600;
 
 /** @type {Views} */
-export const AT_FIRST = {
+export const INITIAL_VIEWS = {
   road: true, schematic: !(globalThis.innerWidth < NARROW_PX), plan: true, occupancy: true, metrics: true, log: true,
   path: true, potholes: false, forecast: false, boxes: false,
   service: false, // whether the service's own pictures are seen in place of the page's
@@ -29,15 +29,15 @@ const KEPT = "views";
 /** As it was left, as far as that can be read. @returns {Views} */
 export function viewsLeft() {
   try {
-    return viewsAfter(AT_FIRST, JSON.parse(preference(KEPT, "{}")));
+    return viewsAfter(INITIAL_VIEWS, JSON.parse(preference(KEPT, "{}")));
   } catch {
-    return AT_FIRST;
+    return INITIAL_VIEWS;
   }
 }
 
 /** @param {Views} views */
 export function keepViews(views) {
-  const changed = Object.entries(views).filter(([name, on]) => on !== AT_FIRST[name]);
+  const changed = Object.entries(views).filter(([name, on]) => on !== INITIAL_VIEWS[name]);
   prefer(KEPT, JSON.stringify(Object.fromEntries(changed)));
 }
 
@@ -49,7 +49,7 @@ export function keepViews(views) {
  */
 export function viewsAfter(views, change) {
   const news = Object.entries(change ?? {}).filter(
-    ([name, on]) => Object.hasOwn(AT_FIRST, name) && typeof on === "boolean" && on !== views[name],
+    ([name, on]) => Object.hasOwn(INITIAL_VIEWS, name) && typeof on === "boolean" && on !== views[name],
   );
   return news.length === 0 ? views : { ...views, .../** @type {Views} */ (Object.fromEntries(news)) };
 }

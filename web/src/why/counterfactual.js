@@ -7,7 +7,7 @@ import { t } from "../core/texts.js";
 import { moveName } from "../core/words.js";
 import { worldAfter, worldOf } from "../road/world.js";
 
-/** @import { Otherwise } from "./alternatives.js" */
+/** @import { Hypothesis } from "./alternatives.js" */
 /** @import { Decision, Move, WireState, TickMessage } from "../core/protocol.js" */
 /** @import { World } from "../road/world.js" */
 
@@ -16,7 +16,7 @@ import { worldAfter, worldOf } from "../road/world.js";
 /** @typedef {{frames: Frame[], end: End}} Side */
 
 /**
- * @typedef {object} Beside
+ * @typedef {object} Comparison
  * @property {number} tick
  * @property {Move | null} insteadOf  the move that was made, where another is asked about
  * @property {string} text  what differs, in a sentence or two
@@ -28,11 +28,11 @@ import { worldAfter, worldOf } from "../road/world.js";
 /**
  * Both runs. Throws an `Error` whose message a person can read.
  * @param {string} session
- * @param {Otherwise} other
+ * @param {Hypothesis} other
  * @param {typeof fetch} [http]
- * @returns {Promise<Beside>}
+ * @returns {Promise<Comparison>}
  */
-export async function fetchBeside(session, other, http) {
+export async function fetchComparison(session, other, http) {
   const what = other.kind === "move" ? { move: other.move } : { actions: other.actions };
   const body = other.tick === null ? what : { ...what, at_tick: other.tick };
   const told = await askJson(`${sessionPath(session)}/counterfactual`, { method: "POST", body, http });
@@ -63,7 +63,7 @@ function framesOf({ state, ticks }) {
 
 /**
  * What is otherwise, as a title.
- * @param {Otherwise} other
+ * @param {Hypothesis} other
  * @param {number | null} [tick]  from which on, where that is known
  */
 export function titleOf(other, tick = null) {
@@ -72,14 +72,14 @@ export function titleOf(other, tick = null) {
   return tick === null ? t("counterfactual.instead", { move }) : t("counterfactual.instead_at", { move, tick });
 }
 
-/** The short name of the other run. @param {Otherwise} other */
+/** The short name of the other run. @param {Hypothesis} other */
 export function nameOfOther(other) {
   return other.kind === "change" ? t("counterfactual.changed") : t("counterfactual.move", { move: moveName(other.move) });
 }
 
 /**
  * The first tick at which the two are driven differently; null where they never are.
- * @param {Beside} found
+ * @param {Comparison} found
  * @returns {{at: number, tick: number, real: Move, changed: Move} | null}
  */
 export function partOf({ real, changed }) {

@@ -7,7 +7,7 @@
 
 import { html, nothing, render } from "../../vendor/lit-html.js";
 import { errorText } from "../core/http.js";
-import { turns } from "../core/latest.js";
+import { newestOnly } from "../core/latest.js";
 import { createLoop } from "../core/renderLoop.js";
 import { INITIAL } from "../core/state.js";
 import { capital, t } from "../core/texts.js";
@@ -16,11 +16,11 @@ import { MOVES } from "../core/words.js";
 import { createRoad } from "../road/road.js";
 import { icon } from "../ui/icons.js";
 import { find } from "../ui/slot.js";
-import { fetchBeside, nameOfOther, partOf, titleOf } from "./counterfactual.js";
+import { fetchComparison, nameOfOther, partOf, titleOf } from "./counterfactual.js";
 
-/** @import { Beside, Frame } from "./counterfactual.js" */
+/** @import { Comparison, Frame } from "./counterfactual.js" */
 /** @import { Page } from "../core/page.js" */
-/** @import { Otherwise } from "./alternatives.js" */
+/** @import { Hypothesis } from "./alternatives.js" */
 /** @import { State } from "../core/state.js" */
 /** @import { Panel } from "../panels/index.js" */
 
@@ -28,7 +28,7 @@ const SIDES = /** @type {const} */ (["real", "changed"]);
 const VERDICTS = /** @type {Record<string, string>} */ ({ crash: t("verdict.crash"), success: t("verdict.arrived"), stuck: t("verdict.stuck") });
 const TONES = /** @type {Record<string, string>} */ ({ crash: "bad", stuck: "bad", success: "good" });
 
-/** @param {HTMLElement} host @param {Page} page @returns {Panel & {open: (other: Otherwise) => void}} */
+/** @param {HTMLElement} host @param {Page} page @returns {Panel & {open: (other: Hypothesis) => void}} */
 export function createCounterfactualView(host, page) {
   const view = new CounterfactualView(host, page);
   return {
@@ -41,13 +41,13 @@ export function createCounterfactualView(host, page) {
 }
 
 class CounterfactualView {
-  /** What is imagined otherwise. @type {Otherwise | null} */ other = null;
-  /** Both runs, once they have come. @type {Beside | null} */ found = null;
+  /** What is imagined otherwise. @type {Hypothesis | null} */ other = null;
+  /** Both runs, once they have come. @type {Comparison | null} */ found = null;
   /** Why they have not, in words. */ trouble = "";
   /** How many ticks after the first are shown. */ at = 0;
   playing = false;
   #timer = 0;
-  #asking = turns();
+  #asking = newestOnly();
   /** Where the focus was before. @type {Element | null} */ #from = null;
 
   /** @param {HTMLElement} host @param {Page} page */
@@ -72,7 +72,7 @@ class CounterfactualView {
     return found ? Math.max(...SIDES.map((side) => found[side].frames.length)) - 1 : 0;
   }
 
-  /** Only the newest question is answered. @param {Otherwise} other */
+  /** Only the newest question is answered. @param {Hypothesis} other */
   async open(other) {
     const { session } = this.page.state();
     if (session === null) return;
@@ -84,7 +84,7 @@ class CounterfactualView {
     this.show();
     find(this.host, ".beside-head .button").focus();
     try {
-      const found = await fetchBeside(session, other);
+      const found = await fetchComparison(session, other);
       if (newest() && !this.host.hidden) this.#begin(found);
     } catch (error) {
       if (!newest()) return;
@@ -93,7 +93,7 @@ class CounterfactualView {
     }
   }
 
-  /** @param {Beside} found */
+  /** @param {Comparison} found */
   #begin(found) {
     this.found = found;
     this.go(0);
@@ -203,7 +203,7 @@ function frameAt(frames, at) {
   return frames[Math.min(at, frames.length - 1)];
 }
 
-/** @typedef {{other: Otherwise | null, found: Beside | null, trouble: string, at: number, last: number, playing: boolean}} Shown */
+/** @typedef {{other: Hypothesis | null, found: Comparison | null, trouble: string, at: number, last: number, playing: boolean}} Shown */
 /** @typedef {{leave: () => void, toggle: () => void, slide: (event: {target: HTMLInputElement}) => void}} Hands */
 
 /** @param {Shown} shown @param {Hands} hands */
@@ -221,7 +221,7 @@ function template(shown, hands) {
     ${controls(shown, hands)}`;
 }
 
-/** How each of the two ends. @param {Beside} found @param {Otherwise | null} other */
+/** How each of the two ends. @param {Comparison} found @param {Hypothesis | null} other */
 function endsText({ real, changed }, other) {
   return `${other ? nameOfOther(other) : ""}: ${changed.end.text}. ${t("counterfactual.real")}: ${real.end.text}.`;
 }

@@ -10,7 +10,7 @@ import { egoOf } from "../road/world.js";
 import { labelOf } from "./alternatives.js";
 import { optionLine } from "./moveOptions.js";
 
-/** @import { Otherwise } from "./alternatives.js" */
+/** @import { Hypothesis } from "./alternatives.js" */
 /** @import { Action, Cell, Decision, Option } from "../core/protocol.js" */
 /** @import { State } from "../core/state.js" */
 /** @import { World, Thing } from "../road/world.js" */
@@ -20,7 +20,7 @@ import { optionLine } from "./moveOptions.js";
  * @property {string} text
  * @property {boolean} [small]  one of several alike
  * @property {{actions: Action[], label: string, quiet?: boolean}} [act]
- * @property {Otherwise} [pick]  what would have been
+ * @property {Hypothesis} [pick]  what would have been
  */
 
 /**

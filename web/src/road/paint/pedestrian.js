@@ -29,7 +29,7 @@ export function paintWalkerShadow(pen, palette) {
  * @param {number} stride  how far into the step, 0–1
  * @param {boolean} hurt  lying on the ground: it will not walk on
  */
-export function drawWalker(pen, id, stride, hurt) {
+export function drawPedestrian(pen, id, stride, hurt) {
   const random = seeded(id);
   const shirt = SHIRTS[Math.floor(random() * SHIRTS.length)];
   const hair = HAIR[Math.floor(random() * HAIR.length)];

@@ -4,7 +4,7 @@
 import { paintBarrier, paintPothole } from "./hazards.js";
 import { drawSignal, paintWarning } from "./signals.js";
 import { lookOf, paintBeams, paintEgo, paintVehicle, paintVehicleShadow } from "./vehicle.js";
-import { drawWalker, paintWalkerShadow } from "./pedestrian.js";
+import { drawPedestrian, paintWalkerShadow } from "./pedestrian.js";
 
 /** @import { Pose } from "../motion.js" */
 /** @import { Move } from "../../core/protocol.js" */
@@ -97,7 +97,7 @@ const PAINTERS = {
     );
     pen.save();
     pen.rotate(facing);
-    drawWalker(pen, thing.id, stride, thing.disabled);
+    drawPedestrian(pen, thing.id, stride, thing.disabled);
     pen.restore();
   },
 

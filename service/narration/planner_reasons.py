@@ -16,9 +16,9 @@ from sim.types import Move, kind_of
 _OTHER_SIDE = {Move.LEFT: Move.RIGHT, Move.RIGHT: Move.LEFT}
 
 
-def outlook(
+def planner_reasons(
     sayings: Sayings, decision: Decision, run: SimState, forecast: Forecast | None = None
-) -> Outlook | None:
+) -> PlannerReasons | None:
     """What a decision taken in `run` went by; None unless by a planner that ranks as `rules` does.
 
     `forecast`: what it was taken by, where that is known already.
@@ -26,10 +26,10 @@ def outlook(
     by_planner = decision.asked is None and decision.fault is None
     if not by_planner or not traits_of(decision.planner).by_passages:
         return None
-    return Outlook(sayings, decision, run, forecast)
+    return PlannerReasons(sayings, decision, run, forecast)
 
 
-class Outlook:
+class PlannerReasons:
     """One such decision on its way into words."""
 
     def __init__(

@@ -1,8 +1,8 @@
-"""The service itself: its health, and tickets for sockets."""
+"""The service's health: whether it is alive, whether its store answers, and how late its ticks are."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Annotated, Literal
 
 from service.contract.model import Answered, DocumentedAs, Model
@@ -34,13 +34,3 @@ class Ready(Answered):
     """The store answers."""
 
     status: Annotated[str, DocumentedAs(Literal["ready"])]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Ticket(Answered):
-    """Lets one socket in: its first message is `{"type": "auth", "ticket": ...}`."""
-
-    ticket: str = field(repr=False)
-    """To be sent as the first message of a socket."""
-    good_for_s: int
-    """Seconds within which it must be used."""

@@ -18,7 +18,7 @@ import pytest
 import structlog
 from pydantic import SecretStr
 
-from service import log_format as logs
+from service import logging_setup as logs
 from service.app import create_app
 from service.settings import Settings
 from service.store import MemoryStore

@@ -24,7 +24,7 @@ const MENU = [
 /** @typedef {{link: (url: string, what: string) => void, moments: (naming: boolean) => void, sessions: () => void}} Dialogs */
 
 /** @param {HTMLElement} host @param {Page} page @returns {Panel} */
-export function createShare(host, page) {
+export function createSessionMenu(host, page) {
   const origin = createSlot(/** @type {HTMLElement} */ (host.parentElement), host.parentElement?.firstChild ?? null);
   createMenu(host, t("session.label"), () => menuItems(page));
   const dialogs = onDemand(page, async () => {

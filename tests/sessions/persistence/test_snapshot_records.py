@@ -14,8 +14,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from service.problems import NotRestorable
-from service.sessions.persistence import snapshots as module
-from service.sessions.persistence.snapshots import UnfitError, unpack
+from service.sessions.persistence import snapshot_records as module
+from service.sessions.persistence.snapshot_records import UnfitError, unpack
 from service.sessions.session import Session
 from service.store import MemoryStore, SnapshotRecord
 from sim.config import Config
