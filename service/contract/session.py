@@ -38,7 +38,7 @@ class Session(Answered):
     """Changes the session has accepted."""
     seed: int
     config: Mapping[str, Any]
-    language: str
+    language: str = "en"
     """The code of the language that its log and narration are in."""
     rules: Annotated[int, Field(examples=[2])]
     """The version of the rules that it runs under."""

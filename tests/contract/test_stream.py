@@ -8,6 +8,8 @@ from typing import Any
 from jsonschema import Draft202012Validator
 from starlette.testclient import TestClient, WebSocketTestSession
 
+from service.contract.encode.json import encoded
+from service.contract.encode.state import state_json
 from service.contract.schema import stream_schema
 from service.contract.state import State
 from service.sessions.messages import state_message, tick_message
@@ -71,7 +73,9 @@ def test_every_message_is_as_its_schema_says() -> None:
             client.delete(path)
             messages += until(socket, "gone")
     run = SimState.start(Config(seed=5))
-    messages.append(json.loads(add_event_id(state_message(NOWHERE, run, MissedTicks(3, 8)), "e.1")))
+    messages.append(
+        json.loads(add_event_id(state_message(encoded(state_json(NOWHERE, run)), MissedTicks(3, 8)), "e.1"))
+    )
     for message in messages:
         SENT.validate(message)
     # The last one is sent to readers of events alone, when the service stops.

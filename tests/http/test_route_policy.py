@@ -23,7 +23,9 @@ def test_every_route_but_pages_and_health_is_guarded() -> None:
     assert "/metrics" in guarded
     assert guarded.isdisjoint(OPEN)
     files = {each.path for each in routes} - guarded - OPEN
-    assert all("{path:path}" in path or path.rpartition(".")[2] in ("js", "css", "svg", "json") for path in files)
+    assert all(
+        "{path:path}" in path or path.rpartition(".")[2] in ("js", "css", "svg", "json") for path in files
+    )
 
 
 async def test_a_route_has_the_policy_of_its_endpoint_and_the_ordinary_one_otherwise() -> None:

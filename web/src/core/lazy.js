@@ -63,3 +63,12 @@ export function styled(name) {
     document.head.append(link);
   });
 }
+
+/**
+ * Runs a task once the browser has nothing else to do: what is fetched then is there when it is wanted, also without a network.
+ * @param {() => void} task
+ */
+export function whenIdle(task) {
+  if ("requestIdleCallback" in globalThis) requestIdleCallback(task, { timeout: 10_000 });
+  else setTimeout(task, 2000); // Safari
+}

@@ -975,7 +975,7 @@ export interface Session {
   seed: number;
   config: { [key: string]: unknown };
   /** The code of the language that its log and narration are in. */
-  language: string;
+  language?: string;
   /** The version of the rules that it runs under. */
   rules: number;
   /** What to tell whoever opens it, where these are not the rules of today. */

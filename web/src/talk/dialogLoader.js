@@ -1,7 +1,7 @@
 // @ts-check
-/** Help (`?`) and the palette (Ctrl K), fetched when they are first opened. */
+/** Help (`?`) and the palette (Ctrl K), fetched when they are first opened or, before that, when the browser has nothing to do. */
 
-import { onDemand, styled } from "../core/lazy.js";
+import { onDemand, styled, whenIdle } from "../core/lazy.js";
 import { t } from "../core/texts.js";
 
 /** @import { Page } from "../core/page.js" */
@@ -15,6 +15,7 @@ export function createHelpLoader(button, dialog, page) {
   });
   const open = () => wanted((help) => void help.open());
   button.addEventListener("click", open);
+  whenIdle(() => void wanted(() => {}));
   return {
     commands: [
       { name: "box", group: t("groups.talk"), keyName: "/", now: () => ({ label: t("talk.to_box"), run: () => document.getElementById("words")?.focus() }) },
@@ -31,9 +32,13 @@ export function createPaletteLoader(dialog, page) {
   });
   function open() {
     const typed = collectKeys();
-    wanted((palette) => void palette.open(typed())).finally(typed);
+    wanted((palette) => {
+      const { text, entered } = typed();
+      void palette.open(text, entered);
+    }).finally(typed);
   }
   dialog.setAttribute("aria-label", t("palette.label"));
+  whenIdle(() => void wanted(() => {}));
   addEventListener("keydown", (event) => {
     if (event.key.toLowerCase() !== "k" || !(event.ctrlKey || event.metaKey) || event.altKey || event.shiftKey) return;
     event.preventDefault();
@@ -43,18 +48,20 @@ export function createPaletteLoader(dialog, page) {
   return { commands: [{ name: "palette", group: t("groups.help"), keyName: "Ctrl K", now: () => ({ label: t("palette.label"), run: open }) }] };
 }
 
-/** Collects what is typed until it is asked for: who types at once loses no letter. @returns {() => string} */
+/** Collects what is typed, up to Enter, until it is asked for: who types at once loses no key. @returns {() => {text: string, entered: boolean}} */
 function collectKeys() {
-  let typed = "";
+  let text = "";
+  let entered = false;
   const collect = (/** @type {KeyboardEvent} */ event) => {
-    if (event.key.length !== 1 || event.ctrlKey || event.metaKey || event.altKey) return;
-    typed += event.key;
+    if ((event.key.length !== 1 && event.key !== "Enter") || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.key === "Enter") entered = true;
+    else text += event.key;
     event.preventDefault();
     event.stopPropagation();
   };
   addEventListener("keydown", collect, { capture: true });
   return () => {
     removeEventListener("keydown", collect, { capture: true });
-    return typed;
+    return { text, entered };
   };
 }

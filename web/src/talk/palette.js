@@ -40,11 +40,12 @@ export function createPalette(dialog, page) {
     entry.run();
   }
 
-  /** @param {string} [typed]  what is searched for already */
-  async function open(typed = "") {
+  /** @param {string} [typed]  what is searched for already @param {boolean} [entered]  whether Enter was pressed after it */
+  async function open(typed = "", entered = false) {
     if (document.querySelector("dialog[open]")) return;
     show({ entries: commandsNow(page), typed, at: 0 });
     dialog.showModal();
+    if (entered && found().length > 0) return run(found()[0]);
     const newest = asking();
     const guidance = await guide().catch(() => null); // the commands alone are useful too
     if (guidance === null || !newest() || !dialog.open) return;
