@@ -23,6 +23,8 @@ from service.grammar.linter import flaws
 from sim.planner_names import BUILT_IN
 
 _CODE = Path(__file__).parent
+_LOADED: dict[Path, tuple[bytes, LanguageData]] = {}
+"""The languages of this process by folder, with the digest of their sources: several services share them."""
 
 
 def load_language(folder: Path) -> LanguageData:
@@ -34,14 +36,21 @@ def load_language(folder: Path) -> LanguageData:
         raise LanguageDataError(f"there is no language in {folder}")
     name = f"grammar-{folder.name}-{digest_of(str(folder).encode()).hex()[:12]}"
     sources = _sources(folder)
+    loaded = _LOADED.get(folder)
+    if loaded is None or loaded[0] != sources:
+        loaded = _LOADED[folder] = sources, _read(folder, name, sources)
+    return loaded[1]
+
+
+def _read(folder: Path, name: str, sources: bytes) -> LanguageData:
     cached = read_cached(name, sources)
     if cached is not None:
         documents, lexicon = cached
         return language_data(Documents(**documents), unpack(lexicon))
     read = read_parts(folder)
     data = check_fit(language_data(*read))
-    kept = {field.name: getattr(read[0], field.name) for field in fields(Documents)}
-    write_cached(name, sources, (kept, pack(read[1])))
+    compiled = {field.name: getattr(read[0], field.name) for field in fields(Documents)}
+    write_cached(name, sources, (compiled, pack(read[1])))
     return data
 
 
