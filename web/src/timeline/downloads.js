@@ -1,5 +1,5 @@
 // @ts-check
-/** Addresses and saving of downloads (pictures, videos, recordings), and the upload of a recording. */
+/** Addresses and saving of downloads (pictures, videos, recordings); reads a recording from a file. */
 
 import { ask } from "../core/http.js";
 import { sessionPath } from "../core/protocol.js";
