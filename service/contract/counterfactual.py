@@ -65,7 +65,7 @@ class Counterfactual(Answered):
     instead_of: MoveName | None
     """The move that was made, where another is asked about."""
     said_since: int
-    """Actions said after that tick, left out of both."""
+    """How many actions were said after that tick. Neither run includes them."""
     real: Side
     changed: Side
     text: str = ""

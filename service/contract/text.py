@@ -1,6 +1,6 @@
-"""What may stand in a text that is kept: all of Unicode but U+0000, which no PostgreSQL can hold.
+"""Text that every kind of store can hold: all of Unicode but U+0000, which PostgreSQL cannot store.
 
-Refused at the door, so that a session can be moved from one kind of store to another.
+A request with U+0000 is refused, so that a session can be moved from one kind of store to another.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ def _checked(text: str) -> str:
 _SCHEMA = {"pattern": "^[^\\u0000]*$"}
 
 StorableText = Annotated[str, Field(json_schema_extra=_SCHEMA), AfterValidator(_checked)]
-"""A text that can be kept anywhere."""
+"""A text without U+0000, which every kind of store can hold."""
 
 Name = Annotated[str, Field(min_length=1, max_length=80, json_schema_extra=_SCHEMA), AfterValidator(_checked)]
 """What somebody calls a session."""

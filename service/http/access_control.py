@@ -34,9 +34,9 @@ def count_change(scope: Scope, guard: Guard) -> None:
 
 
 def _check_cross_site_get(scope: Scope) -> None:
-    """Refuses GETs of another site's page, which could not read the answer but have it made; many are costly.
+    """Refuses GETs from another site's page: it could not read the answer, but the service would do the work.
 
-    Scripts send neither header.
+    Non-browser clients send neither header.
     """
     if is_cross_site(first_header(scope, b"sec-fetch-site")) or not same_site(
         first_header(scope, b"origin"), first_header(scope, b"host")

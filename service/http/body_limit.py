@@ -1,7 +1,7 @@
 """Body limit: reads a request's body before anything looks at it, up to its limit; a larger one is refused.
 
-FastAPI's own `max_body_size` counts while the body is parsed, and an incomplete body of a client that goes
-away reaches the parser: what came may be readable by itself and mean something else.
+FastAPI's limit (`max_body_size`) counts while parsing. If a client disconnects midway, the part received
+could be valid JSON with another meaning and would be executed.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""Every error as a problem document (RFC 9457): ours, the framework's, and the unforeseen."""
+"""Answers every error with a problem document (RFC 9457): ours, the framework's, and the unforeseen.
+
+The service's own problems, with their status and slug, are in `service.problems`.
+"""
 
 from __future__ import annotations
 

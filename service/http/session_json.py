@@ -50,7 +50,7 @@ def links_json(session_id: str) -> dict[str, str]:
 
 
 def session_json(session: Session, sentence: str | None) -> dict[str, Any]:
-    """A session as it stands; `sentence` is what makes a road like its own."""
+    """A session as it is now. `sentence`: the command that creates a road like this one."""
     run, record = session.run, session.record
     return {
         "id": session.id,

@@ -1,4 +1,4 @@
-"""Static files in memory: read, compressed (gzip) and tagged (`ETag`) once, and again when they change.
+"""Static files in memory, compressed with gzip and tagged (`ETag`) once, and again when they change.
 
 Starlette's `StaticFiles` reads from disk in a thread and `GZipMiddleware` compresses for every request; a
 page of many small modules is as slow as its slowest answer (`python -m bench.page`). The page names, as

@@ -1,4 +1,4 @@
-"""What every answer has, and the seam to those who know one kind of question. A leaf of words."""
+"""The fields common to all answers, and the `Answerer` protocol. Imports no other answer module."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ Json = dict[str, Any]
 
 
 class Answerer(Protocol):
-    """Knows one kind of question."""
+    """Answers one kind of question."""
 
     def answer(self, asked: Asked) -> Json:
         """The `Answer` of the interface: facts as JSON values, and `text` made from nothing else."""
 
 
 def plain(sayings: Sayings, ask: Ask, run: SimState, text: str) -> Json:
-    """What every answer has, without causes or proofs."""
+    """The fields common to all answers, without causes or proofs."""
     return {
         "question": question(sayings, ask),
         "about": ask.about,

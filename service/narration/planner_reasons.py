@@ -1,5 +1,6 @@
-"""What planners that rank as `rules` does went by, in words: where moves lead, what closes a way, which side
-is nearer.
+"""Explains in words why a planner that ranks moves like `rules` chose as it did.
+
+Its reasons are where moves lead, what closes a way, and which side is nearer.
 """
 
 from __future__ import annotations
@@ -19,9 +20,10 @@ _OTHER_SIDE = {Move.LEFT: Move.RIGHT, Move.RIGHT: Move.LEFT}
 def planner_reasons(
     sayings: Sayings, decision: Decision, run: SimState, forecast: Forecast | None = None
 ) -> PlannerReasons | None:
-    """What a decision taken in `run` went by; None unless by a planner that ranks as `rules` does.
+    """The reasons of a decision taken in `run`.
 
-    `forecast`: what it was taken by, where that is known already.
+    None if another kind of planner, or a person, took the decision. `forecast` is the one that the decision
+    was taken by, where that is known already.
     """
     by_planner = decision.asked is None and decision.fault is None
     if not by_planner or not traits_of(decision.planner).by_passages:
@@ -30,7 +32,7 @@ def planner_reasons(
 
 
 class PlannerReasons:
-    """One such decision on its way into words."""
+    """The reasons of one decision of such a planner, in words."""
 
     def __init__(
         self, sayings: Sayings, decision: Decision, run: SimState, forecast: Forecast | None = None

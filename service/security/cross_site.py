@@ -1,4 +1,8 @@
-"""Whether a browser's request comes from a page of this service: `Origin` and `Sec-Fetch-Site`."""
+"""Cross-site requests (CSRF): recognizes them by the headers `Origin` and `Sec-Fetch-Site`.
+
+The refusal is in `service.http.middleware.cross_site` (changes and WebSockets) and in
+`service.http.access_control` (GETs).
+"""
 
 from __future__ import annotations
 

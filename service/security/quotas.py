@@ -1,6 +1,6 @@
 """Quotas: how many sessions, and cells of road over all of them, one client may have at once.
 
-Counts the sessions made since the service started; those that were there before are nobody's.
+Counts the sessions made since the service started; sessions from before the start count for no client.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ class Reservation:
 
 
 class Quotas:
-    """What each client has; a limit of None is none."""
+    """What each client has. A limit of None means unlimited."""
 
     def __init__(self, max_sessions: int | None, max_cells: int | None) -> None:
         self._max_sessions = max_sessions

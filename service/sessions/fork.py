@@ -1,7 +1,7 @@
 """Fork points: a session's timeline up to a tick, as the start of another session or of a link.
 
-A fork point is taken from the log as it stands: undone and rewound changes are not in it. It has the changes
-of the road only, without their text; bookmarks and the conversation are left out.
+A fork point is taken from the log without undone and rewound changes. It has the changes of the road only,
+without their text; bookmarks and the conversation are left out.
 
 A fork shares the log with its parent, in memory and in the store, and continues its sequence numbers. A link
 writes the log out.

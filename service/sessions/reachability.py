@@ -1,9 +1,9 @@
 """Reachability: whether a session's vehicle can still arrive, for each road and each change of it.
 
-A search that takes longer than a fraction of a millisecond runs in a thread. A road that begins with a tick
-is announced when the search ends, if it is still the road then; a change waits for the search, since its
-reply says the result. Nothing is stored: the result follows from the state, so log lines about it are
-transient (`service.sessions.log`).
+A search that takes longer than a fraction of a millisecond runs in a thread. A new road can appear by itself,
+at a tick: its result is announced when the search ends, unless the road has changed again. A change waits for
+the search, because its reply contains the result. Nothing is stored: the result follows from the state, so
+log lines about it are transient (`service.sessions.log`).
 """
 
 from __future__ import annotations

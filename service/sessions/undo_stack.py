@@ -1,8 +1,8 @@
 """The undo stack: one step for each utterance that changed the world.
 
-A step has the tail of the log before and after it, so that an utterance which itself undoes something is
-still one step. Pausing alone changes no world and is no step, but undoing a step restores the pause that came
-with it.
+A step stores the end of the log as it was before and after the utterance, so an utterance that itself undoes
+something is also one step. Pausing alone changes no world and is no step, but undoing a step restores the
+pause that came with it.
 """
 
 from __future__ import annotations

@@ -22,9 +22,10 @@ class StoreError(Exception):
 class Branch:
     """How a fork's log relates to its parent's: the shared part is stored once.
 
-    Shared are those of the parent's entries up to `sequence` that stood at `tick`; `standing` has a bit for
-    each number (bytes, lowest bit first, as hexadecimal). `instead` are entries that stood in part only,
-    written out. The fork's own entries are numbered on from `sequence`.
+    The fork shares the parent's entries up to `sequence` that were still in effect at `tick` (not undone).
+    `standing` marks them, one bit per sequence number (bytes, lowest bit first, as hexadecimal). Entries of
+    which only some actions were still in effect are copied into `instead`. The fork's own entries are
+    numbered on from `sequence`.
     """
 
     parent: str

@@ -1,10 +1,10 @@
 """Whether SQLite's log of the latest changes (`-wal`) is whole, which SQLite itself does not tell.
 
-It reads that file up to the first frame that does not fit and takes the rest for a change that was never
-finished: right after a power cut, and the silent loss of what was acknowledged after damage. The two can be
-told apart: each change is on the disk before the next begins, so an unfinished one is the last. What
-follows a change that cannot be read was once kept. Damage to the very last change, or a file that was cut
-off, looks like an unfinished change, and cannot be found.
+SQLite stops reading at the first frame that does not fit and treats the rest as an unfinished change. That is
+right after a power cut, but after damage it silently loses acknowledged changes. Each change is on disk
+before the next begins, so only the last can be unfinished: if a complete change follows an unreadable one,
+the log is damaged. Damage to the very last change, or a file that was cut off, looks like an unfinished
+change, and cannot be found.
 """
 
 from __future__ import annotations

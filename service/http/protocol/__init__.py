@@ -1,7 +1,8 @@
-"""Protocol classes for uvicorn (HTTP, WebSocket): the only code that reads its undocumented attributes.
+"""Header limits, read timeouts and WebSocket rules, as protocol classes for uvicorn.
 
-uvicorn has no options for what these classes add: limits on headers, a timeout for reading a request,
-refusals as problem documents, messages written straight to a WebSocket. `protocol_options` checks at start
+This is the only code that reads undocumented attributes of uvicorn. uvicorn has no options for what these
+classes add: limits on headers, a timeout for reading a request, refusals as problem documents, messages
+written straight to a WebSocket. `protocol_options` checks at start
 that every attribute they need exists. If one is missing (a newer uvicorn), the service runs on uvicorn's own
 protocols, with their public options, and logs a warning.
 

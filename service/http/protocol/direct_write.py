@@ -5,7 +5,7 @@ than the simulation (`python -m bench.live`, processor time of a tick). A client
 written to at once, one frame a message. For a client that does not (its buffer is full, a message is under
 way), the call returns false and sends nothing: the message goes through the task.
 
-Leaves out compression, which the service does not offer.
+Not handled: compression, which the service does not offer.
 """
 
 from __future__ import annotations

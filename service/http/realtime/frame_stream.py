@@ -1,8 +1,8 @@
 """Streams of frames: pictures drawn beside the event loop, encoded once for all who watch the same view.
 
-A *reel* draws one view of one session while somebody watches it, as often as its fastest watcher asks; when
-nothing moves nothing is drawn or sent. Each watcher has a slot for one picture, the newest: a slow one sees
-fewer pictures, never old ones, and nobody waits for it.
+A *reel* is the task that draws one view of one session for everyone who watches it, as often as the fastest
+watcher asks; when nothing moves nothing is drawn or sent. Each watcher has a slot for one picture, the
+newest: a slow one sees fewer pictures, never old ones, and nobody waits for it.
 
 A binary message is a header of 16 bytes, big-endian, then the picture's file:
 
@@ -12,7 +12,7 @@ A binary message is a header of 16 bytes, big-endian, then the picture's file:
     4 bytes  float: the phase, the share of the way from the tick before to this tick, 0 to 1
     8 bytes  the tick
 
-Leaves out when a tick was: a reel sees it at its next turn, and animates from there.
+Not handled: when exactly a tick was. A reel sees it at its next turn, and animates from there.
 """
 
 from __future__ import annotations

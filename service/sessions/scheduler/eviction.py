@@ -1,9 +1,8 @@
 """Eviction: drops idle sessions from memory.
 
 A session is wholly stored, so evicting it means storing its tick, and restoring it is what happens after a
-restart: the same ids, sequence and digest, paused. Sessions are evicted that are paused (running ones too,
-where the setting says so), have no subscribers and were not asked for in a while. Transient lines of the log
-are lost.
+restart: the same ids, sequence and digest, paused. A session is evicted when it has no subscriber, was not
+asked for in a while, and is paused (a setting evicts running ones too). Transient lines of the log are lost.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 // @ts-check
 /**
- * What a person can do without words, once for buttons, keys and the palette. Those that belong to a panel are told by
- * it (`Panel.commands`); all of them together are `page.commands()`.
+ * Commands for buttons, keys and the palette. A panel adds its own in `Panel.commands`; all of them together are
+ * `page.commands()`.
  */
 
 import { t } from "./texts.js";

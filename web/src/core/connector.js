@@ -14,7 +14,7 @@ import { t } from "./texts.js";
 
 export class Connector {
   /** @type {Connection | null} */ #connection = null;
-  /** Where to go next: a session that was made for an earlier wish, and comes late, is not gone to. */
+  /** The newest navigation: a session created for an older one that arrives late is ignored. */
   #going = newestOnly();
 
   /** Called with each picture that the service sends. @type {Set<(data: ArrayBuffer) => void>} */ pictures = new Set();

@@ -1,7 +1,7 @@
 // @ts-check
 /**
- * The one way to ask the service over HTTP: the answer, or an error whose message a person can read. Questions carry the
- * page's language, so that what is told comes back in it.
+ * The one way to ask the service over HTTP: the answer, or an error whose message a person can read. Requests carry the
+ * page's language, so that the service answers in that language.
  */
 
 import { LANGUAGE, t } from "./texts.js";

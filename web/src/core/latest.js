@@ -5,8 +5,8 @@
  */
 
 /**
- * Turns of asking. Each call begins one and gives back whether it is still the newest: what an older one brings late
- * belongs to nothing that is seen.
+ * Returns a function: each call starts a request and returns a check whether it is still the newest; late answers to
+ * older ones are dropped.
  * @returns {() => () => boolean}
  */
 export function newestOnly() {

@@ -9,11 +9,12 @@ import { t } from "./texts.js";
 /** @import { Panel } from "../panels/index.js" */
 
 /**
- * What makes a part once and hands it to whoever wants it; that it could not be fetched is told, and tried again.
+ * Returns a function that loads a part on first use and passes it to the callback. A failed load is shown to the user
+ * and retried on the next use.
  * @template Part
  * @param {Page} page
  * @param {() => Promise<Part>} make
- * @returns {(use: (part: Part) => unknown) => Promise<unknown>}  done when it has come, or has not
+ * @returns {(use: (part: Part) => unknown) => Promise<unknown>}  resolved when the load has succeeded or failed
  */
 export function onDemand(page, make) {
   /** @type {Promise<Part> | null} */ let part = null;

@@ -22,12 +22,12 @@ import { LANGUAGE } from "./texts.js";
  * @property {(text: string) => void} put  let a sentence stand in the box, to be read over and sent
  * @property {(actions: Action[], label: string, quiet?: boolean) => string} act  send typed actions; quiet ones are
  *   listed as talk only when they changed something or were refused. Answers the exchange's id
- * @property {(message: ClientMessage) => void} send  what is neither said nor done
+ * @property {(message: ClientMessage) => void} send  send any other message
  * @property {(highlight: Highlight | null) => void} highlight
  * @property {(foresight: Foresight) => void} foresee  what is about to happen has become known
  * @property {(views: Views, large?: string | null) => void} arrange  show (true), hide (false), enlarge
  * @property {(notice: Notice | null) => void} tell  a passing line over the page, read aloud as well
- * @property {(other: Hypothesis) => void} pick  play what would have been beside what was
+ * @property {(other: Hypothesis) => void} pick  show a counterfactual beside the real run
  * @property {TimeTravel} timeTravel  which tick is looked at, and the way to others
  * @property {() => void} startSession
  * @property {() => void} reconnect  now rather than after the pause

@@ -2,7 +2,7 @@
 /**
  * The wire: the shapes of what the service sends and takes, and nothing else.
  *
- * The one file to change when the service's JSON changes. It decodes and encodes; it opens no
+ * Types come from `wire.d.ts` (`make types-page`); decoding and encoding are here. It opens no
  * connection (`socket.js`, `sessions.js`) and keeps no state (`state.js`). Unknown keys are ignored
  * and unknown message types are handed on as `unknown`, so that an older page survives a newer service.
  */

@@ -1,6 +1,6 @@
 // @ts-check
 /**
- * Everything the page knows, in one object, and the pure functions that carry it on.
+ * Everything the page knows, in one object, and the pure functions that compute the next state.
  *
  * `reduce(state, event)` answers the next state and changes nothing; an event is a message of the
  * service or something the person did here. Panels only read. What moves between ticks is not here:
@@ -52,7 +52,7 @@ import { NO_REGRET, regretAfter } from "../why/regret.js";
  * @property {Look} look  which tick is looked at
  * @property {Past | null} past  that tick, as soon as it has come; null: the present is looked at
  * @property {Draft | null} draft  the latest sentence that was offered to stand in the box
- * @property {Comparison | null} comparison  the latest wish to see what would have been
+ * @property {{other: Hypothesis} | null} comparison  the latest request to see what would have been; a new object each time
  */
 
 /** @typedef {{world: World, decision: Decision | null, narration: string | null}} Past */
@@ -60,8 +60,6 @@ import { NO_REGRET, regretAfter } from "../why/regret.js";
 /** @typedef {{tick: number | null, playing: boolean}} Look  null: the present; playing: it goes on by itself */
 
 /** @typedef {{text: string}} Draft  another object each time, though the text be the same */
-
-/** @typedef {{other: Hypothesis}} Comparison  another object each time */
 
 /** @typedef {{ids: string[], cells: Cell[]}} Highlight */
 

@@ -11,8 +11,8 @@
  * @typedef {object} Store
  * @property {() => State} state  as it is now
  * @property {(event: Event) => void} dispatch
- * @property {(listener: (state: State, before: State) => void) => () => void} subscribe  told of each change, in their
- *   order, after it is made; gives back what ends it
+ * @property {(listener: (state: State, before: State) => void) => () => void} subscribe  called after each
+ *   change, in order; returns the unsubscribe function
  */
 
 /**

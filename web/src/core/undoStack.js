@@ -1,5 +1,5 @@
 // @ts-check
-/** Which changes can be taken back, so that each one said here can be gone back to by name and not by luck. */
+/** Which changes can be undone, so that undo can name the exact change. */
 
 /**
  * @typedef {object} Steps

@@ -253,7 +253,7 @@ export interface Counterfactual {
   at_tick: number;
   /** The move that was made, where another is asked about. */
   instead_of: Move | null;
-  /** Actions said after that tick, left out of both. */
+  /** How many actions were said after that tick. Neither run includes them. */
   said_since: number;
   real: Side;
   changed: Side;

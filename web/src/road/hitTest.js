@@ -2,7 +2,7 @@
 /**
  * What is where: cells and things on the views that show them.
  *
- * A view says where its cells are (`offerPlaces`); who points at it asks here. Pure but for that table.
+ * A view says where its cells are (`offerPlaces`); who points at it asks here. The only state is the table of views.
  */
 
 /** @import { Pose } from "./motion.js" */

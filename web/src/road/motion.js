@@ -5,7 +5,7 @@
  * Everything goes in a straight line from cell to cell, all of it by the same share f(t) = t²(3 − 2t) of its way at
  * the same time. A tick that comes early finds things on their way: they finish it a little faster, and cut no corner.
  * In a crash everything stops at the first contact, and stands there while the result does. What appears grows,
- * what is removed fades, and what no single tick led to is cut to, not glided to.
+ * what is removed fades. A jump of more than one tick is shown at once, without animation.
  */
 
 import { boxOf, firstContact, meeting } from "./collisionGeometry.js";

@@ -1,5 +1,5 @@
 // @ts-check
-/** Things to take away: pictures, videos, recordings; and a recording brought back. */
+/** Addresses and saving of downloads (pictures, videos, recordings); reads a recording from a file. */
 
 import { ask } from "../core/http.js";
 import { sessionPath } from "../core/protocol.js";

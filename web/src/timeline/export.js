@@ -1,5 +1,5 @@
 // @ts-check
-/** Things to take away (a picture, the recording, a video) and a recording brought back, also by dropping it. */
+/** Panel with the export commands (picture, recording, video) and the drop target that opens a recording. */
 
 import { html, nothing, render } from "../../vendor/lit-html.js";
 import { onDemand, styled } from "../core/lazy.js";

@@ -1,5 +1,5 @@
 // @ts-check
-/** The session's menu: a moment handed on (forked, gone back to, put into a link), sessions and moments that are kept. */
+/** The session's menu: fork, rewind to or share a moment; saved moments and sessions. */
 
 import { html, nothing } from "../../vendor/lit-html.js";
 import { hashOf } from "../core/address.js";

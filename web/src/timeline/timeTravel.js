@@ -2,10 +2,9 @@
 /**
  * Looking at the past: which tick is looked at, and the worlds shown for it; the latest wish wins.
  *
- * The tick that is wished for is known at once (`state.look`), the world a moment later (`state.past`). Who walks along
- * is given pages of ticks, and what comes next ahead of time. Who leaps is given that one tick, and its page once they
- * rest there. No more than one wish is asked for at a time: a drag over a hundred ticks must not leave a hundred
- * questions behind.
+ * The tick that is looked for is known at once (`state.look`), its world a moment later (`state.past`). Stepping loads
+ * pages of ticks and prefetches the next. A jump loads one tick, and its page after a pause at that tick. Only one
+ * request is under way at a time: a drag over a hundred ticks sends no hundred requests.
  */
 
 import { MomentCache, PAGE } from "./momentCache.js";

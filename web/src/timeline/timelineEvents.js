@@ -1,5 +1,5 @@
 // @ts-check
-/** Events along a run: in words, by importance, the next of a kind, and how long the line is that they stand on. */
+/** Events along a run: in words, by importance, the next of a kind, and the length of the timeline. */
 
 import { listText, t } from "../core/texts.js";
 

@@ -27,8 +27,8 @@ import { egoOf } from "../road/world.js";
  * @typedef {object} Timeline
  * @property {string} letters  see `LETTERS`, one for each tick until now; "?" where it is not known
  * @property {TimelineEvent[]} events  without waits and detours, which are read off the letters
- * @property {number} maybeChanged  raised when the past may have become another one
- * @property {number} version  raised when it has: what was asked for before is of a run that is no more
+ * @property {number} maybeChanged  a counter, raised when the past may have changed
+ * @property {number} version  a counter, raised when the past has changed: answers to older requests are dropped
  * @property {number} sequence  how many changes the session has accepted
  * @property {string[]} changes  tick and number of each change that stands, as last heard
  * @property {boolean} loading  whether more of it is about to be known
@@ -36,7 +36,7 @@ import { egoOf } from "../road/world.js";
  */
 
 /**
- * What comes of questions about it. An `version` is that of the timeline when it was asked.
+ * Answers to requests about it. A `version` is that of the timeline when the request was sent.
  * @typedef {{type: "timeline-page", version: number, from: number, moves: string, marks: Pick<TimelineMark, "tick" | "kind" | "ids">[]}
  *   | {type: "timeline-changes", items: Pick<RoadChange, "tick" | "sequence" | "text">[], more: boolean, forks: Fork[]}
  *   | {type: "timeline-trouble", text: string | null}

@@ -9,7 +9,7 @@ import { listText, nameText, t } from "../core/texts.js";
 
 /**
  * @typedef {{kind: "move", tick: number, move: Move}
- *   | {kind: "change", tick: number | null, actions: Action[], label: string}} Hypothesis  what is otherwise, and when
+ *   | {kind: "change", tick: number | null, actions: Action[], label: string}} Hypothesis  another move at a tick, or other actions from a tick on
  */
 
 /**

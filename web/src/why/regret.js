@@ -1,7 +1,7 @@
 // @ts-check
 /**
- * How good and how tight each decision was, as part of the state: moves blocked, from the stream; ticks lost against the
- * best, from the service, which has to search for it (`regretLoader.js`).
+ * For each decision: how many moves were blocked (from the stream), and how many ticks it lost against the best (from
+ * the service, which has to search for it: `regretLoader.js`). Part of the state.
  */
 
 /** @import { ServerMessage } from "../core/protocol.js" */
