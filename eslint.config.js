@@ -3,7 +3,7 @@ import js from "@eslint/js";
 import globals from "globals";
 
 export default [
-  { ignores: [".venv/", "**/vendor/", "build/", "dist/", "**/_bundled/"] },
+  { ignores: ["docs/site/**", ".venv/", "**/vendor/", "build/", "dist/", "**/_bundled/"] },
   js.configs.recommended,
   {
     rules: {
