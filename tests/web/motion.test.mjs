@@ -72,8 +72,10 @@ test("what is added grows in, what is removed fades and is then gone", () => {
   stage.receive(second, 1000, false);
   assert.ok(stage.pose("pothole-2", 1000).scale < 0.2);
   assert.equal(stage.pose("pothole-2", 2000).scale, 1);
+  assert.ok(stage.moving(1010) && !stage.moving(2000), "drawn until it has grown, however long ago the tick was");
   assert.equal(stage.pose("pothole-1", 1000).scale, 1);
   stage.receive(third, 3000, false);
+  assert.ok(stage.moving(3010) && !stage.moving(4000));
   assert.ok(stage.poses(3100).some(({ thing, alpha }) => thing.id === "pothole-2" && alpha < 1));
   assert.ok(!stage.poses(3500).some(({ thing }) => thing.id === "pothole-2"));
 });

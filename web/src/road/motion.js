@@ -58,6 +58,8 @@ export class Stage {
   /** @type {World | null} */ world = null;
   /** @type {[number, number][]} cells the vehicle has left in this episode, oldest first */ trail = [];
   /** @type {number} when the latest world came, ms */ receivedAt = 0;
+  /** When things last appeared or vanished, ms; also between two ticks. */
+  #changedAt = 0;
   #glideMs = 0;
   /** Where in the present step things were when the world came; below 0 they were in the step before. */
   #begun = 0;
@@ -94,6 +96,7 @@ export class Stage {
     }
     this.actors = actors;
     this.world = world;
+    this.#changedAt = now;
     if (!going) {
       this.#glideMs = still ? 0 : glideMs(world);
       this.#begun = cut ? 0 : Math.max(-1, head - 1);
@@ -138,7 +141,7 @@ export class Stage {
 
   /** Whether anything is still on its way. @param {number} now  ms */
   moving(now) {
-    return now - this.receivedAt < Math.max(this.#glideMs, APPEAR_MS, VANISH_MS);
+    return now - this.receivedAt < this.#glideMs || now - this.#changedAt < Math.max(APPEAR_MS, VANISH_MS);
   }
 
   /** Where in the present step things are, up to 1; below 0 in the one before. @param {number} now  ms */
