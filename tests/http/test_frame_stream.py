@@ -94,9 +94,9 @@ async def test_as_fast_as_possible_there_is_no_gliding(session: Session) -> None
     reel._slots.add(slot)
     await reel.draw_now(1.0)
     session.playback_speed = "max"
-    session.tick()
+    while session.timeline.tick < 2:  # how many ticks a turn has depends on the machine
+        session.tick()
     await reel.draw_now(1.1)
-    assert session.timeline.tick > 1
     assert read(await slot.next())[:2] == (session.timeline.tick, 1.0)
 
 
