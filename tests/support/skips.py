@@ -1,4 +1,4 @@
-"""How a test says that it is left out for a reason that no installing helps, so that it may be in CI too."""
+"""Skips that are allowed in CI: for reasons that installing something does not remove."""
 
 from __future__ import annotations
 
