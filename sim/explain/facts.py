@@ -63,8 +63,19 @@ class Cause:
     are so many that it was not looked for"""
     each_enough: bool = False
     """whether each of a group of several would have been enough by itself"""
+    rest_blocks: bool = False
+    """whether, with this one alone gone, others of its group meet the move that is made without the group"""
     real: bool = True
     """whether it was there, in the cell in which it was seen; False for what a sensor made up or misplaced"""
+
+
+@dataclass(frozen=True, slots=True)
+class Link:
+    """Something that stood in the way of a move because of another thing: without that it is gone from there."""
+
+    blocker: str
+    by: str
+    move: Move
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,3 +132,14 @@ class Explanation:
     """what the foil would have led to; None without one, or where it leads off the road"""
     reruns: int
     """how often the decision was run again for this answer"""
+    also: tuple[Cause, ...] = ()
+    """of `why`: causes beside `causes` that flip the decision by themselves, or that stand where it is said, with
+    their groups"""
+    chain: tuple[Link, ...] = ()
+    """of `why`: what stood in the way because of something else"""
+    untried: int = 0
+    """of `why`: things seen that were not tried by themselves, and might flip the decision too"""
+    searched: int = 0
+    """of `why_not`: edits up to which every change was tried for one that leads to the foil"""
+    tried: int = 0
+    """of `why_not`: changes that were tried"""

@@ -183,8 +183,9 @@ def judge_left_out(explanation: Explanation, text: str, named: Collection[str]) 
     also = {cause.id for cause in getattr(explanation, "also", ())}
     told = {cause.id for cause in explanation.causes} | also
     out = [name for name in names_of(state) if name not in told and flips(state, [name], fact)]
-    unsaid = out and "looked" not in text
-    yield "4 single cause left out", f"{out}: {text}" if unsaid else None
+    untried = getattr(explanation, "untried", 0)
+    kind = "4 single cause not tried" if untried else "4 single cause left out"
+    yield kind, f"{out}: {text}" if out else None
     if named and fact is not Move.FORWARD:
         members = {name for cause in explanation.causes for name in cause.group} | told
         chained = {link.blocker for link in getattr(explanation, "chain", ())}
