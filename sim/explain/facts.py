@@ -63,10 +63,10 @@ class Cause:
     are so many that it was not looked for"""
     each_enough: bool = False
     """whether each of a group of several would have been enough by itself"""
-    rest_blocks: bool = False
-    """whether, with this one alone gone, others of its group meet the move that is made without the group"""
     real: bool = True
     """whether it was there, in the cell in which it was seen; False for what a sensor made up or misplaced"""
+    rest_blocks: bool = False
+    """whether, with this one alone gone, others of its group meet the move that is made without the group"""
 
 
 @dataclass(frozen=True, slots=True)
