@@ -63,6 +63,8 @@ class LanguageData:
     number_words: frozenset[str]
     nouns: Mapping[str, str]
     """for each concept that may only stand with a value of its own kind ("weather"), that kind"""
+    free: frozenset[str]
+    """concepts that frames may take and have no use for, because they say nothing more"""
 
     def knows(self, word: str) -> bool:
         """Whether a word means anything, alone or in a phrase."""
@@ -153,4 +155,5 @@ def language_data(documents: Documents, lexicon: Lexicon) -> LanguageData:
         vague=int(words["vague"]),
         number_words=numbers.words(),
         nouns=documents.frames["agree"],
+        free=frozenset(str(documents.frames.get("free", "")).split()),
     )

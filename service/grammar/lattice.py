@@ -50,6 +50,14 @@ class Edge(NamedTuple):
         return self.sense.concept
 
 
+class Withheld(NamedTuple):
+    """Readings that words cannot have beside what stands after them; tokens `[start, end)` are both."""
+
+    start: int
+    end: int
+    edges: tuple[Edge, ...]
+
+
 @dataclass(slots=True)
 class Lattice:
     """The edges of a sentence by the token they start at, longest first once sorted."""
@@ -58,6 +66,8 @@ class Lattice:
     edges: list[list[Edge]] = field(default_factory=list)
     concepts: set[str] = field(default_factory=set)
     """Every concept that was found in the sentence, before nouns were given their quantities."""
+    withheld: list[Withheld] = field(default_factory=list)
+    """What was taken out of the edges because of a marker (see `accounting`)."""
 
     def all(self) -> Iterator[Edge]:
         """Every edge."""
