@@ -2,7 +2,7 @@
 
 "To", "by", "too", "for" say little alone and are glue in most places. Beside an amount or a value they change
 what it means: "to 20 km/h" is no "by 20 km/h", "too dark" is no "dark". Such a word is a *marker*. Which words
-are markers, and where, is data (`marker` in the lexicon, by role). In its role a marker is never glue: its
+are markers, and in which role, is data (`marker.…` in the lexicon). In its role a marker is never glue: its
 readings without a meaning are withheld before any frame is tried, so that only a frame with a use for it can
 take the sentence. Where none has, the refusal names the marker and what it stands with.
 """
@@ -17,16 +17,22 @@ from service.grammar.parse_types import Span
 from service.grammar.paths import SEPARATOR
 from service.grammar.tokens import Token
 
-MARKER = "marker"
-
-AMOUNT = "amount"
+AMOUNT = "marker.amount"
 """Role of words that say what an amount after them is: "to 20", "by 20", "over 20"."""
 
-MEASURE = "measure"
+MEASURE = "marker.measure"
 """Role of words that do so before a number with a unit, or of ticks: "for five seconds"."""
 
-DEGREE = "degree"
+DEGREE = "marker.degree"
 """Role of words that turn the word after them round, and are glue at the end: "too dark", but "rain too"."""
+
+THING = "marker.thing"
+"""Role of words that belong to a noun for a thing after them: "that car" is not the vehicle itself."""
+
+PHRASE = "marker.phrase"
+"""Role of phrases whose words say nothing more alone, wherever they stand: "next to"."""
+
+MARKERS = frozenset((AMOUNT, MEASURE, DEGREE, THING, PHRASE))
 
 SERVES = "prep."
 """What the concepts begin with whose frames use the word before an amount."""
@@ -41,15 +47,15 @@ def withhold(lattice: Lattice, free: Set[str]) -> None:
 
     `free` are the concepts that frames take without a use for them.
     """
-    if MARKER not in lattice.concepts:
+    if lattice.concepts.isdisjoint(MARKERS):
         return
-    lattice.concepts.discard(MARKER)
+    lattice.concepts -= MARKERS
     markers: list[Edge] = []
     for starting in lattice.edges:
-        found = [edge for edge in starting if edge[2][0] == MARKER]
+        found = [edge for edge in starting if edge[2][0] in MARKERS]
         if found:
             markers += found
-            starting[:] = [edge for edge in starting if edge[2][0] != MARKER]
+            starting[:] = [edge for edge in starting if edge[2][0] not in MARKERS]
     for marker in markers:
         end = _operand(lattice, marker)
         if end is None:
@@ -76,14 +82,18 @@ def restore(lattice: Lattice, start: int, end: int) -> list[Withheld]:
 def _operand(lattice: Lattice, marker: Edge) -> int | None:
     """Where that ends which a marker decides about, or None where it is in no role."""
     at = marker.end
+    if marker.concept == PHRASE:
+        return at
     if at >= lattice.size:
         return None
     here = lattice.edges[at]
-    match marker.sense.value:
+    match marker.concept:
         case role if role == DEGREE:
             if any(edge.concept in (SEPARATOR, "tag") for edge in here):
                 return None
             return max([edge.end for edge in here if edge.concept != GLUE], default=at + 1)
+        case role if role == THING:
+            return _thing_end(lattice, at)
         case role if role == MEASURE:
             return _amount_end(lattice, at, things=False)
         case role if role == AMOUNT:
@@ -102,6 +112,12 @@ def _amount_end(lattice: Lattice, at: int, *, things: bool) -> int | None:
                 continue
             ends.append(edge.end)
     return max(ends, default=None)
+
+
+def _thing_end(lattice: Lattice, at: int) -> int | None:
+    """Where the noun for a thing ends that begins at a token, if nothing longer does."""
+    longest = max((edge.end for edge in lattice.edges[at]), default=at)
+    return longest if any(e.end == longest and e.concept in _THINGS for e in lattice.edges[at]) else None
 
 
 def _names_thing(lattice: Lattice, at: int) -> bool:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
+from service.grammar.accounting import MARKERS
 from service.grammar.data import LanguageData
 from service.grammar.frames import Frame
 from service.grammar.lattice import GLUE, NAME, NUMBER, UNIT
@@ -21,7 +22,8 @@ ENGINE_CONCEPTS = frozenset(
     {GLUE, NAME, NUMBER, UNIT, SECOND, COLON, QUANTITY, ALLOWS, NEGATION, SEPARATOR, SPEAKER}
     | {"interjection", "tag", "name_end", "name_tail", "quotes", "unsupported", "captures"}
     | {"what_if", "if", "then_what", "what_if_tail", "teach", "means"}
-    | {"refers", "taught", "repeated", "repair", "contrast", "marker"}
+    | {"refers", "taught", "repeated", "repair", "contrast"}
+    | MARKERS
 )
 """Concepts the engine itself gives a use."""
 
