@@ -9,10 +9,13 @@ take the sentence. Where none has, the refusal names the marker and what it stan
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Iterator, Mapping, Sequence, Set
+from contextlib import contextmanager
 
 from service.grammar.frames import Filled
 from service.grammar.lattice import GLUE, NUMBER, Edge, Lattice, Withheld
+from service.grammar.lexicon import Sense
+from service.grammar.noun_phrases import NOUN
 from service.grammar.parse_types import Span
 from service.grammar.paths import SEPARATOR
 from service.grammar.tokens import Token
@@ -69,14 +72,17 @@ def withhold(lattice: Lattice, free: Set[str]) -> None:
                 lattice.edges[edge.start].remove(edge)
 
 
-def restore(lattice: Lattice, start: int, end: int) -> list[Withheld]:
-    """Put back what was withheld in tokens `[start, end)`; what that was."""
-    back = [each for each in lattice.withheld if start <= each.start and each.start < end]
-    for each in back:
-        for edge in each.edges:
-            if edge not in lattice.edges[edge.start]:
-                lattice.edges[edge.start].append(edge)
-    return back
+@contextmanager
+def restored(lattice: Lattice, withheld: Sequence[Withheld], end: int) -> Iterator[None]:
+    """For a while, words up to `end` may be all that was withheld, and be passed over with what they govern."""
+    before = {each.start: list(lattice.edges[each.start]) for each in withheld}
+    for each in withheld:
+        here = lattice.edges[each.start]
+        here.append(Edge(each.start, min(each.end, end), Sense(GLUE)))
+        here += [edge for edge in each.edges if edge.start == each.start]
+    yield
+    for start, edges in before.items():
+        lattice.edges[start] = edges
 
 
 def _operand(lattice: Lattice, marker: Edge) -> int | None:
@@ -110,7 +116,7 @@ def _amount_end(lattice: Lattice, at: int, *, things: bool) -> int | None:
         elif edge.concept in _PARTS:
             if not things and edge.end < lattice.size and _names_thing(lattice, edge.end):
                 continue
-            ends.append(edge.end)
+            ends += [edge.end, *_noun_ends(lattice, edge.end)]
     return max(ends, default=None)
 
 
@@ -118,6 +124,11 @@ def _thing_end(lattice: Lattice, at: int) -> int | None:
     """Where the noun for a thing ends that begins at a token, if nothing longer does."""
     longest = max((edge.end for edge in lattice.edges[at]), default=at)
     return longest if any(e.end == longest and e.concept in _THINGS for e in lattice.edges[at]) else None
+
+
+def _noun_ends(lattice: Lattice, at: int) -> list[int]:
+    here = lattice.edges[at] if at < lattice.size else []
+    return [edge.end for edge in here if edge.concept.startswith(NOUN)]
 
 
 def _names_thing(lattice: Lattice, at: int) -> bool:

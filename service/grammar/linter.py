@@ -44,10 +44,10 @@ AMOUNT_FORMS = frozenset(
         "the_many",
     }
     | {"the_counted", "bare_one", "bare_many", "more_bare", "more_bare_one", "fewer_bare", "post"}
-    | {"those_counted", "asked"}
+    | {"those_counted", "asked", "too_many", "too_few"}
     | {"id", "last", "last_counted"}
 )
-DIMENSIONS = frozenset({"number", "length", "speed", "seconds", "fraction", "times", "real_times"})
+DIMENSIONS = frozenset({"number", "length", "speed", "seconds", "fraction", "times", "rate", "real_times"})
 
 
 def flaws(data: LanguageData) -> list[str]:

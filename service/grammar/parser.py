@@ -13,7 +13,7 @@ from pydantic import ValidationError
 
 from service.actions import Action, load
 from service.actions.table import verbs_where
-from service.grammar.accounting import alignment, restore
+from service.grammar.accounting import alignment, restored
 from service.grammar.clauses import Clause, Divided, Divider
 from service.grammar.contradictions import Contradiction, contradiction
 from service.grammar.data import LanguageData
@@ -281,16 +281,16 @@ class Reading:
 
     def _lost(self, part: Fragment) -> list[str]:
         """The markers of a part with what they stand with, where the part would be read without them."""
-        back = restore(self._lattice, part.start, part.end)
-        if not back:
-            return []
-        try:
-            read = read_all(self._lattice, 0, self._lattice.size, self._divide)
-        except BudgetExceededError:
-            return []
-        if isinstance(read, Fragment) or (read.failed is not None and read.failed.start <= part.start):
-            return []
-        return [self._written(each.start, each.end) for each in back]
+        inside = [each for each in self._lattice.withheld if part.start <= each.start < part.end]
+        for tried in [*((each,) for each in inside[:MAX_UNPARSED]), inside]:
+            with restored(self._lattice, tried, part.end):
+                try:
+                    read = read_all(self._lattice, 0, self._lattice.size, self._divide)
+                except BudgetExceededError:
+                    return []
+            if not isinstance(read, Fragment) and (read.failed is None or read.failed.start > part.start):
+                return [self._written(each.start, min(each.end, part.end)) for each in tried]
+        return []
 
     def _refuse(self, unparsed: list[str], understood: tuple[str, ...], *, asking: bool = False) -> Parse:
         if asking and (which := self._which()) is not None:
