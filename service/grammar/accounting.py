@@ -12,9 +12,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence, Set
 from contextlib import contextmanager
 
+from service.grammar.fragments import TAG
 from service.grammar.frames import Filled
 from service.grammar.lattice import GLUE, NUMBER, Edge, Lattice, Withheld
-from service.grammar.lexicon import Sense
+from service.grammar.lexicon import SECOND, Sense
 from service.grammar.noun_phrases import NOUN
 from service.grammar.parse_types import Span
 from service.grammar.paths import SEPARATOR
@@ -35,7 +36,13 @@ THING = "marker.thing"
 PHRASE = "marker.phrase"
 """Role of phrases whose words say nothing more alone, wherever they stand: "next to"."""
 
-MARKERS = frozenset((AMOUNT, MEASURE, DEGREE, THING, PHRASE))
+CLAUSE = "marker.clause"
+"""Words that begin a clause of condition or time; in a name that is not in quotation marks they are no part of it."""
+
+MARKERS = frozenset((AMOUNT, MEASURE, DEGREE, THING, PHRASE, CLAUSE))
+
+VERB = "v."
+"""What the concepts of verbs begin with; before one a word of degree is the sign of an infinitive."""
 
 SERVES = "prep."
 """What the concepts begin with whose frames use the word before an amount."""
@@ -95,7 +102,7 @@ def _operand(lattice: Lattice, marker: Edge) -> int | None:
     here = lattice.edges[at]
     match marker.concept:
         case role if role == DEGREE:
-            if any(edge.concept in (SEPARATOR, "tag") for edge in here):
+            if any(edge.concept in (SEPARATOR, TAG) or edge.concept.startswith(VERB) for edge in here):
                 return None
             return max([edge.end for edge in here if edge.concept != GLUE], default=at + 1)
         case role if role == THING:
@@ -137,14 +144,18 @@ def _names_thing(lattice: Lattice, at: int) -> bool:
 
 def _loose(lattice: Lattice, marker: Edge, free: Set[str]) -> list[Edge]:
     """The edges within a marker that would leave it without a use."""
-    return [
+    inside = (
         edge
         for starting in lattice.edges[marker.start : marker.end]
         for edge in starting
         if edge.end <= marker.end
-        and (edge.concept == GLUE or edge.concept in free)
-        and not edge.concept.startswith(SERVES)
-    ]
+    )
+    if marker.concept in (AMOUNT, MEASURE):
+        passed = free | {GLUE}
+        return [e for e in inside if e.concept in passed and not e.concept.startswith(SERVES)]
+    loose = free | {GLUE, SECOND}
+    governed = marker.concept == PHRASE
+    return [edge for edge in inside if edge.concept in loose or (governed and edge.concept.startswith(SERVES))]
 
 
 def alignment(
