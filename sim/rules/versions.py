@@ -21,7 +21,7 @@ sweep within a tick, movers brake for a standing vehicle, and a situation that r
 that is given more or fewer lanes or rows keeps what is on it."""
 
 ROADS_KEEP_THEIR_THINGS: Final = 3
-"""The version from which a change of lanes or rows by some number keeps what is on the road."""
+"""The version from which so many lanes or rows more or fewer leave what is on the road where it is."""
 
 FIRST: Final = 1
 """The version of what names none."""
