@@ -174,5 +174,5 @@ def load(values: Any) -> tuple[Action, ...]:
 
 def dump(actions: tuple[Action, ...]) -> list[dict[str, Any]]:
     """Actions as JSON values, in the contract's form: what was not said is absent."""
-    values: list[dict[str, Any]] = ACTIONS.dump_python(actions, mode="json", exclude_none=True)
+    values: list[dict[str, Any]] = ACTIONS.dump_python(actions, mode="json", exclude_none=True, by_alias=True)
     return values
