@@ -16,6 +16,7 @@ from typing import Final, cast
 from service.actions.action import ACTION_TYPES, Action, Ask, Forget, Teach
 from service.actions.evaluation import Advise, Evaluate, FindWorst
 from service.actions.steering import (
+    Chat,
     Hide,
     Load,
     Pause,
@@ -106,6 +107,8 @@ class ActionTraits:
     """whether a correction ("no, three") can take it back and do it anew"""
     additive: bool = False
     """whether saying it again comes on top of what was done before"""
+    small_talk: bool = False
+    """whether it is only manners, which say nothing beside a request"""
     idempotent: bool = False
     """whether saying it twice in a row for emphasis is saying it once"""
 
@@ -184,6 +187,9 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
         separates_settings=True,
         model=ModelUse.ALWAYS,
         what_if=WhatIf.INVALID,
+    ),
+    Chat: ActionTraits(
+        changes_session=False, small_talk=True, model=ModelUse.ALWAYS, what_if=WhatIf.INVALID
     ),
     Advise: ActionTraits(
         changes_session=False, is_question=True, model=ModelUse.ALWAYS, what_if=WhatIf.NO_EFFECT

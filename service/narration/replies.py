@@ -9,6 +9,7 @@ from service.sessions.facts import (
     Advised,
     AliasChange,
     Asked,
+    Chatted,
     Fact,
     PauseSet,
     Stepped,
@@ -93,6 +94,8 @@ class Replies:
             case Viewed(view=view, shown=shown):
                 name = self._sayings.say("replies", "views", view)
                 return self._say("shown" if shown else "hidden", view=name)
+            case Chatted(kind=kind):
+                return self._sayings.say("chat", kind)
             case Asked() | Advised():
                 return ""
 

@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 from service.actions import Ask
 from service.sessions.bookmarks import Bookmarked, Jumped
-from service.sessions.scheduler.playback_speed import PlaybackSpeedSet
+from service.sessions.scheduler.playback_speed import NORMAL, PlaybackSpeed, PlaybackSpeedSet
 from sim.hazard_advice import Advice
 from sim.session.edits import Applied, Change
 from sim.session.timeline import Timeline
@@ -47,6 +47,8 @@ class Asked:
     timeline: Timeline
     supposes: str | None = None
     """what the question takes for granted, beyond its keys: a `crash`"""
+    playback_speed: PlaybackSpeed = NORMAL
+    """the clock's, which no timeline has"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +68,13 @@ class Viewed:
 
 
 @dataclass(frozen=True, slots=True)
+class Chatted:
+    """Small talk of a kind; nothing was done."""
+
+    kind: str
+
+
+@dataclass(frozen=True, slots=True)
 class AliasChange:
     """A phrase was taught or forgotten, with the sentence that means the same."""
 
@@ -80,7 +89,16 @@ Answerable: TypeAlias = Asked | Advised
 """Facts that are answered and change nothing."""
 
 Fact: TypeAlias = (
-    Applied | PauseSet | PlaybackSpeedSet | Stepped | Undone | Bookmarked | Jumped | Viewed | Answerable
+    Applied
+    | PauseSet
+    | PlaybackSpeedSet
+    | Stepped
+    | Undone
+    | Bookmarked
+    | Jumped
+    | Viewed
+    | Chatted
+    | Answerable
 )
 
 
@@ -127,7 +145,7 @@ def _changes(fact: Fact) -> tuple[Change, ...]:
             return (Change("tick", fact.first_tick, fact.first_tick + len(fact.ticks)),)
         case Jumped():
             return (Change("tick", fact.before, fact.tick), *fact.changes)
-        case Asked() | Advised() | Bookmarked() | Viewed():
+        case Asked() | Advised() | Bookmarked() | Viewed() | Chatted():
             return ()
 
 
