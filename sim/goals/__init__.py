@@ -1,0 +1,17 @@
+"""Roads and changes of roads that are looked for: harder, easier, telling two planners apart, one lane free."""
+
+from sim.goals.budget import Budget, CancelledError
+from sim.goals.find import find_goal
+from sim.goals.finding import Degree, Finding, GoalName
+from sim.goals.measure import Difficulty, Drive
+
+__all__ = [
+    "Budget",
+    "CancelledError",
+    "Degree",
+    "Difficulty",
+    "Drive",
+    "Finding",
+    "GoalName",
+    "find_goal",
+]
