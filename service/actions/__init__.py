@@ -19,6 +19,7 @@ from service.actions.action import (
     load,
 )
 from service.actions.evaluation import Advise, Evaluate, FindWorst, ScenarioParts
+from service.actions.goals import Goal, Style
 from service.actions.steering import (
     Hide,
     Load,
@@ -48,6 +49,7 @@ __all__ = [
     "Evaluate",
     "FindWorst",
     "Forget",
+    "Goal",
     "Hide",
     "Load",
     "MetricName",
@@ -64,6 +66,7 @@ __all__ = [
     "ScenarioParts",
     "Show",
     "Step",
+    "Style",
     "Teach",
     "Ticks",
     "Undo",

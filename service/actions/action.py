@@ -15,6 +15,7 @@ from pydantic import ConfigDict, Discriminator, TypeAdapter
 from pydantic_core import to_json
 
 from service.actions.evaluation import Advise, Evaluate, FindWorst
+from service.actions.goals import Goal, Style
 from service.actions.steering import (
     STRICT,
     Hide,
@@ -46,6 +47,7 @@ QuestionName = Literal[
     "metrics",
     "confidence",
     "maintenance",
+    "styles",
     "help",
 ]
 
@@ -72,6 +74,7 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "metrics": QuestionTraits(("metric",)),
     "confidence": QuestionTraits(runs_episodes=True),
     "maintenance": QuestionTraits(),
+    "styles": QuestionTraits(),
     "help": QuestionTraits(),
 }
 
@@ -134,6 +137,8 @@ def _refuse_kinds(why: str, actions: Iterable[Action], kinds: tuple[type, ...]) 
 
 Action: TypeAlias = Annotated[
     WorldAction
+    | Goal
+    | Style
     | Pause
     | Resume
     | Undo

@@ -5,6 +5,7 @@ from __future__ import annotations
 from service.narration.advice import Advices
 from service.narration.answerer import Answerer, Json
 from service.narration.confidence import Confidences
+from service.narration.goals import Styles
 from service.narration.maintenance import Maintenance
 from service.narration.metrics import Figures
 from service.narration.next import Next
@@ -34,6 +35,7 @@ class Answers:
             "what_if": WhatIfs(sayings),
             "next": Next(sayings),
             "metrics": Figures(sayings),
+            "styles": Styles(sayings),
         }
 
     def answer(self, asked: Answerable) -> Json:

@@ -2,16 +2,14 @@
 
 from sim.goals.budget import Budget, CancelledError
 from sim.goals.find import find_goal
-from sim.goals.finding import Degree, Finding, GoalName
+from sim.goals.finding import Finding
 from sim.goals.measure import Difficulty, Drive
 
 __all__ = [
     "Budget",
     "CancelledError",
-    "Degree",
     "Difficulty",
     "Drive",
     "Finding",
-    "GoalName",
     "find_goal",
 ]

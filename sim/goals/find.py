@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from sim.actions import Degree, GoalName
 from sim.goals.budget import Budget, BudgetSpentError
-from sim.goals.finding import Degree, Finding, GoalName
+from sim.goals.finding import Finding
 from sim.goals.more_or_less import find_easier, find_harder
 from sim.goals.new_road import find_hard_road, find_separating_road, find_surprise
 from sim.goals.one_lane import find_one_lane

@@ -3,17 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
-
-from sim.actions import WorldAction
+from sim.actions import GoalName, WorldAction
 from sim.goals.measure import Difficulty, Drive
 from sim.state import SimState
-
-GoalName = Literal["harder", "easier", "surprise", "hard_but_solvable", "separates", "one_lane_free"]
-"""What can be looked for."""
-
-Degree = Literal["little", "lot"]
-"""How much harder or easier; not said: in between."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,9 +12,9 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Final, NamedTuple
 
-from sim.actions import Add, PlaceableKind, Remove, Where, WorldAction
+from sim.actions import Add, Degree, GoalName, PlaceableKind, Remove, Where, WorldAction
 from sim.goals.budget import Budget
-from sim.goals.finding import Degree, Finding, GoalName
+from sim.goals.finding import Finding
 from sim.goals.measure import Difficulty, Drive, drive, measure, room
 from sim.oracle.outlook import outlook
 from sim.plan.safe_planning import is_foreign

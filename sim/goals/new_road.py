@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Final, TypeVar, get_args
 
-from sim.actions import Layout, RoadType, Scenario, Set, Traffic, WorldAction
+from sim.actions import GoalName, Layout, RoadType, Scenario, Set, Traffic, WorldAction
 from sim.goals.budget import Budget
-from sim.goals.finding import Finding, GoalName
+from sim.goals.finding import Finding
 from sim.goals.measure import Difficulty, Drive, drive, measure
 from sim.goals.more_or_less import present_drives
 from sim.plan import traits_of
