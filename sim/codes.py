@@ -66,7 +66,7 @@ EDITS: Final[Mapping[str, tuple[str, tuple[str, ...]]]] = MappingProxyType(
         "goal_no_way": ("does-not-fit", ()),
         "goal_after_end": ("none-there", ()),
         "goal_among_egos": ("not-available", ()),
-        "goal_same_planner": ("out-of-range", ("planner",)),
+        "goal_same_planner": ("out-of-range", ()),
     }
 )
 """Codes of a `sim.session.errors.EditError`: the category of each, and its facts.

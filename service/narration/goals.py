@@ -54,7 +54,8 @@ class Goals:
     def _change(self, fact: Resolved, found: Finding) -> str:
         if found.goal in ("surprise", "hard_but_solvable", "separates"):
             said = self._scenario(found.state)
-            seeds = [action.value for action in found.actions if isinstance(action, Set) and action.parameter == "seed"]
+            settings = [action for action in found.actions if isinstance(action, Set)]
+            seeds = [action.value for action in settings if action.parameter == "seed"]
             return f"{said} {self._say('seed', seed=seeds[-1])}" if seeds else said
         moved = [thing.kind for each in fact.done for thing in (*each.added, *each.removed)]
         counts = Counter(moved)
@@ -90,12 +91,13 @@ class Goals:
 
     def _drive(self, drive: Drive, before: Drive | None) -> str:
         planner = self._sayings.planner(drive.planner, "with")
-        said = self._sayings.say(FILE, "drives", drive.outcome, planner=planner, tick=drive.tick)
+        said = self._sayings.say(FILE, "drives", drive.outcome, planner=planner, ticks=drive.ticks)
         if before is None:
             return self._say("drive", said=said)
-        same = (before.outcome, before.tick) == (drive.outcome, drive.tick)
+        same = (before.outcome, before.ticks) == (drive.outcome, drive.ticks)
         key = "as_before" if same else before.outcome.value
-        return self._say("drive_before", said=said, before=self._sayings.say(FILE, "before", key, tick=before.tick))
+        was = self._sayings.say(FILE, "before", key, ticks=before.ticks)
+        return self._say("drive_before", said=said, before=was)
 
     def _say(self, key: str, **parts: object) -> str:
         return self._sayings.say(FILE, key, **parts)
@@ -118,10 +120,14 @@ class Styles:
         """A style as it is asked for, and what it sets."""
         words = self._sayings.words(FILE, "styles")
         said = self._sayings.say(FILE, "styles", name, "say") if name in words else name
-        parts = [self._part(action) for action in actions]
-        return self._sayings.say(
-            FILE, "style_is", say=said, parts=self._sayings.joined([part for part in parts if part])
-        )
+        wishes = [action for action in actions if isinstance(action, Prefer)]
+        cleared = len(wishes) > 1  # before others, to weigh evenly is where they start from
+        parts = [
+            self._part(action)
+            for action in actions
+            if not (cleared and isinstance(action, Prefer) and action.preference == "balanced")
+        ]
+        return self._sayings.say(FILE, "style_is", say=said, parts=self._sayings.joined(parts))
 
     def _part(self, action: Prefer | Set) -> str:
         if isinstance(action, Prefer):
@@ -130,4 +136,3 @@ class Styles:
         key = action.parameter if action.parameter in named else "other"
         name = self._sayings.say("replies", "parameters", action.parameter)
         return self._sayings.say(FILE, "settings", key, name=name, value=action.value)
-

@@ -91,7 +91,16 @@ Answerable: TypeAlias = Asked | Advised
 """Facts that are answered and change nothing."""
 
 Fact: TypeAlias = (
-    Applied | Resolved | PauseSet | PlaybackSpeedSet | Stepped | Undone | Bookmarked | Jumped | Viewed | Answerable
+    Applied
+    | Resolved
+    | PauseSet
+    | PlaybackSpeedSet
+    | Stepped
+    | Undone
+    | Bookmarked
+    | Jumped
+    | Viewed
+    | Answerable
 )
 
 

@@ -1,4 +1,4 @@
-"""Roads and changes of roads that are looked for: harder, easier, telling two planners apart, one lane free."""
+"""Roads, and changes of roads, that are looked for: harder, easier, separating planners, one lane free."""
 
 from sim.goals.budget import Budget, CancelledError
 from sim.goals.find import find_goal

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+
 from sim.actions import GoalName, WorldAction
 from sim.goals.measure import Difficulty, Drive
 from sim.state import SimState

@@ -1,7 +1,7 @@
-"""How hard a road is, measured: the fewest ticks to the goal, the room to manoeuvre, what planners make of it.
+"""Measures how hard a road is: the fewest ticks to the goal, the room to manoeuvre, how planners drive it.
 
-The fewest ticks are proved by a certificate (`sim.oracle.certificate`), whose plan was driven. The room is the
-mean number of cells in which the vehicle can be at a tick without a collision and still arrive by a fixed
+The fewest ticks are proved as by a certificate (`sim.oracle.certificate`), and the plan is driven. The room
+is the mean number of cells in which the vehicle can be at a tick without a collision and still arrive by a fixed
 horizon; two roads are compared by the same horizon. It is taken from the forecast in which no mover reacts.
 Drives are run to the end of the episode, as they would go.
 """

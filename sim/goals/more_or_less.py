@@ -1,9 +1,9 @@
 """Makes the present road harder or easier, thing by thing, until the room to manoeuvre has changed enough.
 
-Harder: the fewest ticks to the goal do not go down, the room (`sim.goals.measure`) goes down by a share, and the
-present planner does not arrive sooner. Easier: the fewest ticks do not go up, a share of the room that things
-take is regained, and the present planner arrives if it did. Both roads can be driven, which is proved. At each
-step some things are drawn, and the one is kept that comes nearest to what is wanted.
+Harder: the fewest ticks to the goal do not go down, the room (`sim.goals.measure`) goes down by a share, and
+the present planner does not arrive sooner. Easier: the fewest ticks do not go up, a share of the room that
+things take is regained, and the present planner arrives if it did. Both roads can be driven, which is proved.
+At each step some things are drawn, and the one is kept that comes nearest to what is wanted.
 """
 
 from __future__ import annotations
@@ -98,7 +98,7 @@ def _search(
     most: int,
     budget: Budget,
 ) -> Finding | None:
-    """The first series of changes that ends where it should, with drives of the present planner that agree."""
+    """The first series of changes that goes far enough, and that the present planner's drives agree with."""
     drives = present_drives(state, budget)
     for attempt in range(ATTEMPTS):
         found = _change(state, _stream(state, goal).narrow(attempt), draw, before, distance, most, budget)
@@ -203,7 +203,9 @@ def _opened(state: SimState, budget: Budget) -> Finding | None:
     if level is None:
         return None
     drives = present_drives(after, budget)
-    return Finding("easier", tuple(actions), after, level, drives=drives, drives_before=present_drives(state, budget))
+    return Finding(
+        "easier", tuple(actions), after, level, drives=drives, drives_before=present_drives(state, budget)
+    )
 
 
 def present_drives(state: SimState, budget: Budget) -> tuple[Drive, ...]:

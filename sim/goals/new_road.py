@@ -87,7 +87,7 @@ def find_hard_road(state: SimState, budget: Budget) -> Finding | None:
 def find_separating_road(state: SimState, can: str, cannot: str, budget: Budget) -> Finding | None:
     """A new road that one planner drives to the goal, and another does not. Raises `EditError`."""
     if can == cannot:
-        raise EditError("goal_same_planner", "planners", planner=can)
+        raise EditError("goal_same_planner", "planners")
     stream = _stream(state, "separates")
     # The quicker of the two first: it rules out most roads.
     order = sorted((can, cannot), key=lambda name: (traits_of(name).work, name != cannot))

@@ -1,11 +1,11 @@
-"""Blocks every lane but one in a row ahead, so that every way to the goal leads through one cell of that row."""
+"""Blocks every lane but one in a row ahead, so that every way to the goal leads through one of its cells."""
 
 from __future__ import annotations
 
 from sim.actions import Add, Where
 from sim.goals.budget import Budget
 from sim.goals.finding import Finding
-from sim.goals.measure import fewest_ticks, measure
+from sim.goals.measure import measure
 from sim.goals.more_or_less import CLEAR_ROWS, measure_present, present_drives
 from sim.randomness import Stream
 from sim.session.edits import apply
@@ -30,14 +30,11 @@ def find_one_lane(state: SimState, budget: Budget) -> Finding | None:
             continue
         ranks = stream.narrow(row).words(len(free))
         for _, gap in sorted(zip(ranks, free, strict=True)):
-            actions = tuple(
-                Add(kind="barrier", count=1, where=Where(cell=road.cell(cell))) for cell in free if cell != gap
-            )
+            blocked = [road.cell(cell) for cell in free if cell != gap]
+            actions = tuple(Add(kind="barrier", count=1, where=Where(cell=cell)) for cell in blocked)
             after = state
             for action in actions:
                 after = apply(after, action).state
-            if fewest_ticks(after, budget) is None:
-                continue
             level = measure(after, budget, None if before is None else before.horizon)
             if level is None:
                 continue
