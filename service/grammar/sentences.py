@@ -19,6 +19,7 @@ from service.actions import (
     Evaluate,
     FindWorst,
     Forget,
+    Goal,
     Hide,
     Load,
     Record,
@@ -27,6 +28,7 @@ from service.actions import (
     ScenarioParts,
     Show,
     Step,
+    Style,
     Teach,
 )
 from sim.actions import (
@@ -108,6 +110,10 @@ class Sentences:
                 return self._adjust(action)
             case Prefer():
                 return self._word("prefer", action.preference)
+            case Goal():
+                return self._goal(action)
+            case Style():
+                return self._word("style", action.style)
             case SetMode():
                 return self._word("mode", action.mode)
             case Drive():
@@ -142,6 +148,12 @@ class Sentences:
                 return self._say("forget", phrase=quoted(action.phrase))
             case _:
                 return self._say(action.do)
+
+    def _goal(self, goal: Goal) -> str:
+        if goal.planners is not None:
+            can, cannot = (self._value("planner", planner) for planner in goal.planners)
+            return self._say("separates", can=can, cannot=cannot)
+        return self._word("goal", goal.goal if goal.degree is None else f"{goal.goal}_{goal.degree}")
 
     def _remove(self, action: Remove) -> str:
         kind, count, where = action.kind, action.count, action.where

@@ -1,8 +1,8 @@
 """Measures how hard a road is: the fewest ticks to the goal, the room to manoeuvre, how planners drive it.
 
 The fewest ticks are proved as by a certificate (`sim.oracle.certificate`), and the plan is driven. The room
-is the mean number of cells in which the vehicle can be at a tick without a collision and still arrive by a fixed
-horizon; two roads are compared by the same horizon. It is taken from the forecast in which no mover reacts.
+is the mean number of cells in which the vehicle can be at a tick without a collision and still arrive by a
+fixed horizon; two roads are compared by the same one. It is taken from the forecast in which no mover reacts.
 Drives are run to the end of the episode, as they would go.
 """
 
