@@ -24,6 +24,7 @@ from service.actions.questions import (
     QuestionTraits,
     Term,
 )
+from service.actions.goals import Goal, Style
 from service.actions.steering import (
     Chat,
     ChatKind,
@@ -58,6 +59,7 @@ __all__ = [
     "Evaluate",
     "FindWorst",
     "Forget",
+    "Goal",
     "Hide",
     "HistoryName",
     "Load",
@@ -75,6 +77,7 @@ __all__ = [
     "ScenarioParts",
     "Show",
     "Step",
+    "Style",
     "Teach",
     "Term",
     "Ticks",

@@ -25,6 +25,7 @@ from service.actions.questions import (
     QuestionTraits,
     Term,
 )
+from service.actions.goals import Goal, Style
 from service.actions.steering import (
     STRICT,
     Chat,
@@ -47,6 +48,7 @@ from sim.types import Move
 Phrase = Annotated[str, MinLen(1), MaxLen(80)]
 MAX_MEANT = 50
 """How many actions a what-if or a taught phrase may hold."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Ask:
@@ -132,6 +134,8 @@ def _refuse_kinds(why: str, actions: Iterable[Action], kinds: tuple[type, ...]) 
 
 Action: TypeAlias = Annotated[
     WorldAction
+    | Goal
+    | Style
     | Pause
     | Resume
     | Undo

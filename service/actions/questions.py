@@ -22,6 +22,7 @@ QuestionName = Literal[
     "options",
     "term",
     "history",
+    "styles",
 ]
 HistoryName = Literal["closest_call", "summary", "since", "between", "seen"]
 """What of the past is asked about: of this episode, of the ticks since one, between two, or of one tick."""
@@ -124,6 +125,7 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "options": QuestionTraits(("parameter",)),
     "term": QuestionTraits(("term",), ("term",)),
     "history": QuestionTraits(("what", "tick", "until", "ticks"), ("what",), runs_episodes=True),
+    "styles": QuestionTraits(),
 }
 
 HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {

@@ -19,6 +19,7 @@ from service.actions import (
     Evaluate,
     FindWorst,
     Forget,
+    Goal,
     Hide,
     Load,
     Record,
@@ -27,6 +28,7 @@ from service.actions import (
     ScenarioParts,
     Show,
     Step,
+    Style,
     Teach,
 )
 from sim.actions import (
@@ -126,7 +128,7 @@ class Sentences:
                 return self._say("replace", things=things, others=self._entry("things", by)[1])
             case Copy(to=to):
                 things = self._meant(action.kind, action.count, action.where)
-                return self._say("copy_to" if to else "copy", things=things, to=self._goal(to))
+                return self._say("copy_to" if to else "copy", things=things, to=self._destination(to))
             case Scenario():
                 parts = self._parts(action)
                 return self._say("scenario", parts=parts) if parts else self._say("scenario_empty")
@@ -136,6 +138,10 @@ class Sentences:
                 return self._adjust(action)
             case Prefer():
                 return self._word("prefer", action.preference)
+            case Goal():
+                return self._goal(action)
+            case Style():
+                return self._word("style", action.style)
             case SetMode():
                 return self._word("mode", action.mode)
             case Drive():
@@ -174,7 +180,7 @@ class Sentences:
     def _move(self, action: MoveThings) -> str:
         things = self._meant(action.kind, action.count, action.where)
         if action.by is None:
-            return self._say("move_to", things=things, to=self._goal(action.to))
+            return self._say("move_to", things=things, to=self._destination(action.to))
         key = "move_by_one" if action.by.cells == 1 else "move_by"
         side = self._word("shift", action.by.side)
         return self._say(key, things=things, cells=action.by.cells, side=side)
@@ -204,13 +210,19 @@ class Sentences:
             return self._meant(one.kind, 1, one.where)
         return self._say("one_of", thing=self._entry("things", one.kind)[0], where=self._where(one.where))
 
-    def _goal(self, to: Where | None) -> str:
+    def _destination(self, to: Where | None) -> str:
         """Where things are to be: "lane 3"."""
         if to is None:
             return ""
         if to == Where() or to.id is not None or to.nearest or to.each:
             raise Unsayable("no place to put things")
         return self._where(to, "goal")
+
+    def _goal(self, goal: Goal) -> str:
+        if goal.planners is not None:
+            can, cannot = (self._value("planner", planner) for planner in goal.planners)
+            return self._say("separates", can=can, cannot=cannot)
+        return self._word("goal", goal.goal if goal.degree is None else f"{goal.goal}_{goal.degree}")
 
     def _remove(self, action: Remove) -> str:
         kind, count, where = action.kind, action.count, action.where

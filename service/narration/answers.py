@@ -7,6 +7,7 @@ from service.narration.answerer import Answerer, Json
 from service.narration.confidence import Confidences
 from service.narration.glossary import Glossary
 from service.narration.history import History
+from service.narration.goals import Styles
 from service.narration.maintenance import Maintenance
 from service.narration.metrics import Figures
 from service.narration.next import Next
@@ -41,6 +42,7 @@ class Answers:
             "options": settings,
             "term": Glossary(sayings),
             "history": History(sayings),
+            "styles": Styles(sayings),
         }
 
     def answer(self, asked: Answerable) -> Json:

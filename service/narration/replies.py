@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from service.narration.rearranged import told_rearranged
+from service.narration.goals import Goals
 from service.narration.sayings import Sayings
 from service.sessions.bookmarks import Bookmarked, Jumped
 from service.sessions.facts import (
@@ -12,6 +13,7 @@ from service.sessions.facts import (
     Chatted,
     Fact,
     PauseSet,
+    Resolved,
     Stepped,
     Undone,
     Viewed,
@@ -47,6 +49,7 @@ class Replies:
     def __init__(self, sayings: Sayings) -> None:
         """`sayings`: the language's."""
         self._sayings = sayings
+        self._goals = Goals(sayings, self._scenario, self.done)
 
     def done(self, facts: tuple[Fact, ...]) -> str:
         """A sentence for each fact; questions are answered elsewhere."""
@@ -68,6 +71,8 @@ class Replies:
         match fact:
             case Applied():
                 return self._applied(fact)
+            case Resolved():
+                return self._goals.said(fact)
             case PauseSet(before=before, paused=paused):
                 key = "pause" if paused else "resume"
                 return self._say(f"{key}_already" if before is paused else key)

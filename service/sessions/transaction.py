@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import chain, islice
+from threading import Event
 
 from service.actions import Action, Redo, Rewind, Undo
 from service.actions import Step as StepTicks
@@ -48,6 +49,8 @@ class Transaction:
         self.paused = paused
         self.playback_speed = speed
         self.undo_stack = history.copy()
+        self.abandoned = Event()
+        """set where nobody waits for the outcome any more: a search ends then"""
         self._jumped = False
         self._savepoint = _Savepoint(timeline, paused)
 
