@@ -20,6 +20,7 @@ from service.actions.action import (
 )
 from service.actions.evaluation import Advise, Evaluate, FindWorst, ScenarioParts
 from service.actions.steering import (
+    Drop,
     Hide,
     Load,
     Name,
@@ -31,6 +32,7 @@ from service.actions.steering import (
     Save,
     Show,
     Step,
+    Steps,
     Ticks,
     Undo,
     ViewName,
@@ -44,6 +46,7 @@ __all__ = [
     "QUESTIONS",
     "Action",
     "Advise",
+    "Drop",
     "Ask",
     "Evaluate",
     "FindWorst",
@@ -64,6 +67,7 @@ __all__ = [
     "ScenarioParts",
     "Show",
     "Step",
+    "Steps",
     "Teach",
     "Ticks",
     "Undo",

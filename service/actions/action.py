@@ -10,13 +10,14 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal, TypeAlias, get_args
 
-from annotated_types import Ge, MaxLen, MinLen
+from annotated_types import Ge, Le, MaxLen, MinLen
 from pydantic import ConfigDict, Discriminator, TypeAdapter
 from pydantic_core import to_json
 
 from service.actions.evaluation import Advise, Evaluate, FindWorst
 from service.actions.steering import (
     STRICT,
+    Drop,
     Hide,
     Load,
     Pause,
@@ -47,6 +48,8 @@ QuestionName = Literal[
     "confidence",
     "maintenance",
     "help",
+    "changes",
+    "pending",
 ]
 
 
@@ -73,6 +76,8 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "confidence": QuestionTraits(runs_episodes=True),
     "maintenance": QuestionTraits(),
     "help": QuestionTraits(),
+    "changes": QuestionTraits(("count", "tick")),
+    "pending": QuestionTraits(),
 }
 
 
@@ -87,12 +92,13 @@ class Ask:
     change: Annotated[tuple[Action, ...], MinLen(1), MaxLen(MAX_MEANT)] | None = None
     kind: PlaceableKind | None = None
     metric: MetricName | None = None
+    count: Annotated[int, Ge(1), Le(1000)] | None = None
 
     __pydantic_config__ = STRICT
 
     def __post_init__(self) -> None:
         traits = QUESTIONS.get(self.about, QuestionTraits())
-        for key in ("move", "tick", "change", "kind", "metric"):
+        for key in ("move", "tick", "change", "kind", "metric", "count"):
             said = getattr(self, key) is not None
             if said and key not in traits.may:
                 raise ValueError(f"'{key}' does not belong to a question about {self.about}")
@@ -150,7 +156,8 @@ Action: TypeAlias = Annotated[
     | Load
     | Record
     | Teach
-    | Forget,
+    | Forget
+    | Drop,
     Discriminator("do"),
 ]
 

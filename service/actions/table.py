@@ -16,6 +16,7 @@ from typing import Final, cast
 from service.actions.action import ACTION_TYPES, Action, Ask, Forget, Teach
 from service.actions.evaluation import Advise, Evaluate, FindWorst
 from service.actions.steering import (
+    Drop,
     Hide,
     Load,
     Pause,
@@ -196,6 +197,7 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
     ),
     Record: ActionTraits(offered=False, model=ModelUse.CONFIRMED, what_if=WhatIf.NO_EFFECT),
     Teach: ActionTraits(changes_aliases=True, model=ModelUse.NEVER, what_if=WhatIf.INVALID),
+    Drop: ActionTraits(changes_session=False, model=ModelUse.NEVER, what_if=WhatIf.NO_EFFECT),
     Forget: ActionTraits(changes_aliases=True, model=ModelUse.NEVER, what_if=WhatIf.INVALID),
 }
 

@@ -11,6 +11,7 @@ from service.narration.next import Next
 from service.narration.sayings import Sayings
 from service.narration.scene import Scenes
 from service.narration.status import Help, Status
+from service.narration.talk import OpenQuestion, RecentChanges
 from service.narration.what_if import WhatIfs
 from service.narration.why import Whys
 from service.sessions.facts import Advised, Answerable
@@ -28,6 +29,8 @@ class Answers:
             "why_not": whys,
             "status": Status(sayings),
             "help": Help(sayings),
+            "changes": RecentChanges(sayings),
+            "pending": OpenQuestion(sayings),
             "scene": Scenes(sayings),
             "confidence": Confidences(sayings),
             "maintenance": Maintenance(sayings),

@@ -7,6 +7,7 @@ from typing import TypeAlias
 
 from service.actions import Ask
 from service.sessions.bookmarks import Bookmarked, Jumped
+from service.sessions.pending import NO_TALK, Talk
 from service.sessions.scheduler.playback_speed import PlaybackSpeedSet
 from sim.hazard_advice import Advice
 from sim.session.edits import Applied, Change
@@ -33,10 +34,12 @@ class Stepped:
 
 @dataclass(frozen=True, slots=True)
 class Undone:
-    """A change was undone, or (`again`) redone; `changes` are the differences in the state."""
+    """Changes were undone, or (`again`) redone; `changes` are the differences in the state."""
 
     again: bool
     changes: tuple[Change, ...]
+    steps: int = 1
+    """how many steps were undone or redone"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +50,8 @@ class Asked:
     timeline: Timeline
     supposes: str | None = None
     """what the question takes for granted, beyond its keys: a `crash`"""
+    talk: Talk = NO_TALK
+    """the conversation as it was, for questions about it"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +71,13 @@ class Viewed:
 
 
 @dataclass(frozen=True, slots=True)
+class Dropped:
+    """The pending question was dropped; `question` is None where nothing was pending."""
+
+    question: str | None
+
+
+@dataclass(frozen=True, slots=True)
 class AliasChange:
     """A phrase was taught or forgotten, with the sentence that means the same."""
 
@@ -80,7 +92,7 @@ Answerable: TypeAlias = Asked | Advised
 """Facts that are answered and change nothing."""
 
 Fact: TypeAlias = (
-    Applied | PauseSet | PlaybackSpeedSet | Stepped | Undone | Bookmarked | Jumped | Viewed | Answerable
+    Applied | PauseSet | PlaybackSpeedSet | Stepped | Undone | Bookmarked | Jumped | Viewed | Dropped | Answerable
 )
 
 
@@ -127,7 +139,7 @@ def _changes(fact: Fact) -> tuple[Change, ...]:
             return (Change("tick", fact.first_tick, fact.first_tick + len(fact.ticks)),)
         case Jumped():
             return (Change("tick", fact.before, fact.tick), *fact.changes)
-        case Asked() | Advised() | Bookmarked() | Viewed():
+        case Asked() | Advised() | Bookmarked() | Viewed() | Dropped():
             return ()
 
 

@@ -10,6 +10,7 @@ from service import actions as contract
 from service.actions import QUESTIONS
 from service.sessions.facts import Answerable, Asked, Fact, merge_changes, question_timelines
 from service.sessions.narrator_protocol import NarratorProtocol
+from service.sessions.take_back import settled
 from service.sessions.transaction import Transaction
 from service.sessions.utterance import Outcome, ReachabilityNotice, Utterance
 from service.store import EntryRecord
@@ -69,7 +70,7 @@ def make_entry(outcome: Outcome, tick: int, transaction: Transaction) -> EntryRe
         sequence=outcome.sequence,
         tick=tick,
         text=outcome.utterance.text,
-        actions=contract.dump(outcome.utterance.actions),
+        actions=contract.dump(settled(outcome.utterance.actions, outcome.facts)),
         digest=transaction.timeline.state.world.digest(),
         names={
             moment.name: moment.tick
