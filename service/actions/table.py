@@ -197,7 +197,7 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
     ),
     Record: ActionTraits(offered=False, model=ModelUse.CONFIRMED, what_if=WhatIf.NO_EFFECT),
     Teach: ActionTraits(changes_aliases=True, model=ModelUse.NEVER, what_if=WhatIf.INVALID),
-    Drop: ActionTraits(changes_session=False, model=ModelUse.NEVER, what_if=WhatIf.NO_EFFECT),
+    Drop: ActionTraits(changes_session=False, model=ModelUse.ALWAYS, what_if=WhatIf.NO_EFFECT),
     Forget: ActionTraits(changes_aliases=True, model=ModelUse.NEVER, what_if=WhatIf.INVALID),
 }
 
