@@ -15,6 +15,7 @@ from service.actions.action import (
     load,
 )
 from service.actions.evaluation import Advise, Evaluate, FindWorst, ScenarioParts
+from service.actions.goals import Goal, Style
 from service.actions.questions import (
     QUESTIONS,
     Choosable,
@@ -24,10 +25,10 @@ from service.actions.questions import (
     QuestionTraits,
     Term,
 )
-from service.actions.goals import Goal, Style
 from service.actions.steering import (
     Chat,
     ChatKind,
+    Drop,
     Hide,
     Load,
     Name,
@@ -39,6 +40,7 @@ from service.actions.steering import (
     Save,
     Show,
     Step,
+    Steps,
     Ticks,
     Undo,
     ViewName,
@@ -56,6 +58,7 @@ __all__ = [
     "Chat",
     "ChatKind",
     "Choosable",
+    "Drop",
     "Evaluate",
     "FindWorst",
     "Forget",
@@ -77,6 +80,7 @@ __all__ = [
     "ScenarioParts",
     "Show",
     "Step",
+    "Steps",
     "Style",
     "Teach",
     "Term",

@@ -23,6 +23,8 @@ QuestionName = Literal[
     "term",
     "history",
     "styles",
+    "changes",
+    "pending",
 ]
 HistoryName = Literal["closest_call", "summary", "since", "between", "seen"]
 """What of the past is asked about: of this episode, of the ticks since one, between two, or of one tick."""
@@ -126,6 +128,8 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "term": QuestionTraits(("term",), ("term",)),
     "history": QuestionTraits(("what", "tick", "until", "ticks"), ("what",), runs_episodes=True),
     "styles": QuestionTraits(),
+    "changes": QuestionTraits(("count", "tick")),
+    "pending": QuestionTraits(),
 }
 
 HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {

@@ -18,6 +18,7 @@ from service.actions.evaluation import Advise, Evaluate, FindWorst
 from service.actions.goals import Goal, Style
 from service.actions.steering import (
     Chat,
+    Drop,
     Hide,
     Load,
     Pause,
@@ -221,6 +222,7 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
     ),
     Record: ActionTraits(offered=False, model=ModelUse.CONFIRMED, what_if=WhatIf.NO_EFFECT),
     Teach: ActionTraits(changes_aliases=True, model=ModelUse.NEVER, what_if=WhatIf.INVALID),
+    Drop: ActionTraits(changes_session=False, model=ModelUse.ALWAYS, what_if=WhatIf.NO_EFFECT),
     Forget: ActionTraits(changes_aliases=True, model=ModelUse.NEVER, what_if=WhatIf.INVALID),
 }
 

@@ -23,6 +23,7 @@ from service.actions import (
     Hide,
     Load,
     Record,
+    Redo,
     Rewind,
     Save,
     ScenarioParts,
@@ -30,6 +31,7 @@ from service.actions import (
     Step,
     Style,
     Teach,
+    Undo,
 )
 from sim.actions import (
     Add,
@@ -168,6 +170,9 @@ class Sentences:
                 )
             case Save() | Load():
                 return self._say(action.do, name=quoted(action.name))
+            case Undo() | Redo():
+                key = action.do if action.steps is None else f"{action.do}_steps"
+                return self._say(f"{action.do}_all" if action.steps == "all" else key, count=action.steps)
             case Record():
                 return self._word("record", action.on)
             case Teach():
@@ -352,6 +357,11 @@ class Sentences:
                 return self._say("scene_kind", things=self._entry("things", ask.kind)[1])
             case "metrics" if ask.metric is not None:
                 return self._word("metric", ask.metric)
+            case "changes" if ask.count is not None or ask.tick is not None:
+                if ask.count is not None and ask.tick is not None:
+                    raise Unsayable("changes are counted, or those since a tick")
+                key = "changes_count" if ask.count is not None else "changes_tick"
+                return self._say(key, count=ask.count, tick=ask.tick)
             case about:
                 return self._say(about)
 
