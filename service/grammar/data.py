@@ -33,6 +33,7 @@ MESSAGES = frozenset(
         "no_referent",
         "which",
         "more_of_what",
+        "together_or_apart",
     )
 )
 """What the engine itself says."""
