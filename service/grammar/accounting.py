@@ -155,7 +155,9 @@ def _loose(lattice: Lattice, marker: Edge, free: Set[str]) -> list[Edge]:
         return [e for e in inside if e.concept in passed and not e.concept.startswith(SERVES)]
     loose = free | {GLUE, SECOND}
     governed = marker.concept == PHRASE
-    return [edge for edge in inside if edge.concept in loose or (governed and edge.concept.startswith(SERVES))]
+    return [
+        edge for edge in inside if edge.concept in loose or (governed and edge.concept.startswith(SERVES))
+    ]
 
 
 def alignment(

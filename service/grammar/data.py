@@ -34,6 +34,7 @@ MESSAGES = frozenset(
         "no_referent",
         "which",
         "more_of_what",
+        "together_or_apart",
     )
 )
 """What the engine itself says."""
