@@ -126,7 +126,7 @@ class _Maker:
             case "parts":
                 return self.parts()
             case "planners":
-                return [edge.sense.value for edge in self._filled.of("planner")] or _ABSENT
+                return self._planners(attribute) or _ABSENT
             case "eval_scenario":
                 return self.parts(without=("planner",)) or _ABSENT
             case "asked_move":
@@ -147,6 +147,13 @@ class _Maker:
             told = {"of": value.of, "count": value.count, "id": "".join(value.ids[:1])}
             return told["count" if attribute in ("", "several") else attribute]
         return value[attribute] if attribute else value
+
+    def _planners(self, attribute: str) -> list[Any]:
+        """The planners in the order said; as `pair` or `reversed` there must be two of them."""
+        planners = [edge.sense.value for edge in self._filled.of("planner")]
+        if attribute and len(planners) != 2:
+            raise CannotBuild("not two planners")
+        return planners[::-1] if attribute == "reversed" else planners
 
     def where(self) -> dict[str, Any] | None:
         """The place, of all its parts; parts that contradict each other are no place."""

@@ -260,6 +260,10 @@ class Language:
             return False
         return isinstance(parse, Understood) and all(map(self._offered, parse.actions))
 
+    def scan(self, tokens: Sequence[Token]) -> Lattice:
+        """All that any stretch of some tokens can mean."""
+        return self._scanner.scan(tokens, {})
+
     def concepts(self, text: str) -> frozenset[str]:
         """The content concepts that occur in a text."""
         plain = normalise(text)

@@ -10,8 +10,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from service.grammar.accounting import MARKERS
-from service.grammar.frame_use import dropped
 from service.grammar.data import LanguageData
+from service.grammar.frame_use import dropped
 from service.grammar.frames import Frame
 from service.grammar.lattice import GLUE, NAME, NUMBER, UNIT
 from service.grammar.lexicon import SECOND

@@ -7,6 +7,7 @@ this file and not the reverse. No word of any language is here either.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any, Protocol
 
 from pydantic import ValidationError
@@ -146,6 +147,8 @@ class Reading:
         )
         if question is not None:
             return self._ask(question) if asking else self._refuse([self._plain], ())
+        if (unsure := next((clause for clause in clauses if clause.instead), None)) is not None:
+            return self._together_or_apart(clauses, unsure, asking=asking)
         if (both := contradiction(clauses, self._lattice)) is not None:
             return self._answer_contradiction(both, asking=asking)
         values, spans = _once(clauses, self._tokens)
@@ -190,6 +193,21 @@ class Reading:
         phrases = tuple(dict.fromkeys(self._written(each.start, each.end) for each in both.clauses))
         quoted = self._messages["both"].join(f'"{_shorten(phrase)}"' for phrase in phrases)
         return self._refusal("impossible", self._messages["contradiction"].format(phrases=quoted), phrases)
+
+    def _together_or_apart(self, clauses: Sequence[Clause], unsure: Clause, *, asking: bool) -> Parse:
+        """The question whether parts belong together or are each a request of its own."""
+        at = clauses.index(unsure)
+        together = [replace(clause, instead=()) for clause in clauses]
+        apart = [*together[:at], *unsure.instead, *together[at + 1 :]]
+        try:
+            choices = [self._choice(_once(each)) for each in (together, apart)]
+        except (Unsayable, ValidationError):  # nothing to choose from
+            choices = []
+        if asking and len(choices) > 1:
+            return Ambiguous(self._text, self._messages["which"], tuple(choices))
+        phrase = self._written(unsure.start, unsure.end)
+        message = self._messages["together_or_apart"].format(phrase=_shorten(phrase))
+        return self._refusal("not_understood", message, (phrase,))
 
     def _choice(self, values: list[dict[str, Any]]) -> Choice:
         """Actions to choose, with a sentence that means them."""
