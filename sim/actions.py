@@ -28,6 +28,11 @@ Preference = Literal["avoid_potholes", "smooth_ride", "fastest", "cautious"]
 Wish = Literal[Preference, "balanced"]
 """A preference as it is said."""
 
+GoalName = Literal["harder", "easier", "surprise", "hard_but_solvable", "separates", "one_lane_free"]
+"""What can be looked for (`sim.goals`): actions that stand for those that were found."""
+Degree = Literal["little", "lot"]
+"""How much harder or easier; not said: in between."""
+
 Parameter = Literal[
     "weather",
     "time_of_day",

@@ -66,6 +66,11 @@ EDITS: Final[Mapping[str, tuple[str, tuple[str, ...]]]] = MappingProxyType(
         "no_more_or_less": ("out-of-range", ("setting",)),
         "at_its_limit": ("out-of-range", ("setting", "now")),
         "traffic_by_steps_only": ("out-of-range", ("choices",)),
+        "goal_not_found": ("does-not-fit", ("tried", "driven")),
+        "goal_no_way": ("does-not-fit", ()),
+        "goal_after_end": ("none-there", ()),
+        "goal_among_egos": ("not-available", ()),
+        "goal_same_planner": ("out-of-range", ()),
     }
 )
 """Codes of a `sim.session.errors.EditError`: the category of each, and its facts.

@@ -102,7 +102,11 @@ class _Maker:
             return whole
         pointed = [edge for edge in self._filled.of("meant", "all_others") if len(edge.sense.value) > 1]
         if pointed:
-            each = [edge._replace(sense=edge.sense._replace(value=(one,))) for edge in pointed for one in edge.sense.value]
+            each = [
+                edge._replace(sense=edge.sense._replace(value=(one,)))
+                for edge in pointed
+                for one in edge.sense.value
+            ]
             return [self.action(template, turn) for turn in each]
         named = [name for edge in self._filled.slots for name in _ids(edge)]
         if not named:
@@ -153,13 +157,15 @@ class _Maker:
             case "parts":
                 return self.parts()
             case "planners":
-                return [edge.sense.value for edge in self._filled.of("planner")] or _ABSENT
+                return self._planners(attribute) or _ABSENT
             case "eval_scenario":
                 return self.parts(without=("planner",)) or _ABSENT
             case "asked_move":
                 return self._asked_move()
             case "steps_or_one":
-                steps = [edge.sense.value for edge in self._filled.of("steps") if edge.sense.value is not None]
+                steps = [
+                    edge.sense.value for edge in self._filled.of("steps") if edge.sense.value is not None
+                ]
                 return steps[0] if steps else 1
             case "first" | "second":
                 return self._one_of_two(name)
@@ -181,7 +187,10 @@ class _Maker:
             value = getattr(value[0], attribute)
             return _ABSENT if value is None else value
         if isinstance(value, Amount):
-            return {"of": value.of, "count": value.count, "id": "".join(value.ids[:1])}[attribute or "count"]
+            if attribute == "several" and value.count in (0, 1):
+                raise CannotBuild("one thing is no number of them")
+            told = {"of": value.of, "count": value.count, "id": "".join(value.ids[:1])}
+            return told["count" if attribute in ("", "several") else attribute]
         return value[attribute] if attribute else value
 
     def _one_of_two(self, which: str) -> dict[str, Any]:
@@ -200,6 +209,13 @@ class _Maker:
         if edge.sense.value.many is (len(things) == 1 and things[0].count == 1):
             raise CannotBuild("one becomes one, many become many")
         return str(edge.sense.value.kind)
+
+    def _planners(self, attribute: str) -> list[Any]:
+        """The planners in the order said; as `pair` or `reversed` there must be two of them."""
+        planners = [edge.sense.value for edge in self._filled.of("planner")]
+        if attribute and len(planners) != 2:
+            raise CannotBuild("not two planners")
+        return planners[::-1] if attribute == "reversed" else planners
 
     def where(self) -> dict[str, Any] | None:
         """The place, of all its parts; parts that contradict each other are no place."""
@@ -240,7 +256,7 @@ class _Maker:
         is_share = self._parameters.fits(parameter, "fraction")
         part: float = self._slot("fraction", None) / 100 if "percent" in name else self._slot("part_of", None)
         if name == "share":
-            if not is_share or self._parameters.fits(parameter, "times"):
+            if not (is_share or self._parameters.fits(parameter, "seconds")):
                 raise CannotBuild(f"{parameter} is no share")
             return part
         if "percent" in name and is_share:

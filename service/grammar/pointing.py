@@ -142,7 +142,9 @@ def _add_landmarks(lattice: Lattice) -> None:
                     if of is None or (_is_ego(lattice, at, end) and "id" not in of):
                         continue
                     here = lattice.edges[at]
-                    lattice.edges[at] = [e for e in here if e.end != end or e.concept not in ("side", "place")]
+                    lattice.edges[at] = [
+                        e for e in here if e.end != end or e.concept not in ("side", "place")
+                    ]
                     lattice.edges[at].append(Edge(at, end, Sense("place", {**side, "of": of})))
 
 
@@ -247,7 +249,8 @@ def _add_exceptions(lattice: Lattice) -> None:
                     found.append(Edge(at, stop, Sense(name, value)))
                 if kind == EVERYTHING:
                     found += [
-                        Edge(at, stop, Sense(ALL_OTHERS, others)) for stop, others in _other_kinds(lattice, mark, ())
+                        Edge(at, stop, Sense(ALL_OTHERS, others))
+                        for stop, others in _other_kinds(lattice, mark, ())
                     ]
         lattice.edges[at] += found
 
@@ -287,7 +290,9 @@ def _other_kinds(
             continue
         kinds = (*named, edge.sense.value.of)
         others = tuple(Meant(kind, "all") for kind in PLACEABLE if kind not in kinds)
-        after = [e for e in lattice.edges[edge.end] if e.concept == SEPARATOR] if edge.end < lattice.size else []
+        after = (
+            [e for e in lattice.edges[edge.end] if e.concept == SEPARATOR] if edge.end < lattice.size else []
+        )
         if others:
             yield edge.end, others
         for separator in after:

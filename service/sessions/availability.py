@@ -6,7 +6,7 @@ refusals. What a scenario may name is decided by `sim.session.scenario`.
 
 from __future__ import annotations
 
-from service.actions import Action, Ask, Hide, Show
+from service.actions import Action, Ask, Goal, Hide, Show
 from service.actions.table import WhatIf, sets_playback_speed, traits_of
 from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE
@@ -70,7 +70,8 @@ def _refuse_imagined(action: Action, language: str) -> str | None:
     """Why an action cannot be part of a what-if question, as a sentence; None if it can."""
     match traits_of(action).what_if:
         case WhatIf.REFUSED:
-            return refusals(language).session("what_if_back")
+            code = "what_if_goal" if isinstance(action, Goal) else "what_if_back"
+            return refusals(language).session(code)
         case WhatIf.NO_EFFECT:
             return None
     return refusal_of(action, language)

@@ -16,7 +16,14 @@ from typing import Any, TypeAlias
 from service import actions as contract
 from service.actions import Action, Redo, Undo
 from service.grammar.topic import Phrases, Topic
-from service.sessions.facts import Answerable, Asked, Fact, Undone
+from service.sessions.facts import (
+    Answerable,
+    Asked,
+    Fact,
+    Undone,
+    performed_actions,
+    spread_facts,
+)
 from service.sessions.utterance import Outcome
 from sim.actions import (
     Add,
@@ -69,7 +76,8 @@ class Conversation:
             self._durable = self._durable or self.durable
         elif self._durable is not None:
             self._durable.record(outcome)
-        actions, facts = outcome.utterance.actions, outcome.facts
+        actions = performed_actions(outcome.utterance.actions, outcome.facts)
+        facts = tuple(spread_facts(outcome.facts))
         if not any(isinstance(action, Undo | Redo) for action in actions):
             self._actions = actions
         changing = [fact for fact in facts if isinstance(fact, Applied | Undone)]
