@@ -33,6 +33,7 @@ from service.grammar.parse_types import (
     Understood,
 )
 from service.grammar.paths import ALLOWS, SEPARATOR
+from service.grammar.pointing import add_pointing
 from service.grammar.references import Unclear, add_referents
 from service.grammar.sentences import Sentences, Unsayable
 from service.grammar.subordinate import read_all
@@ -136,6 +137,7 @@ class Reading:
             return self._refuse(self._stretches(unknown), ())
         add_noun_phrases(self._lattice, self._language.data.vague)
         self._unclear = add_referents(self._lattice, self._topic)
+        add_pointing(self._lattice)
         divided = read_all(self._lattice, 0, self._lattice.size, self._divide)
         if isinstance(divided, Fragment):
             return self._refuse([self._written(divided.start, divided.end)], (), asking=asking)
