@@ -17,6 +17,7 @@ from service.actions.action import ACTION_TYPES, Action, Ask, Forget, Teach
 from service.actions.evaluation import Advise, Evaluate, FindWorst
 from service.actions.goals import Goal, Style
 from service.actions.steering import (
+    Chat,
     Hide,
     Load,
     Pause,
@@ -32,14 +33,18 @@ from service.actions.steering import (
 from sim.actions import (
     Add,
     Adjust,
+    Copy,
     Drive,
+    MoveThings,
     Prefer,
     Remove,
+    Replace,
     Reset,
     Scenario,
     Set,
     SetCount,
     SetMode,
+    Swap,
     WorldAction,
 )
 
@@ -107,6 +112,8 @@ class ActionTraits:
     """whether a correction ("no, three") can take it back and do it anew"""
     additive: bool = False
     """whether saying it again comes on top of what was done before"""
+    small_talk: bool = False
+    """whether it is only manners, which say nothing beside a request"""
     idempotent: bool = False
     """whether saying it twice in a row for emphasis is saying it once"""
 
@@ -139,6 +146,10 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
     Add: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, additive=True),
     Remove: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, additive=True),
     SetCount: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True),
+    MoveThings: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, additive=True),
+    Swap: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, additive=True),
+    Replace: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True),
+    Copy: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, additive=True),
     Scenario: _world(ModelUse.CONFIRMED),
     Reset: _world(ModelUse.CONFIRMED),
     SetMode: _world(ModelUse.UNCONFIRMED, tried=True),
@@ -190,6 +201,7 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
         model=ModelUse.ALWAYS,
         what_if=WhatIf.INVALID,
     ),
+    Chat: ActionTraits(changes_session=False, small_talk=True, model=ModelUse.ALWAYS, what_if=WhatIf.INVALID),
     Advise: ActionTraits(
         changes_session=False, is_question=True, model=ModelUse.ALWAYS, what_if=WhatIf.NO_EFFECT
     ),

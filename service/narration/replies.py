@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from service.narration.goals import Goals
+from service.narration.rearranged import told_rearranged
 from service.narration.sayings import Sayings
 from service.sessions.bookmarks import Bookmarked, Jumped
 from service.sessions.facts import (
     Advised,
     AliasChange,
     Asked,
+    Chatted,
     Fact,
     PauseSet,
     Resolved,
@@ -18,7 +20,21 @@ from service.sessions.facts import (
     merge_changes,
 )
 from service.sessions.scheduler.playback_speed import MAX, PlaybackSpeed, PlaybackSpeedSet
-from sim.actions import Add, Adjust, Drive, Prefer, Remove, Scenario, Set, SetCount, SetMode
+from sim.actions import (
+    Add,
+    Adjust,
+    Copy,
+    Drive,
+    MoveThings,
+    Prefer,
+    Remove,
+    Replace,
+    Scenario,
+    Set,
+    SetCount,
+    SetMode,
+    Swap,
+)
 from sim.events import EventType
 from sim.plan import traits_of
 from sim.session.edits import Applied, Change
@@ -83,6 +99,8 @@ class Replies:
             case Viewed(view=view, shown=shown):
                 name = self._sayings.say("replies", "views", view)
                 return self._say("shown" if shown else "hidden", view=name)
+            case Chatted(kind=kind):
+                return self._sayings.say("chat", kind)
             case Asked() | Advised():
                 return ""
 
@@ -104,6 +122,8 @@ class Replies:
                     things=self._sayings.things(kind, count),
                     diff=self._diff(applied.changes),
                 )
+            case MoveThings() | Swap() | Replace() | Copy() as action:
+                said = told_rearranged(self._sayings, applied, action, self._diff(applied.changes))
             case Scenario():
                 return self._scenario(applied.state)
             case SetMode(mode=mode):
@@ -132,7 +152,8 @@ class Replies:
         before = self._say("unset") if change.before is None else self._value(parameter, change.before)
         said = self._say("set", name=name, before=before, after=self._value(parameter, change.after))
         if parameter in NEEDS_A_NEW_ROAD:
-            return f"{said} {self._scenario(applied.state)}"
+            kept = "episode" not in changed
+            return f"{said} {self._say('road_kept') if kept else self._scenario(applied.state)}"
         counted = self._diff(applied.changes)
         told = [said, self._say("on_the_road", diff=counted) if counted else ""]
         if parameter in FROM_THE_NEXT_ROAD:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 from service.actions import (
     Advise,
     Ask,
+    Chat,
     Forget,
     Goal,
     Hide,
@@ -31,7 +32,17 @@ from service.actions import (
 from service.actions.table import sets_playback_speed, types_where
 from service.problems import DoesNotFit, FieldProblem, Invalid, NotAvailable, NothingToUndo
 from service.sessions.bookmarks import MAX_BOOKMARKS, Bookmark, Bookmarked, Jumped, unknown_bookmark
-from service.sessions.facts import Advised, Asked, Fact, PauseSet, Resolved, Stepped, Undone, Viewed
+from service.sessions.facts import (
+    Advised,
+    Asked,
+    Chatted,
+    Fact,
+    PauseSet,
+    Resolved,
+    Stepped,
+    Undone,
+    Viewed,
+)
 from service.sessions.planner_timeout import planner_timeout_problem
 from service.sessions.rewind import rewind_timeline
 from service.sessions.scheduler.playback_speed import (
@@ -135,7 +146,12 @@ def _set_playback_speed(transaction: Transaction, action: Set | Adjust, position
 
 @handles(Ask)
 def _ask(transaction: Transaction, action: Ask, _sequence: int, _position: int) -> Asked:
-    return Asked(action, transaction.timeline.copy())
+    return Asked(action, transaction.timeline.copy(), playback_speed=transaction.playback_speed)
+
+
+@handles(Chat)
+def _chat(_transaction: Transaction, action: Chat, _sequence: int, _position: int) -> Chatted:
+    return Chatted(action.kind)
 
 
 @handles(Advise)
@@ -191,7 +207,7 @@ def _redo(transaction: Transaction, _action: Redo, _sequence: int, position: int
 @handles(Rewind)
 def _rewind(transaction: Transaction, action: Rewind, _sequence: int, position: int) -> Jumped:
     before = transaction.timeline.state
-    rewind_timeline(transaction.timeline, action.ticks, f"actions.{position}.ticks", transaction.language)
+    rewind_timeline(transaction.timeline, action, f"actions.{position}", transaction.language)
     return transaction.jump(before, len(transaction.timeline.entries))
 
 

@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 from service.actions import Action, Ask, Goal, Style
 from service.sessions.bookmarks import Bookmarked, Jumped
-from service.sessions.scheduler.playback_speed import PlaybackSpeedSet
+from service.sessions.scheduler.playback_speed import NORMAL, PlaybackSpeed, PlaybackSpeedSet
 from sim.goals import Finding
 from sim.hazard_advice import Advice
 from sim.session.edits import Applied, Change
@@ -58,6 +58,8 @@ class Asked:
     timeline: Timeline
     supposes: str | None = None
     """what the question takes for granted, beyond its keys: a `crash`"""
+    playback_speed: PlaybackSpeed = NORMAL
+    """the clock's, which no timeline has"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +76,13 @@ class Viewed:
 
     view: str
     shown: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Chatted:
+    """Small talk of a kind; nothing was done."""
+
+    kind: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,6 +109,7 @@ Fact: TypeAlias = (
     | Bookmarked
     | Jumped
     | Viewed
+    | Chatted
     | Answerable
 )
 
@@ -166,7 +176,7 @@ def _changes(fact: Fact) -> tuple[Change, ...]:
             return (Change("tick", fact.before, fact.tick), *fact.changes)
         case Resolved():
             return tuple(change for each in fact.done for change in each.changes)
-        case Asked() | Advised() | Bookmarked() | Viewed():
+        case Asked() | Advised() | Bookmarked() | Viewed() | Chatted():
             return ()
 
 

@@ -22,7 +22,7 @@ from service.sessions.action_handlers import HANDLERS
 from service.sessions.bookmarks import Jumped
 from service.sessions.facts import Fact, Undone
 from service.sessions.planner_timeout import planner_timeout_problem
-from service.sessions.rewind import TimeJump
+from service.sessions.rewind import TimeJump, tick_meant
 from service.sessions.scheduler.playback_speed import NORMAL, PlaybackSpeed
 from service.sessions.undo_stack import UndoStack, UndoStep
 from sim.planner_names import installed
@@ -85,8 +85,10 @@ class Transaction:
             if step.jump is None and step.since < timeline.tick:
                 ticks += timeline.work_since(step.since)
         for action in actions:
-            if isinstance(action, Rewind) and action.ticks <= timeline.tick:
-                ticks += timeline.work_to(timeline.tick - action.ticks)
+            if isinstance(action, Rewind):
+                tick = tick_meant(timeline, action)
+                if tick is not None and 0 <= tick <= timeline.tick:
+                    ticks += timeline.work_to(tick)
         return ticks
 
     def needs_external_planner(self, actions: Sequence[Action]) -> bool:
