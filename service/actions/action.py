@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, fields
 from typing import Annotated, Any, Literal, TypeAlias, get_args
 
-from annotated_types import Ge, MaxLen, MinLen
+from annotated_types import Ge, Le, MaxLen, MinLen
 from pydantic import ConfigDict, Discriminator, TypeAdapter
 from pydantic_core import to_json
 
@@ -29,6 +29,7 @@ from service.actions.questions import (
 from service.actions.steering import (
     STRICT,
     Chat,
+    Drop,
     Hide,
     Load,
     Pause,
@@ -70,6 +71,8 @@ class Ask:
     """the last tick of a stretch that begins at `tick`"""
     ticks: Ticks | None = None
     """how far back a question about the past goes, instead of from `tick`"""
+    count: Annotated[int, Ge(1), Le(1000)] | None = None
+    """how many of the latest changes are meant"""
 
     __pydantic_config__ = STRICT
 
@@ -153,7 +156,8 @@ Action: TypeAlias = Annotated[
     | Load
     | Record
     | Teach
-    | Forget,
+    | Forget
+    | Drop,
     Discriminator("do"),
 ]
 

@@ -18,6 +18,7 @@ from service.actions.evaluation import Advise, Evaluate, FindWorst
 from service.actions.goals import Goal, Style
 from service.actions.steering import (
     Chat,
+    Drop,
     Hide,
     Load,
     Pause,
@@ -116,6 +117,8 @@ class ActionTraits:
     """whether it is only manners, which say nothing beside a request"""
     idempotent: bool = False
     """whether saying it twice in a row for emphasis is saying it once"""
+    gathers: bool = False
+    """whether several requests may say its parts: "run 200 episodes and compare A* with DWA" is one action"""
 
 
 def _world(
@@ -124,6 +127,7 @@ def _world(
     tried: bool = False,
     amendable: bool = False,
     additive: bool = False,
+    gathers: bool = False,
     what_if: WhatIf = WhatIf.IMAGINED,
 ) -> ActionTraits:
     """An action that changes the world, which is always a step of undo."""
@@ -134,6 +138,7 @@ def _world(
         tried=tried,
         amendable=amendable,
         additive=additive,
+        gathers=gathers,
         what_if=what_if,
     )
 
@@ -150,7 +155,7 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
     Swap: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, additive=True),
     Replace: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True),
     Copy: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, additive=True),
-    Scenario: _world(ModelUse.CONFIRMED),
+    Scenario: _world(ModelUse.CONFIRMED, gathers=True),
     Reset: _world(ModelUse.CONFIRMED),
     SetMode: _world(ModelUse.UNCONFIRMED, tried=True),
     Drive: _world(ModelUse.UNCONFIRMED),
@@ -206,10 +211,18 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
         changes_session=False, is_question=True, model=ModelUse.ALWAYS, what_if=WhatIf.NO_EFFECT
     ),
     Evaluate: ActionTraits(
-        offered=False, separates_settings=True, model=ModelUse.CONFIRMED, what_if=WhatIf.NO_EFFECT
+        offered=False,
+        separates_settings=True,
+        model=ModelUse.CONFIRMED,
+        what_if=WhatIf.NO_EFFECT,
+        gathers=True,
     ),
     FindWorst: ActionTraits(
-        offered=False, separates_settings=True, model=ModelUse.CONFIRMED, what_if=WhatIf.NO_EFFECT
+        offered=False,
+        separates_settings=True,
+        model=ModelUse.CONFIRMED,
+        what_if=WhatIf.NO_EFFECT,
+        gathers=True,
     ),
     Save: ActionTraits(separates_settings=True, model=ModelUse.NEVER, what_if=WhatIf.NO_EFFECT),
     Load: ActionTraits(
@@ -221,6 +234,7 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
     ),
     Record: ActionTraits(offered=False, model=ModelUse.CONFIRMED, what_if=WhatIf.NO_EFFECT),
     Teach: ActionTraits(changes_aliases=True, model=ModelUse.NEVER, what_if=WhatIf.INVALID),
+    Drop: ActionTraits(changes_session=False, model=ModelUse.ALWAYS, what_if=WhatIf.NO_EFFECT),
     Forget: ActionTraits(changes_aliases=True, model=ModelUse.NEVER, what_if=WhatIf.INVALID),
 }
 

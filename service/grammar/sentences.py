@@ -23,6 +23,7 @@ from service.actions import (
     Hide,
     Load,
     Record,
+    Redo,
     Rewind,
     Save,
     ScenarioParts,
@@ -30,6 +31,7 @@ from service.actions import (
     Step,
     Style,
     Teach,
+    Undo,
 )
 from sim.actions import (
     Add,
@@ -128,7 +130,7 @@ class Sentences:
                 return self._say("replace", things=things, others=self._entry("things", by)[1])
             case Copy(to=to):
                 things = self._meant(action.kind, action.count, action.where)
-                return self._say("copy_to" if to else "copy", things=things, to=self._goal(to))
+                return self._say("copy_to" if to else "copy", things=things, to=self._destination(to))
             case Scenario():
                 parts = self._parts(action)
                 return self._say("scenario", parts=parts) if parts else self._say("scenario_empty")
@@ -168,6 +170,9 @@ class Sentences:
                 )
             case Save() | Load():
                 return self._say(action.do, name=quoted(action.name))
+            case Undo() | Redo():
+                key = action.do if action.steps is None else f"{action.do}_steps"
+                return self._say(f"{action.do}_all" if action.steps == "all" else key, count=action.steps)
             case Record():
                 return self._word("record", action.on)
             case Teach():
@@ -177,16 +182,29 @@ class Sentences:
             case _:
                 return self._say(action.do)
 
+<<<<<<< HEAD
     def _looked_for(self, goal: Goal) -> str:
         if goal.planners is not None:
             can, cannot = (self._value("planner", planner) for planner in goal.planners)
             return self._say("separates", can=can, cannot=cannot)
         return self._word("goal", goal.goal if goal.degree is None else f"{goal.goal}_{goal.degree}")
 
+||||||| merged common ancestors
+<<<<<<<<< Temporary merge branch 1
+    def _goal(self, goal: Goal) -> str:
+        if goal.planners is not None:
+            can, cannot = (self._value("planner", planner) for planner in goal.planners)
+            return self._say("separates", can=can, cannot=cannot)
+        return self._word("goal", goal.goal if goal.degree is None else f"{goal.goal}_{goal.degree}")
+
+||||||||| 40f91b4
+=========
+=======
+>>>>>>> main
     def _move(self, action: MoveThings) -> str:
         things = self._meant(action.kind, action.count, action.where)
         if action.by is None:
-            return self._say("move_to", things=things, to=self._goal(action.to))
+            return self._say("move_to", things=things, to=self._destination(action.to))
         key = "move_by_one" if action.by.cells == 1 else "move_by"
         side = self._word("shift", action.by.side)
         return self._say(key, things=things, cells=action.by.cells, side=side)
@@ -216,7 +234,7 @@ class Sentences:
             return self._meant(one.kind, 1, one.where)
         return self._say("one_of", thing=self._entry("things", one.kind)[0], where=self._where(one.where))
 
-    def _goal(self, to: Where | None) -> str:
+    def _destination(self, to: Where | None) -> str:
         """Where things are to be: "lane 3"."""
         if to is None:
             return ""
@@ -224,6 +242,17 @@ class Sentences:
             raise Unsayable("no place to put things")
         return self._where(to, "goal")
 
+<<<<<<< HEAD
+||||||| merged common ancestors
+>>>>>>>>> Temporary merge branch 2
+=======
+    def _goal(self, goal: Goal) -> str:
+        if goal.planners is not None:
+            can, cannot = (self._value("planner", planner) for planner in goal.planners)
+            return self._say("separates", can=can, cannot=cannot)
+        return self._word("goal", goal.goal if goal.degree is None else f"{goal.goal}_{goal.degree}")
+
+>>>>>>> main
     def _remove(self, action: Remove) -> str:
         kind, count, where = action.kind, action.count, action.where
         if action.except_ is not None:
@@ -352,6 +381,11 @@ class Sentences:
                 return self._say("scene_kind", things=self._entry("things", ask.kind)[1])
             case "metrics" if ask.metric is not None:
                 return self._word("metric", ask.metric)
+            case "changes" if ask.count is not None or ask.tick is not None:
+                if ask.count is not None and ask.tick is not None:
+                    raise Unsayable("changes are counted, or those since a tick")
+                key = "changes_count" if ask.count is not None else "changes_tick"
+                return self._say(key, count=ask.count, tick=ask.tick)
             case about:
                 return self._say(about)
 

@@ -15,6 +15,7 @@ from service.narration.sayings import Sayings
 from service.narration.scene import Scenes
 from service.narration.settings import Settings
 from service.narration.status import Help, Status
+from service.narration.talk import OpenQuestion, RecentChanges
 from service.narration.what_if import WhatIfs
 from service.narration.why import Whys
 from service.sessions.facts import Advised, Answerable
@@ -32,17 +33,33 @@ class Answers:
             "why_not": whys,
             "status": Status(sayings),
             "help": Help(sayings),
+            "changes": RecentChanges(sayings),
+            "pending": OpenQuestion(sayings),
             "scene": Scenes(sayings),
             "confidence": Confidences(sayings),
             "maintenance": Maintenance(sayings),
             "what_if": WhatIfs(sayings),
             "next": Next(sayings),
             "metrics": Figures(sayings),
+<<<<<<< HEAD
             "styles": Styles(sayings),
+||||||| merged common ancestors
+<<<<<<<<< Temporary merge branch 1
+            "styles": Styles(sayings),
+||||||||| 40f91b4
+=========
+=======
+>>>>>>> main
             "setting": settings,
             "options": settings,
             "term": Glossary(sayings),
             "history": History(sayings),
+<<<<<<< HEAD
+||||||| merged common ancestors
+>>>>>>>>> Temporary merge branch 2
+=======
+            "styles": Styles(sayings),
+>>>>>>> main
         }
 
     def answer(self, asked: Answerable) -> Json:

@@ -11,6 +11,7 @@ from service.sessions.facts import (
     AliasChange,
     Asked,
     Chatted,
+    Dropped,
     Fact,
     PauseSet,
     Resolved,
@@ -83,11 +84,9 @@ class Replies:
                 key = "step_one" if len(ticks) == 1 else "step_many"
                 return self._say(key, count=len(ticks), tick=fact.first_tick + len(ticks))
             case Undone():
-                key = "redo" if fact.again else "undo"
-                told = self._diff(fact.changes)
-                said = self._say(key, diff=told) if told else self._say(f"{key}_plain")
-                clock = [change.after for change in fact.changes if change.path == "paused"]
-                return f"{said} {self._say('pause' if clock[0] else 'resume')}" if clock else said
+                return self._undone(fact)
+            case Dropped(question=question):
+                return self._say("nothing_pending" if question is None else "dropped")
             case Bookmarked(name=name, tick=tick, again=again):
                 return self._say("saved_again" if again else "saved", name=name, tick=tick)
             case Jumped(name=name, tick=tick):
@@ -103,6 +102,25 @@ class Replies:
                 return self._sayings.say("chat", kind)
             case Asked() | Advised():
                 return ""
+
+    def _undone(self, fact: Undone) -> str:
+        """What was undone or redone: the figures that changed, and how the clock runs."""
+        key = "redo" if fact.again else "undo"
+        if fact.steps > 1:
+            key += "_many"
+        told = self._diff(fact.changes)
+        said = [
+            self._say(key, diff=told, count=fact.steps)
+            if told
+            else self._say(f"{key}_plain", count=fact.steps)
+        ]
+        for change in fact.changes:
+            if change.path == "paused":
+                said.append(self._say("pause" if change.after else "resume"))
+            if change.path == "playback_speed":
+                pace = (speed(self._sayings, each) for each in (change.before, change.after))
+                said.append(self._say("pace", **dict(zip(("before", "after"), pace, strict=True))))
+        return " ".join(said)
 
     def _applied(self, applied: Applied) -> str:
         match applied.action:

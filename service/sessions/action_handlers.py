@@ -14,6 +14,7 @@ from service.actions import (
     Advise,
     Ask,
     Chat,
+    Drop,
     Forget,
     Goal,
     Hide,
@@ -30,12 +31,13 @@ from service.actions import (
     Undo,
 )
 from service.actions.table import sets_playback_speed, types_where
-from service.problems import DoesNotFit, FieldProblem, Invalid, NotAvailable, NothingToUndo
+from service.problems import DoesNotFit, FieldProblem, Invalid, NotAvailable
 from service.sessions.bookmarks import MAX_BOOKMARKS, Bookmark, Bookmarked, Jumped, unknown_bookmark
 from service.sessions.facts import (
     Advised,
     Asked,
     Chatted,
+    Dropped,
     Fact,
     PauseSet,
     Resolved,
@@ -50,6 +52,7 @@ from service.sessions.scheduler.playback_speed import (
     PlaybackSpeedSet,
     change_playback_speed,
 )
+from service.sessions.take_back import take_back
 from service.styles import styles
 from sim.actions import Adjust, Set, Weather, WorldAction
 from sim.goals import Budget, CancelledError, find_goal
@@ -146,7 +149,9 @@ def _set_playback_speed(transaction: Transaction, action: Set | Adjust, position
 
 @handles(Ask)
 def _ask(transaction: Transaction, action: Ask, _sequence: int, _position: int) -> Asked:
-    return Asked(action, transaction.timeline.copy(), playback_speed=transaction.playback_speed)
+    return Asked(
+        action, transaction.timeline.copy(), playback_speed=transaction.playback_speed, talk=transaction.talk
+    )
 
 
 @handles(Chat)
@@ -186,22 +191,15 @@ def _step(transaction: Transaction, action: Step, _sequence: int, _position: int
         raise planner_timeout_problem(silence, transaction.language) from silence
 
 
-@handles(Undo)
-def _undo(transaction: Transaction, _action: Undo, _sequence: int, position: int) -> Undone:
-    transaction.close_step()
-    step = transaction.undo_stack.undo(transaction.timeline)
-    if step is None:
-        raise _nothing_to_undo(transaction.refusals.session("nothing_to_undo"), position)
-    return transaction.replace_tail(step.inverse, again=False)
+@handles(Undo, Redo)
+def _undo(transaction: Transaction, action: Undo | Redo, _sequence: int, position: int) -> Undone:
+    return take_back(transaction, action, position)
 
 
-@handles(Redo)
-def _redo(transaction: Transaction, _action: Redo, _sequence: int, position: int) -> Undone:
-    transaction.close_step()
-    step = transaction.undo_stack.redo(transaction.timeline)
-    if step is None:
-        raise _nothing_to_undo(transaction.refusals.session("nothing_to_redo"), position)
-    return transaction.replace_tail(step, again=True)
+@handles(Drop)
+def _drop(transaction: Transaction, _action: Drop, _sequence: int, _position: int) -> Dropped:
+    pending = transaction.talk.pending
+    return Dropped(None if pending is None else pending.question)
 
 
 @handles(Rewind)
@@ -239,7 +237,3 @@ def _load(transaction: Transaction, action: Load, _sequence: int, position: int)
 def _refuse_aliases(transaction: Transaction, _action: Teach | Forget, _sequence: int, position: int) -> Fact:
     sentence = transaction.refusals.session("alone")
     raise Invalid(sentence, errors=[FieldProblem(f"actions.{position}", sentence)])
-
-
-def _nothing_to_undo(sentence: str, position: int) -> NothingToUndo:
-    return NothingToUndo(sentence, errors=[FieldProblem(f"actions.{position}", sentence)])

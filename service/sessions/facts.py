@@ -8,6 +8,7 @@ from typing import TypeAlias
 
 from service.actions import Action, Ask, Goal, Style
 from service.sessions.bookmarks import Bookmarked, Jumped
+from service.sessions.pending import NO_TALK, Talk
 from service.sessions.scheduler.playback_speed import NORMAL, PlaybackSpeed, PlaybackSpeedSet
 from sim.goals import Finding
 from sim.hazard_advice import Advice
@@ -44,10 +45,12 @@ class Stepped:
 
 @dataclass(frozen=True, slots=True)
 class Undone:
-    """A change was undone, or (`again`) redone; `changes` are the differences in the state."""
+    """Changes were undone, or (`again`) redone; `changes` are the differences in the state."""
 
     again: bool
     changes: tuple[Change, ...]
+    steps: int = 1
+    """how many steps were undone or redone"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +63,8 @@ class Asked:
     """what the question takes for granted, beyond its keys: a `crash`"""
     playback_speed: PlaybackSpeed = NORMAL
     """the clock's, which no timeline has"""
+    talk: Talk = NO_TALK
+    """the conversation as it was, for questions about it"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,6 +88,13 @@ class Chatted:
     """Small talk of a kind; nothing was done."""
 
     kind: str
+
+
+@dataclass(frozen=True, slots=True)
+class Dropped:
+    """The pending question was dropped; `question` is None where nothing was pending."""
+
+    question: str | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,6 +122,7 @@ Fact: TypeAlias = (
     | Jumped
     | Viewed
     | Chatted
+    | Dropped
     | Answerable
 )
 
@@ -176,7 +189,7 @@ def _changes(fact: Fact) -> tuple[Change, ...]:
             return (Change("tick", fact.before, fact.tick), *fact.changes)
         case Resolved():
             return tuple(change for each in fact.done for change in each.changes)
-        case Asked() | Advised() | Bookmarked() | Viewed() | Chatted():
+        case Asked() | Advised() | Bookmarked() | Viewed() | Chatted() | Dropped():
             return ()
 
 

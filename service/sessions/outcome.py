@@ -19,6 +19,7 @@ from service.sessions.facts import (
     spread_facts,
 )
 from service.sessions.narrator_protocol import NarratorProtocol
+from service.sessions.take_back import settled
 from service.sessions.transaction import Transaction
 from service.sessions.utterance import Outcome, ReachabilityNotice, Utterance
 from service.store import EntryRecord
@@ -80,7 +81,9 @@ def make_entry(outcome: Outcome, tick: int, transaction: Transaction) -> EntryRe
         sequence=outcome.sequence,
         tick=tick,
         text=outcome.utterance.text,
-        actions=contract.dump(performed_actions(outcome.utterance.actions, outcome.facts)),
+        actions=contract.dump(
+            performed_actions(settled(outcome.utterance.actions, outcome.facts), outcome.facts)
+        ),
         digest=transaction.timeline.state.world.digest(),
         names={
             moment.name: moment.tick

@@ -26,7 +26,7 @@ from service.server_timing import part as timed
 from service.sessions.bookmarks import add_other_session
 from service.sessions.conversation import Conversation
 from service.sessions.dry_run import is_possible
-from service.sessions.event_feed import EventFeed
+from service.sessions.event_feed import CHANGED, EventFeed
 from service.sessions.facts import (
     Fact,
     merge_views,
@@ -36,6 +36,7 @@ from service.sessions.facts import (
 )
 from service.sessions.fork import ForkPoint, is_partly_of_world
 from service.sessions.outcome import is_slow_to_answer, make_entry, make_outcome
+from service.sessions.pending import PendingQuestion, Talk
 from service.sessions.persistence.log_position import LogPosition
 from service.sessions.preconditions import NO_PRECONDITIONS, Preconditions
 from service.sessions.reachability import ReachabilityMonitor
@@ -90,6 +91,8 @@ class Session:
         self.partial_changes: set[int] = set()
         """changes of which the log of the road has only some actions"""
         self.conversation = Conversation()
+        self.pending: PendingQuestion | None = None
+        """the question that the service asked last, while it waits for an answer"""
         self.log_position = LogPosition(record)
         self.after_change: Callable[[Session], None] | None = None
         self.feed = EventFeed(self, services.settings.log_events)
@@ -246,7 +249,8 @@ class Session:
     def begin_transaction(self, language: str | None = None) -> Transaction:
         """A copy to try actions on; `language`: the one in which they are refused (the session's)."""
         language = language or self.language
-        return Transaction(self.timeline, self.paused, self.undo_stack, self.playback_speed, language)
+        talk = Talk(self.pending, self.feed.changes)
+        return Transaction(self.timeline, self.paused, self.undo_stack, self.playback_speed, language, talk)
 
     @asynccontextmanager
     async def locked(self, preconditions: Preconditions) -> AsyncIterator[None]:
@@ -380,7 +384,7 @@ class Session:
         self.adopt(transaction, outcome.sequence, performed_actions(outcome.utterance.actions, outcome.facts))
         self.set_paused(transaction.paused)
         self.conversation.record(outcome)
-        lines = [self.feed.log_line(began, "changed", outcome.done, transient=False)]
+        lines = [self.feed.log_line(began, CHANGED, outcome.done, transient=False)]
         playing = outcome.only_steps and len(outcome.ticks) <= MAX_STREAMED_TICKS
         for run, part in parts_with_events(outcome.facts):
             noted = self.feed.log_events(run, part)
