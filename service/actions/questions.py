@@ -22,14 +22,9 @@ QuestionName = Literal[
     "options",
     "term",
     "history",
-<<<<<<< HEAD
-    "styles",
-||||||| merged common ancestors
-=======
     "styles",
     "changes",
     "pending",
->>>>>>> main
 ]
 HistoryName = Literal["closest_call", "summary", "since", "between", "seen"]
 """What of the past is asked about: of this episode, of the ticks since one, between two, or of one tick."""
@@ -132,14 +127,9 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "options": QuestionTraits(("parameter",)),
     "term": QuestionTraits(("term",), ("term",)),
     "history": QuestionTraits(("what", "tick", "until", "ticks"), ("what",), runs_episodes=True),
-<<<<<<< HEAD
-    "styles": QuestionTraits(),
-||||||| merged common ancestors
-=======
     "styles": QuestionTraits(),
     "changes": QuestionTraits(("count", "tick")),
     "pending": QuestionTraits(),
->>>>>>> main
 }
 
 HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {

@@ -141,7 +141,7 @@ class Sentences:
             case Prefer():
                 return self._word("prefer", action.preference)
             case Goal():
-                return self._looked_for(action)
+                return self._goal(action)
             case Style():
                 return self._word("style", action.style)
             case SetMode():
@@ -182,25 +182,6 @@ class Sentences:
             case _:
                 return self._say(action.do)
 
-<<<<<<< HEAD
-    def _looked_for(self, goal: Goal) -> str:
-        if goal.planners is not None:
-            can, cannot = (self._value("planner", planner) for planner in goal.planners)
-            return self._say("separates", can=can, cannot=cannot)
-        return self._word("goal", goal.goal if goal.degree is None else f"{goal.goal}_{goal.degree}")
-
-||||||| merged common ancestors
-<<<<<<<<< Temporary merge branch 1
-    def _goal(self, goal: Goal) -> str:
-        if goal.planners is not None:
-            can, cannot = (self._value("planner", planner) for planner in goal.planners)
-            return self._say("separates", can=can, cannot=cannot)
-        return self._word("goal", goal.goal if goal.degree is None else f"{goal.goal}_{goal.degree}")
-
-||||||||| 40f91b4
-=========
-=======
->>>>>>> main
     def _move(self, action: MoveThings) -> str:
         things = self._meant(action.kind, action.count, action.where)
         if action.by is None:
@@ -242,17 +223,12 @@ class Sentences:
             raise Unsayable("no place to put things")
         return self._where(to, "goal")
 
-<<<<<<< HEAD
-||||||| merged common ancestors
->>>>>>>>> Temporary merge branch 2
-=======
     def _goal(self, goal: Goal) -> str:
         if goal.planners is not None:
             can, cannot = (self._value("planner", planner) for planner in goal.planners)
             return self._say("separates", can=can, cannot=cannot)
         return self._word("goal", goal.goal if goal.degree is None else f"{goal.goal}_{goal.degree}")
 
->>>>>>> main
     def _remove(self, action: Remove) -> str:
         kind, count, where = action.kind, action.count, action.where
         if action.except_ is not None:

@@ -41,25 +41,11 @@ class Answers:
             "what_if": WhatIfs(sayings),
             "next": Next(sayings),
             "metrics": Figures(sayings),
-<<<<<<< HEAD
-            "styles": Styles(sayings),
-||||||| merged common ancestors
-<<<<<<<<< Temporary merge branch 1
-            "styles": Styles(sayings),
-||||||||| 40f91b4
-=========
-=======
->>>>>>> main
             "setting": settings,
             "options": settings,
             "term": Glossary(sayings),
             "history": History(sayings),
-<<<<<<< HEAD
-||||||| merged common ancestors
->>>>>>>>> Temporary merge branch 2
-=======
             "styles": Styles(sayings),
->>>>>>> main
         }
 
     def answer(self, asked: Answerable) -> Json:
