@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from service.grammar.composition import Composition, Matcher, asks, within
-from service.grammar.fragments import BUT, EXCEPT, INTERJECTION, OR, STOP, Fragment
+from service.grammar.fragments import BUT, EXCEPT, INTERJECTION, OR, PAUSE, STOP, Fragment
 from service.grammar.frames import Filled
 from service.grammar.lattice import NUMBER, Edge, Lattice
 from service.grammar.lexicon import Sense
@@ -32,7 +32,6 @@ _WHOLE = (".all", ".the_many", ".bare_many", ".those")
 
 _FURTHER = ("more", "another")
 _PLACED = ("place", "side", "length")
-_PAUSE = "pause"
 
 CONTRAST = "contrast"
 EVERYTHING = "everything"
@@ -115,9 +114,10 @@ class Divider:
                 swallowed = self._composition.swallows((clause.filled, clause.actions), said)
                 return (self._or_apart(clause, said, context) if swallowed else clause), used
             apart = self._requests(said, heads, context)
-            if apart is None or _same(apart, clause) or not _optional(clause, apart):
+            verb = self._composition.verb_of_its_own(said[0]) is not None
+            if apart is None or _same(apart, clause) or not (verb or _optional(clause, apart)):
                 return clause, used
-            if said[heads[0]].after == STOP or self._composition.verb_of_its_own(said[0]) is not None:
+            if verb or said[heads[0]].after == STOP:
                 end = at + heads[0]
                 continue
             return replace(clause, instead=tuple(apart)), used
@@ -151,6 +151,8 @@ class Divider:
         """The longest listing clause that starts here, of two fragments or more."""
         last = at + 1
         while last < min(len(parts), at + MAX_JOINED) and parts[last].after in _TOGETHER:
+            if parts[last].after == STOP and self._begins_request(parts, last):
+                break
             last += 1
         if parts[at].after == OR:
             return None, 0
@@ -167,6 +169,14 @@ class Divider:
                 if leaning is not None:
                     return Clause(start, stop, *leaning), end - at
         return None, 0
+
+    def _begins_request(self, parts: Sequence[Fragment], at: int) -> bool:
+        """Whether a part only begins the sentence that it stands in: "10 metres ahead, add a cone"."""
+        stops = (other for other in range(at + 1, len(parts)) if parts[other].after == STOP)
+        rest = parts[at + 1 : next(stops, len(parts))]
+        return self._composition.alone(parts[at]) is None and any(
+            self._composition.verb_of_its_own(part) is not None for part in rest[:1]
+        )
 
     def _each_whole(self, parts: Sequence[Fragment]) -> bool:
         """Whether each sentence in it is a request by itself: then they are several."""
@@ -231,7 +241,7 @@ class Divider:
 
     def _says_again(self, part: Fragment) -> bool:
         """Whether a part only says how many were meant: "a cone, just one" is not two."""
-        if part.after != _PAUSE or not self._contrasts(part):
+        if part.after != PAUSE or not self._contrasts(part):
             return False
         return not any(
             isinstance(edge.sense.value, Amount) or edge.concept in _PLACED
@@ -244,7 +254,7 @@ class Divider:
 
     def _may_lean(self, part: Fragment, context: Context) -> bool:
         """Whether an amount without a noun may be of what was spoken of: not in "a pothole, just one"."""
-        if context.distant or part.after == _PAUSE:
+        if context.distant or part.after == PAUSE:
             return self._says_more(part.start, part.end) or (
                 not context.distant and self._says_where(part.start, part.end)
             )
