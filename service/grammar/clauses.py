@@ -114,10 +114,14 @@ class Divider:
                 swallowed = self._composition.swallows((clause.filled, clause.actions), said)
                 return (self._or_apart(clause, said, context) if swallowed else clause), used
             apart = self._requests(said, heads, context)
-            verb = self._composition.verb_of_its_own(said[0]) is not None
-            if apart is None or _same(apart, clause) or not (verb or _optional(clause, apart)):
+            if apart is None or _same(apart, clause):
                 return clause, used
-            if verb or said[heads[0]].after == STOP:
+            own = self._composition.verb_of_its_own(said[0]) is not None
+            optional = _optional(clause, apart)
+            leans = bool(context.verb) and self._composition.alone(said[0]) is None
+            if not (own or optional or context.verb):
+                return clause, used
+            if own or said[heads[0]].after == STOP or (optional and leans):
                 end = at + heads[0]
                 continue
             return replace(clause, instead=tuple(apart)), used
@@ -143,6 +147,7 @@ class Divider:
     def _or_apart(self, clause: Clause, parts: Sequence[Fragment], context: Context) -> Clause:
         """A listing, with what its parts are as clauses of their own; without, where they are none."""
         apart = self._requests(parts, range(1, len(parts)), context)
+        apart = apart and [one for each in apart for one in each.instead or (each,)]
         if apart is None or _same(apart, clause) or not _optional(clause, apart):
             return clause
         return replace(clause, instead=tuple(apart))
@@ -151,7 +156,7 @@ class Divider:
         """The longest listing clause that starts here, of two fragments or more."""
         last = at + 1
         while last < min(len(parts), at + MAX_JOINED) and parts[last].after in _TOGETHER:
-            if parts[last].after == STOP and self._begins_request(parts, last):
+            if parts[last].after != PAUSE and self._begins_request(parts, last):
                 break
             last += 1
         if parts[at].after == OR:
@@ -172,11 +177,12 @@ class Divider:
 
     def _begins_request(self, parts: Sequence[Fragment], at: int) -> bool:
         """Whether a part only begins the sentence that it stands in: "10 metres ahead, add a cone"."""
-        stops = (other for other in range(at + 1, len(parts)) if parts[other].after == STOP)
-        rest = parts[at + 1 : next(stops, len(parts))]
-        return self._composition.alone(parts[at]) is None and any(
-            self._composition.verb_of_its_own(part) is not None for part in rest[:1]
-        )
+        if at + 1 == len(parts) or parts[at + 1].after != PAUSE:
+            return False
+        if self._composition.alone(parts[at]) or not self._composition.verb_of_its_own(parts[at + 1]):
+            return False
+        both = self._stretches.make(parts[at].start, parts[at + 1].end, joined=True)
+        return self._matcher.match(both, verbless=False) is not None
 
     def _each_whole(self, parts: Sequence[Fragment]) -> bool:
         """Whether each sentence in it is a request by itself: then they are several."""
@@ -337,4 +343,5 @@ def _optional(joint: Clause, apart: Sequence[Clause]) -> bool:
 
     "Pothole 2 m ahead, speed 40 km/h" is one question, which neither part is alone.
     """
-    return any(clause.filled.frame.name == joint.filled.frame.name for clause in apart)
+    verbs = {action["do"] for clause in apart for action in clause.actions}
+    return all(action["do"] in verbs for action in joint.actions)

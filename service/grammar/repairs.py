@@ -102,10 +102,10 @@ class Repair:
 
     def _without(self, read: Read) -> list[Choice]:
         """The reading without what is not wanted: "use Dijkstra instead of A*", in either order."""
-        before = self._written(0, self._end)
         said = ends_of_pieces(steps_of(self._lattice), self._again, self._work)
         found: list[Choice] = []
         for end in sorted(end for end in said if end <= self._tail):
+            before = self._written(0, self._edge.start if end < self._tail else self._end)
             text = f"{before} {self._written(end, self._lattice.size)}".strip(" ,;")
             parsed = read(text)
             if isinstance(parsed, Understood) and all(c.actions != parsed.actions for c in found):
