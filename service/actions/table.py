@@ -100,7 +100,7 @@ class ActionTraits:
     separates_settings: bool = False
     """whether a setting may be one thing before it and another after it: time passes, or something is told"""
     amendable: bool = False
-    """whether a correction ("no, three") can take it back and do it anew"""
+    """whether a correction ("no, three") can do it anew, after an undo where it is a step of undo"""
     additive: bool = False
     """whether saying it again comes on top of what was done before"""
     idempotent: bool = False
@@ -128,7 +128,9 @@ def _world(
 
 
 def _view() -> ActionTraits:
-    return ActionTraits(changes_session=False, model=ModelUse.ALWAYS, what_if=WhatIf.NO_EFFECT)
+    return ActionTraits(
+        changes_session=False, model=ModelUse.ALWAYS, what_if=WhatIf.NO_EFFECT, amendable=True
+    )
 
 
 _TABLE: Final[Mapping[type, ActionTraits]] = {
@@ -137,13 +139,13 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
     SetCount: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True),
     Scenario: _world(ModelUse.CONFIRMED),
     Reset: _world(ModelUse.CONFIRMED),
-    SetMode: _world(ModelUse.UNCONFIRMED, tried=True),
-    Drive: _world(ModelUse.UNCONFIRMED),
+    SetMode: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True),
+    Drive: _world(ModelUse.UNCONFIRMED, amendable=True),
     Set: _world(ModelUse.UNCONFIRMED, amendable=True),
     Adjust: _world(ModelUse.UNCONFIRMED, amendable=True, additive=True),
     Prefer: _world(ModelUse.UNCONFIRMED, amendable=True),
-    Pause: ActionTraits(tried=True, model=ModelUse.UNCONFIRMED, idempotent=True),
-    Resume: ActionTraits(tried=True, model=ModelUse.UNCONFIRMED, idempotent=True),
+    Pause: ActionTraits(tried=True, model=ModelUse.UNCONFIRMED, idempotent=True, amendable=True),
+    Resume: ActionTraits(tried=True, model=ModelUse.UNCONFIRMED, idempotent=True, amendable=True),
     Step: ActionTraits(
         runs_ticks=True, takes_decisions=True, separates_settings=True, model=ModelUse.UNCONFIRMED
     ),
@@ -174,12 +176,13 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
     Ask: ActionTraits(
         changes_session=False,
         is_question=True,
+        amendable=True,
         separates_settings=True,
         model=ModelUse.ALWAYS,
         what_if=WhatIf.INVALID,
     ),
     Advise: ActionTraits(
-        changes_session=False, is_question=True, model=ModelUse.ALWAYS, what_if=WhatIf.NO_EFFECT
+        changes_session=False, is_question=True, amendable=True, model=ModelUse.ALWAYS, what_if=WhatIf.NO_EFFECT
     ),
     Evaluate: ActionTraits(
         offered=False, separates_settings=True, model=ModelUse.CONFIRMED, what_if=WhatIf.NO_EFFECT

@@ -15,10 +15,11 @@ from service.grammar.fragments import REPEATED
 from service.grammar.lattice import Edge, Lattice
 from service.grammar.lexicon import Sense
 from service.grammar.noun_phrases import Amount
+from service.grammar.said_before import take_back
 from service.grammar.parse_types import Parse, Refused, Understood
 from service.grammar.tokens import Token
 from service.grammar.topic import Phrases, Topic
-from sim.actions import Where
+from sim.actions import Remove, Where
 from sim.types import kind_of
 
 REFERS = "refers"
@@ -109,6 +110,18 @@ def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear:
         case "there" if topic.where is not None:
             said = {key: part for key, part in asdict(topic.where).items() if part is not None}
             return Edge(start, end, Sense("place", said))
+        case {"nth": int() as number} if 0 < number <= len(topic.listed):
+            return _things(start, end, topic.listed[number - 1 : number])
+        case "other" | "others" as which:
+            return _others(start, end, topic, one=which == "other")
+        case "back" if _took_away(topic):
+            return Edge(start, end, Sense(REPEATED, dump((take_back(topic),))))
+        case "not_that" if _pointed_at(topic):
+            return Edge(start, end, Sense(REPEATED, dump((take_back(topic),))))
+        case "closest" if topic.listed:
+            kinds = {kind_of(name) for name in topic.listed}
+            kind = {"kind": kinds.pop()} if len(kinds) == 1 else {}
+            return Edge(start, end, Sense(REPEATED, [{"do": "ask", "about": "scene", **kind}]))
         case "same_lane" | "other_lane" as which:
             lane = _lane_before(lattice, start, topic.where)
             if which == "other_lane":
@@ -118,6 +131,27 @@ def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear:
             return Unclear(start, end, lane=True)
         case _:
             return Unclear(start, end)
+
+
+def _others(start: int, end: int, topic: Topic, *, one: bool) -> Edge | Unclear:
+    """Those of what was told last that were not just spoken of."""
+    left = tuple(name for name in topic.listed if name not in topic.things) or topic.listed
+    if not left or (one and len(left) > 1):
+        return Unclear(start, end, left[-MAX_CANDIDATES:])
+    return _things(start, end, left)
+
+
+def _took_away(topic: Topic) -> bool:
+    """Whether the last request took things off the road."""
+    away = any(isinstance(action, Remove) for action in topic.actions)
+    return away and bool(topic.steps) and not topic.undone
+
+
+def _pointed_at(topic: Topic) -> bool:
+    """Whether the last request was about one thing that it did not name."""
+    wheres = [getattr(action, "where", None) for action in topic.actions]
+    pointed = any(where is not None and (where.nearest or where.id) for where in wheres)
+    return pointed and bool(topic.steps) and not topic.undone
 
 
 def _lane_before(lattice: Lattice, start: int, where: Where | None) -> str | int | None:
