@@ -68,12 +68,17 @@ class Step:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rewind:
-    """Go back some ticks."""
+    """Go back some ticks, or to a tick, the latest crash, the start of the episode or of the session."""
 
     do: Literal["rewind"] = "rewind"
-    ticks: Ticks
+    ticks: Ticks | None = None
+    to: Annotated[int, Ge(0)] | Literal["crash", "episode", "start"] | None = None
 
     __pydantic_config__ = STRICT
+
+    def __post_init__(self) -> None:
+        if (self.ticks is None) == (self.to is None):
+            raise ValueError("say either 'ticks' or 'to'")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -131,5 +136,28 @@ class Record:
 
     do: Literal["record"] = "record"
     on: bool
+
+    __pydantic_config__ = STRICT
+
+
+ChatKind = Literal[
+    "greeting",
+    "farewell",
+    "thanks",
+    "praise",
+    "apology",
+    "okay",
+    "complaint",
+    "identity",
+    "joke",
+]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Chat:
+    """Small talk: one short line in return, and nothing else."""
+
+    do: Literal["chat"] = "chat"
+    kind: ChatKind
 
     __pydantic_config__ = STRICT

@@ -161,12 +161,15 @@ class _Answering:
         answer = " ".join(token.text for token in tokens)
         meant: list[tuple[Action, ...]] = []
         for choice in self._choices:
-            parsed = self._language.read(f"{choice.text}, {replaces} {answer}", ALONE, self._work, asking=False)
+            parsed = self._language.read(
+                f"{choice.text}, {replaces} {answer}", ALONE, self._work, asking=False
+            )
             if not isinstance(parsed, Understood) or _shape(parsed.actions) != _shape(choice.actions):
                 continue
             if parsed.actions not in meant:
                 meant.append(parsed.actions)
         return meant[0] if len(meant) == 1 else None
+
 
 def _shape(actions: Sequence[Action]) -> list[object]:
     """What some actions are, aside of amounts and places."""

@@ -34,6 +34,7 @@ MESSAGES = frozenset(
         "no_referent",
         "which",
         "more_of_what",
+        "together_or_apart",
     )
 )
 """What the engine itself says."""
@@ -66,6 +67,8 @@ class LanguageData:
     """how questions are answered, and what begins a sentence that leans on the one before"""
     nouns: Mapping[str, str]
     """for each concept that may only stand with a value of its own kind ("weather"), that kind"""
+    free: frozenset[str]
+    """concepts that frames may take and have no use for, because they say nothing more"""
 
     def knows(self, word: str) -> bool:
         """Whether a word means anything, alone or in a phrase."""
@@ -159,4 +162,5 @@ def language_data(documents: Documents, lexicon: Lexicon) -> LanguageData:
         number_words=numbers.words(),
         answers=Answers.from_data(documents.answers),
         nouns=documents.frames["agree"],
+        free=frozenset(str(documents.frames.get("free", "")).split()),
     )

@@ -16,8 +16,8 @@ from service.actions.table import traits_of
 from service.grammar.answer_words import AFTER, BEFORE, CORRECTS, FOLLOWS, INSTEAD, TOO
 from service.grammar.engine import Language
 from service.grammar.parse_types import Ambiguous, Choice, Parse, Refused, Understood
-from service.grammar.sentences import Unsayable
 from service.grammar.said_before import can_be_corrected, done_anew, said_before
+from service.grammar.sentences import Unsayable
 from service.grammar.tokens import Token, normalise, tokenise
 from service.grammar.topic import ALONE, Topic
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
@@ -110,7 +110,11 @@ class _Leaning:
         """The last request with what was said in the place of a part of it, or added to it."""
         if goes_on and self._tokens[0].text in self._language.joiners:
             parsed = self._read(f"{base} {self._written(self._tokens)}")
-            if parsed is not None and parsed[: len(done)] == done and shape(parsed[len(done) :]) == shape(done):
+            if (
+                parsed is not None
+                and parsed[: len(done)] == done
+                and shape(parsed[len(done) :]) == shape(done)
+            ):
                 return parsed[len(done) :]
         for part in self._parts(rest):
             said = self._written(part)
@@ -130,7 +134,11 @@ class _Leaning:
         except Unsayable:
             return None
         parsed = self._read(f"{base} {self._written(rest)}")
-        if parsed is None or len(parsed) != len(done) or not all(getattr(each, "where", None) for each in parsed):
+        if (
+            parsed is None
+            or len(parsed) != len(done)
+            or not all(getattr(each, "where", None) for each in parsed)
+        ):
             return None
         placed = tuple(replace(action, where=None) for action in parsed)  # type: ignore[type-var]
         return parsed if placed == anywhere and parsed != done else None
@@ -167,7 +175,9 @@ class _Leaning:
 
 def shape(actions: Sequence[Action]) -> list[object]:
     """What kinds of request some actions are."""
-    return [(action.do, getattr(action, "about", None), getattr(action, "parameter", None)) for action in actions]
+    return [
+        (action.do, getattr(action, "about", None), getattr(action, "parameter", None)) for action in actions
+    ]
 
 
 def _without_marks(tokens: Sequence[Token]) -> Sequence[Token]:

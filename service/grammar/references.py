@@ -15,11 +15,11 @@ from service.grammar.fragments import REPEATED
 from service.grammar.lattice import Edge, Lattice
 from service.grammar.lexicon import Sense
 from service.grammar.noun_phrases import Amount
-from service.grammar.said_before import take_back
 from service.grammar.parse_types import Parse, Refused, Understood
+from service.grammar.said_before import take_back
 from service.grammar.tokens import Token
 from service.grammar.topic import Phrases, Topic
-from sim.actions import Remove, Where
+from sim.actions import MoveThings, Remove, Replace, Swap, Where
 from sim.types import kind_of
 
 REFERS = "refers"
@@ -32,6 +32,9 @@ MAX_CANDIDATES = 5
 _REFERRING = frozenset(
     (REFERS, "thing.that", "thing.those", "thing.the_one", "thing.last", "thing.last_counted")
 )
+_MOVED = (Remove, MoveThings, Replace, Swap)
+"""Actions after which "put it back" is to undo them."""
+
 _OPPOSITE = {"left": "right", "right": "left"}
 
 
@@ -143,7 +146,7 @@ def _others(start: int, end: int, topic: Topic, *, one: bool) -> Edge | Unclear:
 
 def _took_away(topic: Topic) -> bool:
     """Whether the last request took things off the road."""
-    away = any(isinstance(action, Remove) for action in topic.actions)
+    away = any(isinstance(action, _MOVED) for action in topic.actions)
     return away and bool(topic.steps) and not topic.undone
 
 

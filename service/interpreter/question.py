@@ -37,9 +37,7 @@ def asked_by(parse: AmbiguousParse, language: str, pending: PendingQuestion | No
     return Asked(PendingQuestion(parse.text, parse.question, choices, "grammar", language))
 
 
-def answered(
-    language: Any, code: str, text: str, parse: Parse, pending: PendingQuestion | None
-) -> Parse:
+def answered(language: Any, code: str, text: str, parse: Parse, pending: PendingQuestion | None) -> Parse:
     """What a sentence means while a question is pending: an answer to it, or what it means by itself.
 
     A request of its own is an answer only where it says no more than the words of one choice.

@@ -2,22 +2,40 @@
 
 from __future__ import annotations
 
+from service.narration.goals import Goals
+from service.narration.rearranged import told_rearranged
 from service.narration.sayings import Sayings
 from service.sessions.bookmarks import Bookmarked, Jumped
 from service.sessions.facts import (
     Advised,
     AliasChange,
     Asked,
+    Chatted,
     Dropped,
     Fact,
     PauseSet,
+    Resolved,
     Stepped,
     Undone,
     Viewed,
     merge_changes,
 )
 from service.sessions.scheduler.playback_speed import MAX, PlaybackSpeed, PlaybackSpeedSet
-from sim.actions import Add, Adjust, Drive, Prefer, Remove, Scenario, Set, SetCount, SetMode
+from sim.actions import (
+    Add,
+    Adjust,
+    Copy,
+    Drive,
+    MoveThings,
+    Prefer,
+    Remove,
+    Replace,
+    Scenario,
+    Set,
+    SetCount,
+    SetMode,
+    Swap,
+)
 from sim.events import EventType
 from sim.plan import traits_of
 from sim.session.edits import Applied, Change
@@ -32,6 +50,7 @@ class Replies:
     def __init__(self, sayings: Sayings) -> None:
         """`sayings`: the language's."""
         self._sayings = sayings
+        self._goals = Goals(sayings, self._scenario, self.done)
 
     def done(self, facts: tuple[Fact, ...]) -> str:
         """A sentence for each fact; questions are answered elsewhere."""
@@ -53,6 +72,8 @@ class Replies:
         match fact:
             case Applied():
                 return self._applied(fact)
+            case Resolved():
+                return self._goals.said(fact)
             case PauseSet(before=before, paused=paused):
                 key = "pause" if paused else "resume"
                 return self._say(f"{key}_already" if before is paused else key)
@@ -77,6 +98,8 @@ class Replies:
             case Viewed(view=view, shown=shown):
                 name = self._sayings.say("replies", "views", view)
                 return self._say("shown" if shown else "hidden", view=name)
+            case Chatted(kind=kind):
+                return self._sayings.say("chat", kind)
             case Asked() | Advised():
                 return ""
 
@@ -86,7 +109,11 @@ class Replies:
         if fact.steps > 1:
             key += "_many"
         told = self._diff(fact.changes)
-        said = [self._say(key, diff=told, count=fact.steps) if told else self._say(f"{key}_plain", count=fact.steps)]
+        said = [
+            self._say(key, diff=told, count=fact.steps)
+            if told
+            else self._say(f"{key}_plain", count=fact.steps)
+        ]
         for change in fact.changes:
             if change.path == "paused":
                 said.append(self._say("pause" if change.after else "resume"))
@@ -113,6 +140,8 @@ class Replies:
                     things=self._sayings.things(kind, count),
                     diff=self._diff(applied.changes),
                 )
+            case MoveThings() | Swap() | Replace() | Copy() as action:
+                said = told_rearranged(self._sayings, applied, action, self._diff(applied.changes))
             case Scenario():
                 return self._scenario(applied.state)
             case SetMode(mode=mode):
@@ -141,7 +170,8 @@ class Replies:
         before = self._say("unset") if change.before is None else self._value(parameter, change.before)
         said = self._say("set", name=name, before=before, after=self._value(parameter, change.after))
         if parameter in NEEDS_A_NEW_ROAD:
-            return f"{said} {self._scenario(applied.state)}"
+            kept = "episode" not in changed
+            return f"{said} {self._say('road_kept') if kept else self._scenario(applied.state)}"
         counted = self._diff(applied.changes)
         told = [said, self._say("on_the_road", diff=counted) if counted else ""]
         if parameter in FROM_THE_NEXT_ROAD:

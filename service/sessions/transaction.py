@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import chain, islice
+from threading import Event
 
 from service.actions import Action, Redo, Rewind, Undo
 from service.actions import Step as StepTicks
@@ -21,7 +22,7 @@ from service.sessions.action_handlers import HANDLERS
 from service.sessions.bookmarks import Jumped
 from service.sessions.facts import Fact
 from service.sessions.pending import NO_TALK, Talk
-from service.sessions.rewind import TimeJump
+from service.sessions.rewind import TimeJump, tick_meant
 from service.sessions.scheduler.playback_speed import NORMAL, PlaybackSpeed
 from service.sessions.undo_stack import UndoStack, UndoStep
 from sim.planner_names import installed
@@ -53,6 +54,8 @@ class Transaction:
         self.paused = paused
         self.playback_speed = speed
         self.undo_stack = history.copy()
+        self.abandoned = Event()
+        """set where nobody waits for the outcome any more: a search ends then"""
         self._jumped = False
         self._savepoint = _Savepoint(timeline, paused, speed)
 
@@ -66,7 +69,9 @@ class Transaction:
             facts.append(self._do(sequence, position, action))
             began.kept = min(began.kept, self._savepoint.kept)
             began.jumped = began.jumped or self._jumped
-        takes_over_speed = sequence == self.undo_stack.fork_sequence and all(map(sets_playback_speed, actions))
+        takes_over_speed = sequence == self.undo_stack.fork_sequence and all(
+            map(sets_playback_speed, actions)
+        )
         if any(traits_of(action).undo_step for action in actions) and not takes_over_speed:
             # Whatever it undid on the way, the utterance is one step.
             earlier.bookmarks = self.undo_stack.bookmarks
@@ -88,8 +93,10 @@ class Transaction:
             if step.jump is None and not step.only_speed and step.since < timeline.tick:
                 ticks += timeline.work_since(step.since)
         for action in actions:
-            if isinstance(action, Rewind) and action.ticks <= timeline.tick:
-                ticks += timeline.work_to(timeline.tick - action.ticks)
+            if isinstance(action, Rewind):
+                tick = tick_meant(timeline, action)
+                if tick is not None and 0 <= tick <= timeline.tick:
+                    ticks += timeline.work_to(tick)
         return ticks
 
     def needs_external_planner(self, actions: Sequence[Action]) -> bool:

@@ -174,34 +174,8 @@ def decode(values: Mapping[str, Any], session: str) -> SessionSnapshot:
 
     Raises `ValueError`, `TypeError` or `LookupError` for invalid values.
     """
-    states = Unpacker(values["states"])
-    sequences, ticks, which, dumped = values["entries"]
-    actions: Sequence[WorldAction] = contract.load(dumped)  # type: ignore[assignment]  # none else is written
-    entries = [
-        Entry(sequence, tick, actions[number])
-        for sequence, tick, number in zip(sequences, ticks, which, strict=True)
-    ]
-    logs: list[PersistentList[Entry]] = []
-    for alike, *stretches in values["logs"]:
-        begin = logs[-1].shared[:alike] if alike else ()
-        logs.append(PersistentList([*begin, *_decode_runs(stretches, entries)]))
-    snapshots = [
-        Snapshot(states.runs[run].world.tick, states.runs[run], count) for run, count in values["snapshots"]
-    ]
-    moves = [each.encode("ascii") for each in values["moves"]]
-    timelines = [
-        Timeline.made(
-            states.configs[config],
-            states.runs[run],
-            logs[log].first(length),
-            _decode_runs(places, snapshots),
-            gap,
-            work,
-            worked,
-            _decode_runs(blocks, moves),
-        )
-        for config, run, log, length, places, gap, work, worked, blocks in values["timelines"]
-    ]
+    entries = _decode_entries(values["entries"])
+    timelines = _decode_timelines(values, entries)
 
     def step(parts: Sequence[Any]) -> UndoStep:
         before, after, paused_before, paused_after, jump, speed = parts
@@ -240,6 +214,40 @@ def decode(values: Mapping[str, Any], session: str) -> SessionSnapshot:
             for tick, kind, text, ids, cell in values["lines"]
         ],
     )
+
+
+def _decode_entries(parts: Sequence[Any]) -> list[Entry]:
+    sequences, ticks, which, dumped = parts
+    actions: Sequence[WorldAction] = contract.load(dumped)  # type: ignore[assignment]  # none else is written
+    return [
+        Entry(sequence, tick, actions[number])
+        for sequence, tick, number in zip(sequences, ticks, which, strict=True)
+    ]
+
+
+def _decode_timelines(values: Mapping[str, Any], entries: Sequence[Entry]) -> list[Timeline]:
+    states = Unpacker(values["states"])
+    logs: list[PersistentList[Entry]] = []
+    for alike, *stretches in values["logs"]:
+        begin = logs[-1].shared[:alike] if alike else ()
+        logs.append(PersistentList([*begin, *_decode_runs(stretches, entries)]))
+    snapshots = [
+        Snapshot(states.runs[run].world.tick, states.runs[run], count) for run, count in values["snapshots"]
+    ]
+    moves = [each.encode("ascii") for each in values["moves"]]
+    return [
+        Timeline.made(
+            states.configs[config],
+            states.runs[run],
+            logs[log].first(length),
+            _decode_runs(places, snapshots),
+            gap,
+            work,
+            worked,
+            _decode_runs(blocks, moves),
+        )
+        for config, run, log, length, places, gap, work, worked, blocks in values["timelines"]
+    ]
 
 
 def _common_prefix_length(one: Sequence[Entry], other: Sequence[Entry]) -> int:
