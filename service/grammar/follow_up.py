@@ -19,7 +19,7 @@ from service.grammar.parse_types import Ambiguous, Choice, Parse, Refused, Under
 from service.grammar.said_before import can_be_corrected, done_anew, said_before
 from service.grammar.sentences import Unsayable
 from service.grammar.tokens import Token, normalise, tokenise
-from service.grammar.topic import ALONE, Topic
+from service.grammar.topic import Topic
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
 
 MAX_WORDS = 15
@@ -77,6 +77,7 @@ class _Leaning:
         self._plain = normalise(text)
         self._tokens = _without_marks(tokens)
         self._topic = topic
+        self._spoken_of = replace(topic, actions=(), kind=None, removed=False, undone=False)
         self._work = WorkBudget()
 
     def read(self) -> Parse | None:
@@ -146,7 +147,7 @@ class _Leaning:
     def _question(self, base: str, done: Actions, rest: Sequence[Token], correcting: bool) -> Parse | None:
         """The question which part of the last request is meant, where there are several."""
         text = f"{base}, {self._answers.replaces} {self._written(rest)}"
-        parsed = self._language.read(text, ALONE, self._work, asking=True)
+        parsed = self._language.read(text, self._spoken_of, self._work, asking=True)
         if not isinstance(parsed, Ambiguous):
             return None
         meant = [choice.actions for choice in parsed.choices if shape(choice.actions) == shape(done)]
@@ -166,7 +167,7 @@ class _Leaning:
             yield tokens[start:end]
 
     def _read(self, text: str) -> Actions | None:
-        parsed = self._language.read(text, ALONE, self._work, asking=False)
+        parsed = self._language.read(text, self._spoken_of, self._work, asking=False)
         return parsed.actions if isinstance(parsed, Understood) else None
 
     def _written(self, tokens: Sequence[Token]) -> str:

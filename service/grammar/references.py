@@ -35,6 +35,9 @@ _REFERRING = frozenset(
 _MOVED = (Remove, MoveThings, Replace, Swap)
 """Actions after which "put it back" is to undo them."""
 
+_WHOLE = frozenset(("other", "others"))
+"""References of several words that are small words of other requests by themselves."""
+
 _OPPOSITE = {"left": "right", "right": "left"}
 
 
@@ -82,6 +85,10 @@ def add_referents(lattice: Lattice, topic: Topic) -> list[Unclear]:
     unclear: list[Unclear] = []
     for edge in [edge for starting in lattice.edges for edge in starting if edge[2][0] in _REFERRING]:
         found = _pronoun(edge, lattice, topic) if edge.sense.concept == REFERS else _pointed(edge, topic)
+        if edge.sense.concept == REFERS and (
+            isinstance(edge.sense.value, dict) or edge.sense.value in _WHOLE
+        ):
+            _keep_whole(lattice, edge)
         if isinstance(found, Unclear):
             unclear.append(found)
             if edge.sense.concept != REFERS and found.candidates:
@@ -136,9 +143,20 @@ def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear:
             return Unclear(start, end)
 
 
+def _keep_whole(lattice: Lattice, outer: Edge) -> None:
+    """Let no word of a reference mean anything by itself: in "the first one" is no "one" of something else."""
+    for at in range(outer.start, outer.end):
+        lattice.edges[at] = [
+            edge
+            for edge in lattice.edges[at]
+            if edge.end > outer.end or (edge.start, edge.end) == (outer.start, outer.end)
+        ]
+
+
 def _others(start: int, end: int, topic: Topic, *, one: bool) -> Edge | Unclear:
     """Those of what was told last that were not just spoken of."""
-    left = tuple(name for name in topic.listed if name not in topic.things) or topic.listed
+    there = tuple(name for name in topic.listed if name not in topic.gone)
+    left = tuple(name for name in there if name not in topic.things) or there
     if not left or (one and len(left) > 1):
         return Unclear(start, end, left[-MAX_CANDIDATES:])
     return _things(start, end, left)

@@ -74,7 +74,10 @@ class Conversation:
         return twin
 
     def record(self, outcome: Outcome, *, transient: bool = False, step: bool = False) -> None:
-        """Record what an outcome did or answered; `transient`: it is not stored; `step`: it is a step of undo."""
+        """Record what an outcome did or answered.
+
+        `transient`: it is not stored; `step`: it is a new step of undo.
+        """
         if transient:
             self._durable = self._durable or self.durable
         elif self._durable is not None:
@@ -193,7 +196,8 @@ class Conversation:
             actions=self._actions,
             said=self._said,
             steps=self._steps,
-            listed=tuple(name for name in self._listed if name in there),
+            listed=self._listed if there else (),
+            gone=frozenset(name for name in self._listed if name not in there),
             undone=self._undone,
             kind=self._kind,
             removed=self._removed,
