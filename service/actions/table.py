@@ -104,6 +104,8 @@ class ActionTraits:
     """whether saying it again comes on top of what was done before"""
     idempotent: bool = False
     """whether saying it twice in a row for emphasis is saying it once"""
+    loses: bool = False
+    """whether something that is there may be gone afterwards: never suggested for something unrelated"""
 
 
 def _world(
@@ -113,6 +115,7 @@ def _world(
     amendable: bool = False,
     additive: bool = False,
     what_if: WhatIf = WhatIf.IMAGINED,
+    loses: bool = False,
 ) -> ActionTraits:
     """An action that changes the world, which is always a step of undo."""
     return ActionTraits(
@@ -123,6 +126,7 @@ def _world(
         amendable=amendable,
         additive=additive,
         what_if=what_if,
+        loses=loses,
     )
 
 
@@ -132,10 +136,10 @@ def _view() -> ActionTraits:
 
 _TABLE: Final[Mapping[type, ActionTraits]] = {
     Add: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, additive=True),
-    Remove: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, additive=True),
-    SetCount: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True),
-    Scenario: _world(ModelUse.CONFIRMED),
-    Reset: _world(ModelUse.CONFIRMED),
+    Remove: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, additive=True, loses=True),
+    SetCount: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, loses=True),
+    Scenario: _world(ModelUse.CONFIRMED, loses=True),
+    Reset: _world(ModelUse.CONFIRMED, loses=True),
     SetMode: _world(ModelUse.UNCONFIRMED, tried=True),
     Drive: _world(ModelUse.UNCONFIRMED),
     Set: _world(ModelUse.UNCONFIRMED, amendable=True),
@@ -152,6 +156,7 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
         takes_decisions=True,
         model=ModelUse.UNCONFIRMED,
         what_if=WhatIf.REFUSED,
+        loses=True,
     ),
     Redo: ActionTraits(
         tried=True,
@@ -167,6 +172,7 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
         separates_settings=True,
         model=ModelUse.CONFIRMED,
         what_if=WhatIf.REFUSED,
+        loses=True,
     ),
     Show: _view(),
     Hide: _view(),
@@ -193,6 +199,7 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
         separates_settings=True,
         model=ModelUse.NEVER,
         what_if=WhatIf.REFUSED,
+        loses=True,
     ),
     Record: ActionTraits(offered=False, model=ModelUse.CONFIRMED, what_if=WhatIf.NO_EFFECT),
     Teach: ActionTraits(changes_aliases=True, model=ModelUse.NEVER, what_if=WhatIf.INVALID),
