@@ -126,7 +126,7 @@ class _Maker:
             case "parts":
                 return self.parts()
             case "planners":
-                return [edge.sense.value for edge in self._filled.of("planner")] or _ABSENT
+                return self._planners(attribute) or _ABSENT
             case "eval_scenario":
                 return self.parts(without=("planner",)) or _ABSENT
             case "asked_move":
@@ -142,8 +142,18 @@ class _Maker:
             raise CannotBuild(f"two values for {name}")
         value = slots[0].sense.value
         if isinstance(value, Amount):
-            return {"of": value.of, "count": value.count, "id": "".join(value.ids[:1])}[attribute or "count"]
+            if attribute == "several" and value.count in (0, 1):
+                raise CannotBuild("one thing is no number of them")
+            told = {"of": value.of, "count": value.count, "id": "".join(value.ids[:1])}
+            return told["count" if attribute in ("", "several") else attribute]
         return value[attribute] if attribute else value
+
+    def _planners(self, attribute: str) -> list[Any]:
+        """The planners in the order said; as `pair` or `reversed` there must be two of them."""
+        planners = [edge.sense.value for edge in self._filled.of("planner")]
+        if attribute and len(planners) != 2:
+            raise CannotBuild("not two planners")
+        return planners[::-1] if attribute == "reversed" else planners
 
     def where(self) -> dict[str, Any] | None:
         """The place, of all its parts; parts that contradict each other are no place."""
@@ -190,7 +200,7 @@ class _Maker:
         is_share = self._parameters.fits(parameter, "fraction")
         part: float = self._slot("fraction", None) / 100 if "percent" in name else self._slot("part_of", None)
         if name == "share":
-            if not is_share or self._parameters.fits(parameter, "times"):
+            if not (is_share or self._parameters.fits(parameter, "seconds")):
                 raise CannotBuild(f"{parameter} is no share")
             return part
         if "percent" in name and is_share:

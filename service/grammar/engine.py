@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from service.actions import Action, dump
+from service.grammar.accounting import withhold
 from service.grammar.cache import ParseCache
 from service.grammar.compiled import check_fit, load_language
 from service.grammar.correction import answer_correction, opening_words
@@ -110,6 +111,7 @@ class Language:
         kept = find_names(tokens, self._lexicon, restore_marks(text, plain), topic)
         tokens, corrections = self._fix_typos(plain, tokens, kept, topic)
         lattice = self._scanner.scan(tokens, kept)
+        withhold(lattice, self.data.free)
         lattice.keep_whole(self.data.nouns)
         add_known(lattice, tokens, topic)
         uncovered = bool(lattice.uncovered())
@@ -263,6 +265,10 @@ class Language:
         if not isinstance(parse, Understood):
             return ()
         return parse.actions if self._offered is None or all(map(self._offered, parse.actions)) else ()
+
+    def scan(self, tokens: Sequence[Token]) -> Lattice:
+        """All that any stretch of some tokens can mean."""
+        return self._scanner.scan(tokens, {})
 
     def concepts(self, text: str) -> frozenset[str]:
         """The content concepts that occur in a text."""

@@ -3,7 +3,7 @@
 A noun and the quantities just before it become one edge whose concept says which kind of amount
 it is: `thing.counted` (five potholes), `.more` (two more), `.exact` (exactly nine), `.all` (every),
 `.the_many`, `.the_one`, `.that`, `.those`, `.bare_many`, `.bare_one`, `.any`, `.any_one`, `.none`, `.post`
-("potholes: 10"). Frames say which of these they take, and so what a definite plural means.
+("potholes: 10"), `.too_many`, `.too_few`. Frames say which of these they take, and so what a definite plural means.
 """
 
 from __future__ import annotations
@@ -156,6 +156,9 @@ def _form(gathered: _Gathered, many: bool, vague: int) -> tuple[str, int | float
     said, number = gathered.said - {"filler"}, gathered.number
     if ODD in said:
         return (ODD, None)
+    if said & {"too_many", "too_few"}:
+        (excess,) = said & {"too_many", "too_few"} if len(said) == 1 and number is None else (ODD,)
+        return (excess, None)
     if "how" in said:
         return ("asked", None)
     if "no" in said:

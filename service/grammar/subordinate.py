@@ -148,7 +148,7 @@ def _actions(
 ) -> list[dict[str, Any]] | Fragment:
     """The actions of clauses; the whole as not fitting where there are none, or one of `never`."""
     values = [value for clause in divided.clauses for value in clause.actions]
-    asks = any(clause.filled.frame.ask for clause in divided.clauses)
+    asks = any(clause.filled.frame.ask or clause.instead for clause in divided.clauses)
     if asks or not values or any(value["do"] in never for value in values):
         return Fragment("pause", start, max(end, start + 1))
     return values

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 from service.narration.sayings import Sayings
 from sim.state import SimState
-from sim.types import Kind
+from sim.types import Cell, Kind
 from sim.world import Thing
 
 MOST_LANES = 3
@@ -31,6 +31,11 @@ def place_of(sayings: Sayings, run: SimState, things: Sequence[Thing], verb: str
     if len(lanes) <= MOST_LANES and verb == "add":
         return _say(sayings, verb, "lanes", lanes=sayings.joined([str(lane) for lane in lanes]))
     return ""
+
+
+def spot_of(sayings: Sayings, run: SimState, cell: Cell) -> str:
+    """A cell as seen from the vehicle: "lane 4, 10 m ahead"."""
+    return sayings.say("replies", "spot", lane=cell[0] + 1, away=_row(sayings, run, cell[1]))
 
 
 def _row(sayings: Sayings, run: SimState, row: int) -> str:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from service.narration.goals import Goals
 from service.narration.placing import how_many_now, place_of
+from service.narration.rearranged import told_rearranged
 from service.narration.sayings import Sayings
 from service.narration.values import speed, value_of
 from service.sessions.bookmarks import Bookmarked, Jumped
@@ -12,14 +14,31 @@ from service.sessions.facts import (
     Advised,
     AliasChange,
     Asked,
+    Chatted,
+    Dropped,
     Fact,
     PauseSet,
+    Resolved,
     Stepped,
     Undone,
     Viewed,
 )
 from service.sessions.scheduler.playback_speed import PlaybackSpeedSet
-from sim.actions import Add, Adjust, Drive, Prefer, Remove, Scenario, Set, SetCount, SetMode
+from sim.actions import (
+    Add,
+    Adjust,
+    Copy,
+    Drive,
+    MoveThings,
+    Prefer,
+    Remove,
+    Replace,
+    Scenario,
+    Set,
+    SetCount,
+    SetMode,
+    Swap,
+)
 from sim.events import EventType
 from sim.plan import traits_of
 from sim.session.edits import Applied, Change
@@ -35,6 +54,7 @@ class Replies:
     def __init__(self, sayings: Sayings) -> None:
         """`sayings`: the language's."""
         self._sayings = sayings
+        self._goals = Goals(sayings, self._scenario, self.done)
 
     def done(self, facts: tuple[Fact, ...]) -> str:
         """A sentence for each fact; questions are answered elsewhere."""
@@ -56,6 +76,8 @@ class Replies:
         match fact:
             case Applied():
                 return self._applied(fact)
+            case Resolved():
+                return self._goals.said(fact)
             case PauseSet(before=before, paused=paused):
                 key = "pause" if paused else "resume"
                 return self._say(f"{key}_already" if before is paused else key)
@@ -67,6 +89,8 @@ class Replies:
                 return self._say(key, count=len(ticks), tick=fact.first_tick + len(ticks))
             case Undone():
                 return self._undone(fact)
+            case Dropped(question=question):
+                return self._say("nothing_pending" if question is None else "dropped")
             case Bookmarked(name=name, tick=tick, again=again):
                 return self._say("saved_again" if again else "saved", name=name, tick=tick)
             case Jumped(name=name, tick=tick):
@@ -78,6 +102,8 @@ class Replies:
             case Viewed(view=view, shown=shown):
                 name = self._sayings.say("replies", "views", view)
                 return self._say("shown" if shown else "hidden", view=name)
+            case Chatted(kind=kind):
+                return self._sayings.say("chat", kind)
             case Asked() | Advised():
                 return ""
 
@@ -91,6 +117,8 @@ class Replies:
                 said = self._moved("remove", applied.removed, applied.state)
             case SetCount(kind=kind, count=count):
                 said = self._exactly(kind, count, applied)
+            case MoveThings() | Swap() | Replace() | Copy() as action:
+                said = told_rearranged(self._sayings, applied, action)
             case Scenario():
                 return self._scenario(applied.state)
             case SetMode(mode=mode):
@@ -122,7 +150,8 @@ class Replies:
         else:
             said = self._say("set", name=name, before=self._value(parameter, change.before), after=after)
         if parameter in NEEDS_A_NEW_ROAD:
-            return f"{said} {self._scenario(applied.state)}"
+            kept = "episode" not in changed
+            return f"{said} {self._say('road_kept') if kept else self._scenario(applied.state)}"
         counted = self._diff(applied.changes)
         told = [said, self._say("on_the_road", diff=counted) if counted else ""]
         if parameter in FROM_THE_NEXT_ROAD:
@@ -169,8 +198,10 @@ class Replies:
     def _undone(self, undone: Undone) -> str:
         """What is as it was before, or as it was made again."""
         key = "redo" if undone.again else "undo"
+        if undone.steps > 1:
+            key += "_many"
         told = self._diff(undone.changes, settings=True)
-        said = [self._say(key, diff=told) if told else self._say(f"{key}_plain")]
+        said = [self._say(key if told else f"{key}_plain", diff=told, count=undone.steps)]
         for change in undone.changes:
             match change.path:
                 case "paused":

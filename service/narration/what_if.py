@@ -7,6 +7,7 @@ from service.actions.table import imagined_actions
 from service.contract.encode.forecast import what_if_json
 from service.narration.answerer import Json, not_so, plain
 from service.narration.naming import Naming
+from service.narration.rearranged import supposed_rearranged
 from service.narration.sayings import Sayings
 from service.narration.values import value_of
 from service.refusals import refusals
@@ -14,13 +15,17 @@ from service.sessions.facts import Asked
 from sim.actions import (
     Add,
     Adjust,
+    Copy,
     Drive,
+    MoveThings,
     Prefer,
     Remove,
+    Replace,
     Scenario,
     Set,
     SetCount,
     SetMode,
+    Swap,
     WorldAction,
 )
 from sim.explain import QuestionError
@@ -205,7 +210,7 @@ class Conditions:
         """One for each action that changed anything."""
         told, before = [], found.state
         for applied in found.done:
-            touched = applied.changes or applied.added or applied.events
+            touched = applied.changes or applied.added or applied.moved or applied.events
             if applied.removed or (touched and not isinstance(applied.action, Remove)):
                 told.append(self._clause(applied, applied.action, before))
             before = applied.state
@@ -221,6 +226,8 @@ class Conditions:
                 if count == 0:
                     return self._say("none_left", things=self._sayings.things(kind, 2))
                 return self._say("exactly", count=count, things=self._sayings.things(kind, count))
+            case MoveThings() | Swap() | Replace() | Copy():
+                return supposed_rearranged(self._sayings, applied, action, before)
             case Scenario():
                 return self._road(applied.state)
             case SetMode(mode=mode):

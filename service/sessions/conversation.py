@@ -16,9 +16,28 @@ from typing import Any, TypeAlias
 from service import actions as contract
 from service.actions import Action, Redo, Undo
 from service.grammar.topic import Phrases, Topic
-from service.sessions.facts import Answerable, Asked, Fact, Undone
+from service.sessions.facts import (
+    Answerable,
+    Asked,
+    Fact,
+    Undone,
+    performed_actions,
+    spread_facts,
+)
 from service.sessions.utterance import Outcome
-from sim.actions import Add, Remove, Reset, SetCount, Where
+from sim.actions import (
+    Add,
+    Copy,
+    Landmark,
+    MoveThings,
+    Rearranging,
+    Remove,
+    Replace,
+    Reset,
+    SetCount,
+    Swap,
+    Where,
+)
 from sim.session.edits import Applied
 from sim.world import World
 
@@ -57,7 +76,8 @@ class Conversation:
             self._durable = self._durable or self.durable
         elif self._durable is not None:
             self._durable.record(outcome)
-        actions, facts = outcome.utterance.actions, outcome.facts
+        actions = performed_actions(outcome.utterance.actions, outcome.facts)
+        facts = tuple(spread_facts(outcome.facts))
         if not any(isinstance(action, Undo | Redo) for action in actions):
             self._actions = actions
         changing = [fact for fact in facts if isinstance(fact, Applied | Undone)]
@@ -76,19 +96,20 @@ class Conversation:
 
     def _record_change(self, fact: Applied) -> None:
         action = fact.action
-        if not isinstance(action, Add | Remove | SetCount):
+        if not isinstance(action, Add | Remove | SetCount | Rearranging):
             self._forget_things()
             return
         self._set_episode(fact.state.world)
         self._things += tuple(thing.id for thing in fact.added)
+        self._things += tuple(each.thing.id for each in fact.moved)
         for thing in fact.added:
             if thing.id in self._added:
                 self._added.remove(thing.id)  # undone, and given again
             self._added.append(thing.id)
-        self._removed = isinstance(action, Remove) or bool(fact.removed)
-        if action.kind != "everything":
-            self._kind = action.kind
-        self._where = None if isinstance(action, SetCount) else _fixed_place(action.where, fact)
+        self._removed = isinstance(action, Remove) or (bool(fact.removed) and not fact.added)
+        if not isinstance(action, Swap) and action.kind != "everything":
+            self._kind = action.by if isinstance(action, Replace) else action.kind
+        self._where = _fixed_place(_place_of(action), fact)
 
     def _record_answer(self, answer: Mapping[str, Any], facts: tuple[Fact, ...]) -> None:
         told = tuple(cause["id"] for cause in answer.get("causes", ()) if cause.get("id"))
@@ -129,8 +150,7 @@ class Conversation:
         new._actions = contract.load(values["actions"])
         new._undone, new._removed, new._kind = values["undone"], values["removed"], values["kind"]
         if where is not None:
-            cell = where["cell"]
-            new._where = Where(**{**where, "cell": None if cell is None else (cell[0], cell[1])})
+            new._where = _read_where(where)
         if values["episode"] is not None:
             number, start = values["episode"]
             new._episode = number, start
@@ -157,14 +177,32 @@ def _episode(world: World) -> Episode:
 
 
 def _moves_things(fact: Applied) -> bool:
-    return isinstance(fact.action, Add | Remove | SetCount | Reset)
+    return isinstance(fact.action, Add | Remove | SetCount | Rearranging | Reset)
+
+
+def _place_of(action: Add | Remove | SetCount | Rearranging) -> Where | None:
+    """Where an action put things, or took them from."""
+    match action:
+        case MoveThings(to=to) | Copy(to=to):
+            return to
+        case Add(where=where) | Remove(where=where) | Replace(where=where):
+            return where
+        case _:
+            return None
+
+
+def _read_where(values: Mapping[str, Any]) -> Where:
+    """A place from JSON values, in which pairs are lists."""
+    parts = {key: tuple(value) if isinstance(value, list) else value for key, value in values.items()}
+    of = values.get("of")
+    return Where(**{**parts, "of": None if of is None else Landmark(**of)})
 
 
 def _fixed_place(where: Where | None, fact: Applied) -> Where | None:
     """The place of an action as lane, row or cell, which stays when the vehicle moves; None without."""
-    if where is None or (where.distance_m, where.cells, where.nearest, where.id) == (None,) * 4:
+    if where is None or (where.distance_m, where.cells, where.nearest, where.id, where.of) == (None,) * 5:
         return where
-    cells = {thing.cell for thing in (*fact.added, *fact.removed)}
+    cells = {thing.cell for thing in (*fact.added, *fact.removed, *(each.thing for each in fact.moved))}
     rows = {row for _, row in cells}
     if len(cells) == 1:
         return Where(lane=where.lane, cell=cells.pop())

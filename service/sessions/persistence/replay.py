@@ -153,6 +153,7 @@ class Replay:
             session.undo_stack,
             session.playback_speed,
             session.language,
+            stored=True,
         )
         facts = transaction.perform(entry.sequence, said)
         before = session.run
