@@ -77,7 +77,8 @@ from service.version import VERSION
 from sim.plan.sandbox.client import without_waiting
 
 RESOURCES = (
-    state,  # those that are asked most come first, as routes are tried in this order
+    health,  # asked while the service starts: a route is built when it is first tried, so none before it
+    state,  # those that are asked most come next, as routes are tried in this order
     commands,
     step,
     questions,
@@ -105,7 +106,6 @@ RESOURCES = (
     forecast,
     regret,
     counterfactual,
-    health,
     metrics,
 )
 """The modules whose `router` the application has."""

@@ -6,17 +6,30 @@ Grammar, language model, voice and typed REST calls all produce an `Action`. Act
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, fields
 from typing import Annotated, Any, Literal, TypeAlias, get_args
 
-from annotated_types import Ge, MaxLen, MinLen
+from annotated_types import Ge, Le, MaxLen, MinLen
 from pydantic import ConfigDict, Discriminator, TypeAdapter
 from pydantic_core import to_json
 
 from service.actions.evaluation import Advise, Evaluate, FindWorst
+from service.actions.goals import Goal, Style
+from service.actions.questions import (
+    HISTORY_KEYS,
+    QUESTIONS,
+    Choosable,
+    HistoryName,
+    MetricName,
+    QuestionName,
+    QuestionTraits,
+    Term,
+)
 from service.actions.steering import (
     STRICT,
+    Chat,
+    Drop,
     Hide,
     Load,
     Pause,
@@ -27,53 +40,15 @@ from service.actions.steering import (
     Save,
     Show,
     Step,
+    Ticks,
     Undo,
 )
-from sim.actions import PlaceableKind, WorldAction
+from sim.actions import Parameter, PlaceableKind, WorldAction
 from sim.types import Move
 
 Phrase = Annotated[str, MinLen(1), MaxLen(80)]
 MAX_MEANT = 50
 """How many actions a what-if or a taught phrase may hold."""
-MetricName = Literal["crashes", "successes", "success_rate", "steps", "moves", "distance"]
-QuestionName = Literal[
-    "why",
-    "why_not",
-    "what_if",
-    "next",
-    "scene",
-    "status",
-    "metrics",
-    "confidence",
-    "maintenance",
-    "help",
-]
-
-
-@dataclass(frozen=True, slots=True)
-class QuestionTraits:
-    """What a kind of question takes, and what it costs; `service.narration.answers` says who answers it."""
-
-    may: tuple[str, ...] = ()
-    """keys that it may name"""
-    must: tuple[str, ...] = ()
-    """those of them that it must name"""
-    runs_episodes: bool = False
-    """whether whole episodes are run to answer it, so that it is answered in a thread"""
-
-
-QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
-    "why": QuestionTraits(("move", "tick")),
-    "why_not": QuestionTraits(("move", "tick"), ("move",), runs_episodes=True),
-    "what_if": QuestionTraits(("change",), ("change",), runs_episodes=True),
-    "next": QuestionTraits(),
-    "scene": QuestionTraits(("kind",)),
-    "status": QuestionTraits(),
-    "metrics": QuestionTraits(("metric",)),
-    "confidence": QuestionTraits(runs_episodes=True),
-    "maintenance": QuestionTraits(),
-    "help": QuestionTraits(),
-}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -87,18 +62,46 @@ class Ask:
     change: Annotated[tuple[Action, ...], MinLen(1), MaxLen(MAX_MEANT)] | None = None
     kind: PlaceableKind | None = None
     metric: MetricName | None = None
+    parameter: Parameter | Choosable | None = None
+    value: int | float | str | None = None
+    """the value that a setting is asked to have: answered by yes or no first"""
+    term: Term | None = None
+    what: HistoryName | None = None
+    until: Annotated[int, Ge(0)] | None = None
+    """the last tick of a stretch that begins at `tick`"""
+    ticks: Ticks | None = None
+    """how far back a question about the past goes, instead of from `tick`"""
+    count: Annotated[int, Ge(1), Le(1000)] | None = None
+    """how many of the latest changes are meant"""
 
     __pydantic_config__ = STRICT
 
     def __post_init__(self) -> None:
         traits = QUESTIONS.get(self.about, QuestionTraits())
-        for key in ("move", "tick", "change", "kind", "metric"):
+        for key in _ASK_KEYS:
             said = getattr(self, key) is not None
             if said and key not in traits.may:
                 raise ValueError(f"'{key}' does not belong to a question about {self.about}")
             if not said and key in traits.must:
                 raise ValueError(f"a question about {self.about} needs '{key}'")
-        _refuse_kinds("it cannot be asked what if to", self.change or (), (Ask, Teach, Forget))
+        if self.about == "setting" and self.parameter in get_args(Choosable):
+            raise ValueError(f"'{self.parameter}' has options and no value")
+        if self.what is not None:
+            self._check_ticks(self.what)
+        _refuse_kinds("it cannot be asked what if to", self.change or (), (Ask, Chat, Teach, Forget))
+
+    def _check_ticks(self, what: HistoryName) -> None:
+        """Raise `ValueError` unless the ticks are named that a question about the past needs."""
+        named = frozenset(key for key in ("tick", "until", "ticks") if getattr(self, key) is not None)
+        if named not in HISTORY_KEYS[what]:
+            ways = " or ".join(" and ".join(sorted(keys)) or "no tick" for keys in HISTORY_KEYS[what])
+            raise ValueError(f"a question about {what} names {ways}")
+        if self.tick is not None and self.until is not None and self.until < self.tick:
+            raise ValueError("a stretch of ticks ends after it begins")
+
+
+_ASK_KEYS = tuple(each.name for each in fields(Ask) if each.name not in ("do", "about"))
+"""All that a question may name."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -112,7 +115,7 @@ class Teach:
     __pydantic_config__ = STRICT
 
     def __post_init__(self) -> None:
-        _refuse_kinds("a phrase cannot mean to", self.meaning, (Teach, Forget))
+        _refuse_kinds("a phrase cannot mean to", self.meaning, (Chat, Teach, Forget))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -134,6 +137,8 @@ def _refuse_kinds(why: str, actions: Iterable[Action], kinds: tuple[type, ...]) 
 
 Action: TypeAlias = Annotated[
     WorldAction
+    | Goal
+    | Style
     | Pause
     | Resume
     | Undo
@@ -143,6 +148,7 @@ Action: TypeAlias = Annotated[
     | Show
     | Hide
     | Ask
+    | Chat
     | Evaluate
     | FindWorst
     | Advise
@@ -150,7 +156,8 @@ Action: TypeAlias = Annotated[
     | Load
     | Record
     | Teach
-    | Forget,
+    | Forget
+    | Drop,
     Discriminator("do"),
 ]
 
@@ -174,5 +181,5 @@ def load(values: Any) -> tuple[Action, ...]:
 
 def dump(actions: tuple[Action, ...]) -> list[dict[str, Any]]:
     """Actions as JSON values, in the contract's form: what was not said is absent."""
-    values: list[dict[str, Any]] = ACTIONS.dump_python(actions, mode="json", exclude_none=True)
+    values: list[dict[str, Any]] = ACTIONS.dump_python(actions, mode="json", exclude_none=True, by_alias=True)
     return values

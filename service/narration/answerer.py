@@ -42,12 +42,28 @@ def question(sayings: Sayings, ask: Ask) -> str:
         key = "why_any"
     if key in ("scene", "metrics") and (ask.kind or ask.metric):
         key += "_one"
-    if ask.tick is not None:
+    if ask.what is not None:
+        key = f"history_{ask.what}"
+    elif ask.tick is not None:
         key += "_at"
+    if ask.about == "options" and ask.parameter:
+        key += "_one"
     do = "" if ask.move is None else sayings.move(ask.move, "do")
     things = "" if ask.kind is None else sayings.things(ask.kind, 2)
     metric = "" if ask.metric is None else sayings.say("answers", "metric_names", ask.metric)
-    return sayings.say("answers", "questions", key, do=do, tick=ask.tick, things=things, metric=metric)
+    named = "" if ask.parameter is None else sayings.say("settings", "names", ask.parameter)
+    return sayings.say(
+        "answers",
+        "questions",
+        key,
+        do=do,
+        tick=ask.tick,
+        things=things,
+        metric=metric,
+        setting=named,
+        until=ask.until,
+        term="" if ask.term is None else sayings.say("glossary", "names", ask.term),
+    )
 
 
 def not_so(sayings: Sayings, code: str, facts: dict[str, object]) -> str:

@@ -44,16 +44,16 @@ class Figures:
             case "steps":
                 return self._steps(run)
             case "moves":
-                return self._moves(metrics)
+                return self.moves(metrics)
             case "distance":
-                return self._distance(metrics)
+                return self.distance(metrics)
             case _:
                 return self._all(run, interval)
 
     def _all(self, run: SimState, interval: tuple[float, float] | None) -> str:
         metrics = run.metrics
         if not metrics.episodes:
-            return " ".join([self._say("no_episode"), self._moves(metrics), self._distance(metrics)])
+            return " ".join([self._say("no_episode"), self.moves(metrics), self.distance(metrics)])
         counts = [
             self._many("arrivals", metrics.successes),
             self._many("crashes", metrics.crashes),
@@ -63,7 +63,7 @@ class Figures:
         told = [self._say("all", counts=capital(counted), episodes=self._many("episodes", metrics.episodes))]
         if interval is not None:
             told.append(self._say("rate", **_shares(metrics, interval)))
-        return " ".join([*told, self._moves(metrics), self._distance(metrics)])
+        return " ".join([*told, self.moves(metrics), self.distance(metrics)])
 
     def _counted(self, key: str, count: int, metrics: Metrics) -> str:
         if not metrics.episodes:
@@ -85,7 +85,8 @@ class Figures:
         seconds = self._sayings.number(round(steps * run.config.step_seconds, 1), ".10g")
         return self._say("steps", "one" if steps == 1 else "many", count=steps, seconds=seconds)
 
-    def _moves(self, metrics: Metrics) -> str:
+    def moves(self, metrics: Metrics) -> str:
+        """The moves made, and the share of each kind of them."""
         counts = {kind: getattr(metrics, kind) for kind in ("forward", "lateral", "diagonal", "stay")}
         parts = [
             self._say("part", share=round(100 * count / metrics.steps), kind=self._say("kinds", kind))
@@ -96,7 +97,8 @@ class Figures:
             "moves", moves=self._many("moves_made", metrics.steps), parts=self._sayings.joined(parts)
         )
 
-    def _distance(self, metrics: Metrics) -> str:
+    def distance(self, metrics: Metrics) -> str:
+        """How far it was driven."""
         metres = metrics.distance_m
         if metres < 1000:
             return self._say("distance", distance=self._say("metres", count=round(metres)))

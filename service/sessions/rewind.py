@@ -15,6 +15,7 @@ from service.problems import FieldProblem, Invalid
 from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE
 from service.sessions.utterance import Utterance
+from sim.explain.past import latest_crash
 from sim.session.timeline import Timeline
 
 MAX_TICKS = 10_000
@@ -42,12 +43,40 @@ class TimeJump:
         return replace(self, after=timeline.copy())
 
 
-def rewind_timeline(timeline: Timeline, ticks: int, where: str, language: str) -> None:
-    """Make an earlier tick the present. Raises `Invalid`, naming `where`, if there are not so many."""
-    if ticks > timeline.tick:
-        sentence = refusals(language).session("too_far_back", tick=timeline.tick, ticks=ticks)
-        raise Invalid(sentence, errors=[FieldProblem(where, sentence)])
-    timeline.rewind(timeline.tick - ticks)
+def rewind_timeline(timeline: Timeline, action: Rewind, where: str, language: str) -> None:
+    """Make an earlier tick the present. Raises `Invalid`, naming the field in `where`, if there is none."""
+    now = timeline.tick
+    words = refusals(language)
+    if action.ticks is not None:
+        if action.ticks > now:
+            sentence = words.session("too_far_back", tick=now, ticks=action.ticks)
+            raise Invalid(sentence, errors=[FieldProblem(f"{where}.ticks", sentence)])
+        timeline.rewind(now - action.ticks)
+        return
+    tick = tick_meant(timeline, action)
+    if tick is None:
+        sentence = words.session("no_crash")
+    elif tick >= now:
+        sentence = words.session("no_earlier" if tick == now else "no_such_tick", tick=tick, now=now)
+    else:
+        timeline.rewind(tick)
+        return
+    raise Invalid(sentence, errors=[FieldProblem(f"{where}.to", sentence)])
+
+
+def tick_meant(timeline: Timeline, action: Rewind) -> int | None:
+    """The tick that an action goes back to, which may not exist; None for a crash that never was."""
+    match action.to:
+        case None:
+            return timeline.tick - (action.ticks or 0)
+        case "start":
+            return 0
+        case "episode":
+            return timeline.state.world.episode_start
+        case "crash":
+            return latest_crash(timeline)
+        case tick:
+            return tick
 
 
 def rewind_to(tick: int, language: str = DEFAULT_LANGUAGE) -> Callable[[Timeline], Utterance]:

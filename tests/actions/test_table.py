@@ -53,7 +53,7 @@ def test_a_model_is_offered_no_new_action_by_default() -> None:
 
 def test_questions_and_phrases_stand_in_no_what_if() -> None:
     for name, traits in BY_VERB.items():
-        assert (traits.what_if is WhatIf.INVALID) == (name in ("ask", "teach", "forget"))
+        assert (traits.what_if is WhatIf.INVALID) == (name in ("ask", "chat", "teach", "forget"))
 
 
 @pytest.mark.parametrize(
@@ -83,6 +83,7 @@ def test_questions_take_their_keys_and_no_others(about: QuestionName) -> None:
         "change": [{"do": "pause"}],
         "kind": "pothole",
         "metric": "steps",
+        "count": 2,
     }
     traits = QUESTIONS[about]
     (asked,) = load([{"do": "ask", "about": about, **{key: values[key] for key in traits.may}}])

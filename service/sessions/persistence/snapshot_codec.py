@@ -63,7 +63,12 @@ class _Encoder:
                 [each.name, each.sequence, self._timeline(each.timeline)]
                 for each in history.bookmarks.values()
             ],
-            "ground": [history.base_entries, history.base_steps, history.base_paused],
+            "ground": [
+                history.base_entries,
+                history.base_steps,
+                history.base_paused,
+                history.fork_sequence,
+            ],
             "mixed": sorted(frozen.partial_changes),
             "conversation": frozen.conversation.to_json(),
             "last_line": frozen.last_line,
@@ -140,6 +145,7 @@ class _Encoder:
             step.paused_before,
             step.paused_after,
             None if jump is None else [self._timeline(jump.before), self._timeline(jump.after)],
+            step.speed,
         ]
 
 
@@ -172,16 +178,17 @@ def decode(values: Mapping[str, Any], session: str) -> SessionSnapshot:
     timelines = _decode_timelines(values, entries)
 
     def step(parts: Sequence[Any]) -> UndoStep:
-        before, after, paused_before, paused_after, jump = parts
+        before, after, paused_before, paused_after, jump, speed = parts
         return UndoStep(
             tuple(entries[number] for number in before),
             tuple(entries[number] for number in after),
             paused_before,
             paused_after,
             None if jump is None else TimeJump(timelines[jump[0]], timelines[jump[1]]),
+            None if speed is None else (speed[0], speed[1]),
         )
 
-    ground, ground_steps, ground_paused = values["ground"]
+    ground, ground_steps, ground_paused, fork_sequence = values["ground"]
     return SessionSnapshot(
         session=session,
         sequence=values["sequence"],
@@ -197,6 +204,7 @@ def decode(values: Mapping[str, Any], session: str) -> SessionSnapshot:
             base_entries=ground,
             base_steps=ground_steps,
             base_paused=ground_paused,
+            fork_sequence=fork_sequence,
         ),
         partial_changes=frozenset(values["mixed"]),
         conversation=Conversation.from_json(values["conversation"]),

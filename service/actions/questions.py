@@ -1,0 +1,142 @@
+"""The kinds of question, what each may name, and what each costs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Final, Literal
+
+MetricName = Literal["crashes", "successes", "success_rate", "steps", "moves", "distance"]
+QuestionName = Literal[
+    "why",
+    "why_not",
+    "what_if",
+    "next",
+    "scene",
+    "status",
+    "metrics",
+    "confidence",
+    "maintenance",
+    "help",
+    "setting",
+    "options",
+    "term",
+    "history",
+    "styles",
+    "changes",
+    "pending",
+]
+HistoryName = Literal["closest_call", "summary", "since", "between", "seen"]
+"""What of the past is asked about: of this episode, of the ticks since one, between two, or of one tick."""
+Choosable = Literal["view", "preference", "road", "layout"]
+"""What has options beside the parameters."""
+Term = Literal[
+    "arrived",
+    "astar",
+    "attentive",
+    "av",
+    "barrier",
+    "bfs",
+    "camera",
+    "cautious",
+    "certificate",
+    "closest_call",
+    "columns",
+    "confidence",
+    "continuous",
+    "cooperative",
+    "courtesy",
+    "crash",
+    "detection_sensitivity",
+    "dijkstra",
+    "digest",
+    "dwa",
+    "dynamics",
+    "ego",
+    "episode",
+    "false_positive_rate",
+    "fastest",
+    "forecast",
+    "fusion",
+    "grid",
+    "layout",
+    "lidar",
+    "occupancy",
+    "pedestrian",
+    "percept",
+    "perfect",
+    "planner",
+    "playback_speed",
+    "pothole",
+    "pothole_probability",
+    "preference",
+    "priority",
+    "radar",
+    "regret",
+    "rl",
+    "rows",
+    "rss",
+    "rules",
+    "safety_buffer",
+    "seed",
+    "sensor",
+    "sensor_noise",
+    "sensor_range_m",
+    "smooth_ride",
+    "avoid_potholes",
+    "spawn_probability",
+    "step_seconds",
+    "stuck",
+    "success_rate",
+    "target_speed_kmh",
+    "tick",
+    "time_of_day",
+    "traffic",
+    "ttc",
+    "vehicle",
+    "weather",
+    "what_if",
+]
+"""What the glossary explains (`glossary.yaml` of the sayings)."""
+
+
+@dataclass(frozen=True, slots=True)
+class QuestionTraits:
+    """What a kind of question takes, and what it costs; `service.narration.answers` says who answers it."""
+
+    may: tuple[str, ...] = ()
+    """keys that it may name"""
+    must: tuple[str, ...] = ()
+    """those of them that it must name"""
+    runs_episodes: bool = False
+    """whether whole episodes are run or read again to answer it, so that it is answered in a thread"""
+
+
+QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
+    "why": QuestionTraits(("move", "tick")),
+    "why_not": QuestionTraits(("move", "tick"), ("move",), runs_episodes=True),
+    "what_if": QuestionTraits(("change",), ("change",), runs_episodes=True),
+    "next": QuestionTraits(),
+    "scene": QuestionTraits(("kind",)),
+    "status": QuestionTraits(),
+    "metrics": QuestionTraits(("metric",)),
+    "confidence": QuestionTraits(runs_episodes=True),
+    "maintenance": QuestionTraits(),
+    "help": QuestionTraits(),
+    "setting": QuestionTraits(("parameter", "value"), ("parameter",)),
+    "options": QuestionTraits(("parameter",)),
+    "term": QuestionTraits(("term",), ("term",)),
+    "history": QuestionTraits(("what", "tick", "until", "ticks"), ("what",), runs_episodes=True),
+    "styles": QuestionTraits(),
+    "changes": QuestionTraits(("count", "tick")),
+    "pending": QuestionTraits(),
+}
+
+HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
+    "closest_call": (frozenset(),),
+    "summary": (frozenset(),),
+    "since": (frozenset(("tick",)), frozenset(("ticks",))),
+    "between": (frozenset(("tick", "until")),),
+    "seen": (frozenset(("tick",)), frozenset(("ticks",))),
+}
+"""The ticks that a question about the past names, in each of the ways it can be said."""
