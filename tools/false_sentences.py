@@ -29,6 +29,7 @@ from tests.support import sentence_judge as judge
 SHARES = {"priority": 0.35, "rules": 0.30, "bfs": 0.13, "dijkstra": 0.11, "astar": 0.11}
 """How many of the decisions are whose."""
 BATCH = 25
+CRASHES = "crashes"
 DRAWS = 4
 """Futures drawn to see whether it hangs on chance how it ends."""
 THOROUGH = 50
@@ -68,10 +69,39 @@ def drives(count: int, seed: int, planner: str) -> Iterator[Timeline]:
             yield timeline
 
 
+def crashes(count: int, seed: int) -> Iterator[Timeline]:
+    """Timelines of dense roads on which nobody brakes, that have ended in a crash."""
+    draw, found = random.Random(f"crashes {seed}"), 0
+    while found < count:
+        config = Config(
+            seed=draw.randrange(2**32),
+            potholes=draw.choice([18, 25]),
+            vehicles=draw.choice([40, 90]),
+            pedestrians=6,
+            barriers=8,
+            attentive=0.0,
+            planner=draw.choice(["priority", "rules"]),
+        )
+        timeline = Timeline(config)
+        while timeline.state.world.outcome is Outcome.RUNNING:
+            timeline.advance()
+        if timeline.state.world.outcome is Outcome.CRASH:
+            found += 1
+            yield timeline
+
+
 def checked(job: tuple[str, int, int]) -> tuple[Counter[str], Counter[str], list[str]]:
     """How many sentences were looked at, how many were false, and those."""
     planner, seed, count = job
     looked, false, lines = Counter[str](), Counter[str](), []
+    if planner == CRASHES:
+        for timeline in crashes(count, seed):
+            for kind, wrong in _of_crash(timeline):
+                looked[kind] += 1
+                if wrong is not None:
+                    false[kind] += 1
+                    lines.append(f"{kind} | seed {timeline.state.config.seed}: {wrong}")
+        return looked, false, lines
     draw = random.Random(seed)
     for at, timeline in enumerate(drives(count, seed, planner)):
         looked["decisions"] += 1
@@ -133,7 +163,7 @@ def _of_crash(timeline: Timeline) -> judge.Judged:
         return
     text = Crashes(sayings).text(crash)
     start = timeline.state.world.episode_start
-    yield from judge.judge_crash(crash, timeline.at(max(start, crash.end - 64)), text)
+    yield from judge.judge_crash(crash, timeline.at(max(start, crash.end - 64)), timeline.at, text)
     yield from judge.judge_wording(text)
 
 
@@ -141,12 +171,17 @@ def main() -> None:
     """Print the figures."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--decisions", type=int, default=2_000)
+    parser.add_argument("--crashes", type=int, default=100)
     parser.add_argument("--show", type=int, default=2, help="false sentences of each kind to print")
     options = parser.parse_args()
     jobs = [
-        (planner, seed, min(BATCH, max(1, round(options.decisions * share)) - done))
+        (planner, seed, min(BATCH, round(options.decisions * share) - done))
         for planner, share in SHARES.items()
-        for seed, done in enumerate(range(0, max(1, round(options.decisions * share)), BATCH))
+        for seed, done in enumerate(range(0, round(options.decisions * share), BATCH))
+    ]
+    jobs += [
+        (CRASHES, seed, min(BATCH, options.crashes - done))
+        for seed, done in enumerate(range(0, options.crashes, BATCH))
     ]
     looked, false, shown = Counter[str](), Counter[str](), Counter[str]()
     lines: list[str] = []

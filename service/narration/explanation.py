@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from service.narration.answer_length import MOST_WORDS, Part, within
-from service.narration.charges import in_seconds, seconds_worth
+from service.narration.charges import in_seconds, likely, seconds_worth
 from service.narration.inflection import is_told, lower_first
 from service.narration.naming import Naming
 from service.narration.planner_reasons import planner_reasons
 from service.narration.proofs import Proofs, called
 from service.narration.sayings import Sayings
-from sim.explain import Explanation, Future
+from sim.explain import Alternatives, Explanation, Future
 from sim.explain.misperception import misperception
 from sim.plan import Measure, Option
 from sim.types import Move, Outcome
@@ -182,13 +182,22 @@ class _Telling:
         if would.outcome is Outcome.CRASH:
             first = would.ticks == self._explanation.moment.world.episode_tick + 1
             key = "would_crash" if first else "would_crash_later"
+            if not first and stakes.by_chance:
+                return self._by_chance(stakes)
             told = self._say(key, who=self._crashed_with(would, first), seconds=self._from_then(would.ticks))
             return self._joined([told, self._missed(would.ids) if first else ""])
         if stakes.dead_end:
             return self._say("would_dead_end")
+        if stakes.by_chance:
+            return self._by_chance(stakes)
         if would.outcome is Outcome.STUCK:
             return self._say("would_stuck")
         return self._arrives(would, real)
+
+    def _by_chance(self, stakes: Alternatives) -> str:
+        """How likely it is to arrive by either move."""
+        would = likely(self._sayings, stakes.would_chances)
+        return self._say("would_chance", would=would, real=likely(self._sayings, stakes.real_chances))
 
     def _arrives(self, would: Future, real: Future | None) -> str:
         seconds = self._from_then(would.ticks)

@@ -8,21 +8,13 @@ from typing import Literal
 
 from sim.actions import Add, WorldAction
 from sim.explain.alternatives import Alternatives
+from sim.explain.question_error import QuestionError
 from sim.plan import Decision
 from sim.state import SimState
 from sim.types import Cell, Kind, Move
 
 
-class QuestionError(ValueError):
-    """A question about something that is not so: a tick that never was, a move never made.
-
-    `code` is for programs and sayings, `facts` are what a sentence about it needs.
-    """
-
-    def __init__(self, code: str, **facts: object) -> None:
-        super().__init__(f"{code}: {facts}")
-        self.code = code
-        self.facts = facts
+__all__ = ["Cause", "Counterfactual", "Explanation", "Link", "QuestionError", "Role", "Verified", "check_ego"]
 
 
 def check_ego(state: SimState, ego: str | None) -> None:

@@ -8,7 +8,7 @@ about it, or None where it holds.
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from itertools import combinations
 
 from service.narration.explanation import Explained
@@ -25,8 +25,8 @@ from sim.session.errors import EditError
 from sim.state import SimState
 from sim.types import Move
 from tests.support.intervention_judge import taking
-from tests.support.survival import can_avoid
-from tests.support.twin import position
+from tests.support.survival import can_avoid, clear_after
+from tests.support.twin import STEPS, position
 
 Judged = Iterator[tuple[str, str | None]]
 LONGEST = 60
@@ -73,11 +73,18 @@ def names_of(state: SimState) -> list[str]:
     ]
 
 
-def judge_crash(crash: Crash, first: SimState, text: str) -> Judged:
-    """`first`: the earliest state of the episode that the answer is about."""
-    if "could have saved it" in text or "could have avoided" in text:
+def judge_crash(crash: Crash, first: SimState, at: Callable[[int], SimState], text: str) -> Judged:
+    """`first`: the earliest state of the episode that the answer is about; `at`: the state of a tick."""
+    if "could have saved it" in text or "Nor could anything" in text:
         avoidable = can_avoid(position(first.world), crash.end - first.world.tick + SURVIVED)
         yield "1 crash said to be unavoidable", f"it was not: {text}" if avoidable else None
+    last = crash.avoidable.last if hasattr(crash, "avoidable") else None
+    if last is not None:
+        moment = position(at(last.tick).world)
+        columns, rows = STEPS[last.instead]
+        cell = (moment.av[0] + columns, moment.av[1] + rows)
+        kept = clear_after(moment, cell, SURVIVED, stays=last.stays)
+        yield "1 crash said to be avoidable", None if kept else f"it was not by {last}: {text}"
 
 
 def judge_comes_first(explanation: Explanation, text: str) -> Judged:
@@ -205,8 +212,8 @@ def judge_narration(state: SimState, decision: Decision, line: str, named: Colle
     if not named or decision.asked is not None:
         return
     fact = decision.move
-    if decision.measure is Measure.OWN:
-        return
+    if decision.measure is Measure.OWN or decision.chosen.reason.blocks:
+        return  # no reason is claimed; or it is a danger that is told, and no reason
     if any(flips(state, [name], fact) for name in named):
         yield "7 thing named does not matter", None
         return

@@ -5,6 +5,7 @@ No mover is taken to brake, so what is found possible is possible all the same.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import lru_cache
 
 from sim.types import Cell
@@ -28,6 +29,22 @@ def cells_after(now: Position, ticks: int) -> set[Cell]:
 def can_avoid(now: Position, ticks: int) -> bool:
     """Whether some way from here arrives or meets nothing for so many ticks."""
     return bool(cells_after(now, ticks))
+
+
+def clear_after(now: Position, cell: Cell, ticks: int, *, stays: bool) -> bool:
+    """Whether a step into a cell meets nothing, and some way on from there; `stays`: staying there for good."""
+    later = moved_bodies(now)
+    if cell not in _steps(now, later, now.av):
+        return False
+    now = replace(_after(now, later), av=cell)
+    if not stays:
+        return cell[1] == 0 or can_avoid(now, ticks)
+    for _ in range(ticks):
+        later = moved_bodies(now)
+        if cell not in _steps(now, later, cell):
+            return False
+        now = _after(now, later)
+    return True
 
 
 def _after(now: Position, later: tuple[Body, ...]) -> Position:
