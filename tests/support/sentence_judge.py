@@ -201,6 +201,7 @@ def judge_left_out(explanation: Explanation, text: str, named: Collection[str]) 
 
 def judge_chance(state: SimState, text: str, *, ends_differ: bool) -> Judged:
     """Where it hangs on chance how it ends, no one future is told as the one. `ends_differ`: as was drawn."""
+    text = re.sub(r"It would have been a crash with", "", text)  # at once, by what is seen
     told = re.search(r"\b(arrive|arrived|crashed|crash with|got stuck|get stuck)\b", text)
     if not state.config.certain and told and ends_differ:
         stated = re.search(r"%|in every|in each|of \d+ futures|no way leads", text)
