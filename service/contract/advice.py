@@ -34,7 +34,7 @@ class AdviceOption(Model):
     harm_kmh: float
     """Mean speed at which harm is done; 0 counts where none is."""
     death: Share
-    """Of a person on foot: mean of the published risk of death at the speed of impact; 0 for other hazards."""
+    """Of a person on foot: mean published risk of death at the speed of impact; 0 for other hazards."""
 
 
 @dataclass(frozen=True, slots=True)

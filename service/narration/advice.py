@@ -92,7 +92,9 @@ class Advices:
             return f"{chosen.choice}_close"
         if stops:
             return "brake_likely"
-        return f"brake_{chosen.ending}" if chosen.choice is Choice.BRAKE else f"{chosen.choice}_{_aside(advice)}"
+        return (
+            f"brake_{chosen.ending}" if chosen.choice is Choice.BRAKE else f"{chosen.choice}_{_aside(advice)}"
+        )
 
     def _other(self, advice: Advice) -> str:
         """What else could be done; braking and steering are told of each other."""
@@ -160,6 +162,6 @@ def _late(advice: Advice) -> bool:
 
 
 def _aside(advice: Advice, choice: Choice | None = None) -> str:
-    """Whether a choice, by default the one advised, gets clear when everything is in the middle of its range."""
+    """Whether a choice, by default the one advised, gets clear when all is in the middle of its range."""
     prospect = advice.chosen if choice is None else advice.prospect(choice)
     return "clears" if prospect.ending is Ending.CLEARS else "misses"

@@ -1,8 +1,8 @@
 """What a decision hangs on beside a minimal sufficient set: what flips it by itself, and what held what.
 
-A set that is enough need not hold everything without which the move would be another one. So each thing that
-may have a part is taken away by itself as well. And what stood in the way may have stood there only because of
-another thing: then the other one is the cause, and the chain between them is told.
+A set that is enough need not hold everything without which the move would be another one. So each thing
+that may have a part is taken away by itself as well. And what stood in the way may have stood there only
+because of another thing: then the other one is the cause, and the chain between them is told.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ MOST_BEHIND = 3
 """So many times what comes to stand in the way once others are gone is taken away too."""
 MOST_TRIED = 5
 """Things of which every part is tried."""
-MOST_RUNS = 24
+MOST_RUNS = 6
 """Runs in which further things are tried in groups."""
 MOST_HELD = 3
 """Things in the way of which it is looked for what held them there."""
@@ -51,7 +51,7 @@ class Rest:
         most = tried_singly(traits)
         single = {name for name in parts[:most] if rerun.without([name]) is not fact}
         further = Flipping(rerun)
-        single |= {name for name in further.among(parts[most:])}
+        single.update(further.among(parts[most:]))
         groups = {name: (name,) for name in parts if name in single and name not in known}
         settled = {*single, *(each for group in known.values() for each in group), *known}
         chain: list[Link] = []
@@ -69,9 +69,9 @@ class Rest:
 class Flipping:
     """What flips a decision by itself, among many things and in few runs.
 
-    Of a planner that weighs costs, things are taken away in groups. Without anything in the way no way gets dearer,
-    so where even without the whole group no other move is as good as the one taken, none of the group flips it
-    alone. That leaves out what a mover does to others: those are looked for among the nearest, one by one.
+    Of a planner that weighs costs, things are taken away in groups. With less in the way no way gets dearer,
+    so where even without the whole group no other move is as good as the one taken, none of it flips it alone.
+    That leaves out what a mover does to others: those are looked for among the nearest, one by one.
     """
 
     def __init__(self, rerun: Intervention) -> None:
@@ -103,7 +103,8 @@ class Flipping:
             return True
         before = MOVES[: MOVES.index(made)]
         return any(
-            option.cost is not None and (option.cost < best or (option.cost == best and option.move in before))
+            option.cost is not None
+            and (option.cost < best or (option.cost == best and option.move in before))
             for option in without.options
             if option.move is not made
         )

@@ -1,19 +1,19 @@
-"""Chooses the advice: the choice with the best chance; before people on foot the one with the least expected harm."""
+"""Chooses the advice: the best chance; before people on foot the least expected harm."""
 
 from __future__ import annotations
 
 from typing import Final
 
 from sim.actions import Weather
-from sim.hazard_advice.facts import Advice, Choice, NoAdviceError, Prospect
+from sim.hazard_advice.facts import Advice, NoAdviceError, Prospect
 from sim.hazard_advice.parameters import DISTANCES_M, SAMPLES, SPEEDS_KMH
 from sim.types import Kind
 
 SURE_OF_KEEPING: Final = 0.995
-"""From this chance on it is advised to keep on: a chance that hangs on the speed alone, whatever the distance."""
+"""From this chance on it is advised to keep on: it hangs on the speed alone, whatever the distance."""
 SERIOUS: Final = 0.11
-"""What a serious injury counts against a death. UK Department for Transport, TAG data book: preventing a serious
-casualty is valued at about 11 % of preventing a fatal one. Each person hit counts as seriously injured."""
+"""What a serious injury counts against a death. UK Department for Transport, TAG data book: preventing a
+serious casualty is valued at about 11 % of preventing a fatal one. Whoever is hit counts as one."""
 
 
 def advise(hazard: Kind, distance_m: float, speed_kmh: float, weather: Weather = "clear") -> Advice:
@@ -47,8 +47,9 @@ def advise(hazard: Kind, distance_m: float, speed_kmh: float, weather: Weather =
 def _best(hazard: Kind, found: tuple[Prospect, ...]) -> Prospect:
     """Keeps on where that is safe by the speed alone; else the choice with the least expected harm.
 
-    Chances count in whole hundredths, so that the chance that is stated never falls with more room or less speed
-    merely because a gentler choice was taken. Among equals the least speed of harm counts, then the effort.
+    Chances count in whole hundredths, so that the chance that is stated never falls with more room or less
+    speed merely because a gentler choice was taken. Among equals the least speed of harm counts, then the
+    effort.
     """
     keep, *others = found
     if hazard is Kind.POTHOLE and keep.chance >= SURE_OF_KEEPING:

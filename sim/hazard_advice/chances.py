@@ -71,9 +71,7 @@ def prospects(
     both_ms2 = friction * GRAVITY * physics.braking_left(samples.lateral_share())
     middle_ms2 = middle.deceleration_ms2 * float(physics.braking_left(LATERAL.middle))
     both = float(
-        physics.speed_met_aside(
-            middle.speed_ms, middle.reaction_s, middle_ms2, middle.steering_s, distance_m
-        )
+        physics.speed_met_aside(middle.speed_ms, middle.reaction_s, middle_ms2, middle.steering_s, distance_m)
     )
     braked = float(physics.speed_left(middle.speed_ms, middle.reaction_s, middle.friction, distance_m))
     clears = middle.steering_m <= distance_m

@@ -52,7 +52,7 @@ def braking_left(share: Number) -> Number:
 def speed_met_aside(
     speed_ms: Number, reaction_s: Number, braking_ms2: Number, aside_s: Number, distance_m: Number
 ) -> Number:
-    """Speed (m/s) at the hazard of a car that brakes while it moves aside; 0 if it is clear of it or has stopped.
+    """Speed (m/s) at the hazard of a car that brakes and moves aside; 0 if it is clear of it or has stopped.
 
     `aside_s`: seconds of steering until it is clear.
     """

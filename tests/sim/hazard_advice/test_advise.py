@@ -102,7 +102,9 @@ def test_before_people_on_foot_the_speed_of_impact_counts() -> None:
 
 def test_braking_and_steering_share_the_friction() -> None:
     figures = advise(Kind.BARRIER, 40, 80).figures
-    alone, both = (advise(Kind.BARRIER, 40, 80).prospect(each) for each in (Choice.STEER, Choice.BRAKE_AND_STEER))
+    alone, both = (
+        advise(Kind.BARRIER, 40, 80).prospect(each) for each in (Choice.STEER, Choice.BRAKE_AND_STEER)
+    )
     assert both.needs_m < alone.needs_m == pytest.approx(figures.steering_m)
     assert float(braking_left(0.6)) == pytest.approx(0.8)
 
