@@ -102,11 +102,8 @@ class _Maker:
             return whole
         pointed = [edge for edge in self._filled.of("meant", "all_others") if len(edge.sense.value) > 1]
         if pointed:
-            each = [
-                edge._replace(sense=edge.sense._replace(value=(one,)))
-                for edge in pointed
-                for one in edge.sense.value
-            ]
+            things = [(edge, thing) for edge in pointed for thing in edge.sense.value]
+            each = [edge._replace(sense=edge.sense._replace(value=(thing,))) for edge, thing in things]
             return [self.action(template, turn) for turn in each]
         named = [name for edge in self._filled.slots for name in _ids(edge)]
         if not named:
@@ -163,10 +160,8 @@ class _Maker:
             case "asked_move":
                 return self._asked_move()
             case "steps_or_one":
-                steps = [
-                    edge.sense.value for edge in self._filled.of("steps") if edge.sense.value is not None
-                ]
-                return steps[0] if steps else 1
+                steps = [edge.sense.value for edge in self._filled.of("steps")]
+                return next((count for count in steps if count is not None), 1)
             case "first" | "second":
                 return self._one_of_two(name)
             case "becomes":
