@@ -184,6 +184,8 @@ def _places_from(lattice: Lattice, at: int, parts: int = MAX_PARTS) -> Iterator[
     for edge in lattice.edges[at]:
         concept, value = edge.sense.concept, edge.sense.value
         if (concept == GLUE and not edge.sense.form) or concept == "prep":
+            if any(mark.concept == GOAL and mark.end == edge.end for mark in lattice.edges[at]):
+                continue  # "to" does not lead to where a thing is, but to where it shall be
             yield from _places_from(lattice, edge.end, parts)
             continue
         part: dict[str, Any] | None = None

@@ -223,7 +223,7 @@ class Sentences:
             return ""
         if to == Where() or to.id is not None or to.nearest or to.each:
             raise Unsayable("no place to put things")
-        return self._where(to, "goal")
+        return self._where(to, "to_place")
 
     def _goal(self, goal: Goal) -> str:
         if goal.planners is not None:
