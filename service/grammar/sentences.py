@@ -147,9 +147,11 @@ class Sentences:
             case Style():
                 return self._word("style", action.style)
             case SetMode():
-                return self._word("mode", action.mode)
+                mode = self._word("mode", action.mode)
+                return mode if action.ego is None else self._say("mode_ego", mode=mode, ego=action.ego)
             case Drive():
-                return self._say("drive", move=self._word("moves", action.move))
+                key = "drive" if action.ego is None else "drive_ego"
+                return self._say(key, move=self._word("moves", action.move), ego=action.ego)
             case Step() | Rewind():
                 key = action.do if action.ticks != 1 else f"{action.do}_one"
                 return self._say(key, count=action.ticks)

@@ -250,6 +250,8 @@ class Maker:
                 keys["style"] = self.pick(tuple(styles()))
             case "record":
                 keys["on"] = self.chance(0.5)
+        if do in ("mode", "drive") and self.chance(0.2):
+            keys["ego"] = self.pick(("av-1", "av-2"))
         return {"do": do, **keys}
 
     def ask(self) -> dict[str, Any]:
