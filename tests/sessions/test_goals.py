@@ -155,8 +155,7 @@ async def test_a_request_that_is_cancelled_abandons_its_search(monkeypatch: pyte
     task.cancel()
     with pytest.raises(asyncio.CancelledError):
         await task
-    while session.busy:
-        await asyncio.sleep(0)
+    await asyncio.gather(*session._tasks, return_exceptions=True)
     assert abandoned == [True]
 
 
