@@ -200,7 +200,7 @@ class Reading:
         together = [replace(clause, instead=()) for clause in clauses]
         apart = [*together[:at], *unsure.instead, *together[at + 1 :]]
         try:
-            choices = [self._choice(_once(each)) for each in (together, apart)]
+            choices = [self._choice(_once(each, self._tokens)) for each in (together, apart)]
         except (Unsayable, ValidationError):  # nothing to choose from
             choices = []
         if asking and len(choices) > 1:
