@@ -110,13 +110,15 @@ class ActionTraits:
     separates_settings: bool = False
     """whether a setting may be one thing before it and another after it: time passes, or something is told"""
     amendable: bool = False
-    """whether a correction ("no, three") can take it back and do it anew"""
+    """whether a correction ("no, three") can do it anew, after an undo where it is a step of undo"""
     additive: bool = False
     """whether saying it again comes on top of what was done before"""
     small_talk: bool = False
     """whether it is only manners, which say nothing beside a request"""
     idempotent: bool = False
     """whether saying it twice in a row for emphasis is saying it once"""
+    loses: bool = False
+    """whether something that is there may be gone afterwards: never suggested for something unrelated"""
     gathers: bool = False
     """whether several requests may say its parts: "run 200 episodes and compare A* with DWA" is one action"""
 
@@ -129,6 +131,7 @@ def _world(
     additive: bool = False,
     gathers: bool = False,
     what_if: WhatIf = WhatIf.IMAGINED,
+    loses: bool = False,
 ) -> ActionTraits:
     """An action that changes the world, which is always a step of undo."""
     return ActionTraits(
@@ -140,25 +143,28 @@ def _world(
         additive=additive,
         gathers=gathers,
         what_if=what_if,
+        loses=loses,
     )
 
 
 def _view() -> ActionTraits:
-    return ActionTraits(changes_session=False, model=ModelUse.ALWAYS, what_if=WhatIf.NO_EFFECT)
+    return ActionTraits(
+        changes_session=False, model=ModelUse.ALWAYS, what_if=WhatIf.NO_EFFECT, amendable=True
+    )
 
 
 _TABLE: Final[Mapping[type, ActionTraits]] = {
     Add: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, additive=True),
-    Remove: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, additive=True),
-    SetCount: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True),
+    Remove: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, additive=True, loses=True),
+    SetCount: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, loses=True),
     MoveThings: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, additive=True),
     Swap: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, additive=True),
-    Replace: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True),
+    Replace: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, loses=True),
     Copy: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, additive=True),
-    Scenario: _world(ModelUse.CONFIRMED, gathers=True),
-    Reset: _world(ModelUse.CONFIRMED),
-    SetMode: _world(ModelUse.UNCONFIRMED, tried=True),
-    Drive: _world(ModelUse.UNCONFIRMED),
+    Scenario: _world(ModelUse.CONFIRMED, gathers=True, loses=True),
+    Reset: _world(ModelUse.CONFIRMED, loses=True),
+    SetMode: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True),
+    Drive: _world(ModelUse.UNCONFIRMED, amendable=True),
     Set: _world(ModelUse.UNCONFIRMED, amendable=True),
     Adjust: _world(ModelUse.UNCONFIRMED, amendable=True, additive=True),
     Prefer: _world(ModelUse.UNCONFIRMED, amendable=True),
@@ -170,8 +176,8 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
         what_if=WhatIf.REFUSED,
     ),
     Style: ActionTraits(undo_step=True, stands_for_others=True, tried=True, model=ModelUse.UNCONFIRMED),
-    Pause: ActionTraits(tried=True, model=ModelUse.UNCONFIRMED, idempotent=True),
-    Resume: ActionTraits(tried=True, model=ModelUse.UNCONFIRMED, idempotent=True),
+    Pause: ActionTraits(tried=True, model=ModelUse.UNCONFIRMED, idempotent=True, amendable=True),
+    Resume: ActionTraits(tried=True, model=ModelUse.UNCONFIRMED, idempotent=True, amendable=True),
     Step: ActionTraits(
         runs_ticks=True, takes_decisions=True, separates_settings=True, model=ModelUse.UNCONFIRMED
     ),
@@ -181,6 +187,7 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
         takes_decisions=True,
         model=ModelUse.UNCONFIRMED,
         what_if=WhatIf.REFUSED,
+        loses=True,
     ),
     Redo: ActionTraits(
         tried=True,
@@ -196,19 +203,25 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
         separates_settings=True,
         model=ModelUse.CONFIRMED,
         what_if=WhatIf.REFUSED,
+        loses=True,
     ),
     Show: _view(),
     Hide: _view(),
     Ask: ActionTraits(
         changes_session=False,
         is_question=True,
+        amendable=True,
         separates_settings=True,
         model=ModelUse.ALWAYS,
         what_if=WhatIf.INVALID,
     ),
     Chat: ActionTraits(changes_session=False, small_talk=True, model=ModelUse.ALWAYS, what_if=WhatIf.INVALID),
     Advise: ActionTraits(
-        changes_session=False, is_question=True, model=ModelUse.ALWAYS, what_if=WhatIf.NO_EFFECT
+        changes_session=False,
+        is_question=True,
+        amendable=True,
+        model=ModelUse.ALWAYS,
+        what_if=WhatIf.NO_EFFECT,
     ),
     Evaluate: ActionTraits(
         offered=False,
@@ -231,6 +244,7 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
         separates_settings=True,
         model=ModelUse.NEVER,
         what_if=WhatIf.REFUSED,
+        loses=True,
     ),
     Record: ActionTraits(offered=False, model=ModelUse.CONFIRMED, what_if=WhatIf.NO_EFFECT),
     Teach: ActionTraits(changes_aliases=True, model=ModelUse.NEVER, what_if=WhatIf.INVALID),
