@@ -106,7 +106,7 @@ class Divider:
             clause, used = self._join(parts[:end], at, context)
             if clause is None:
                 return self._single(parts[at], context), 1
-            if clause.negated:
+            if not clause.actions:  # it says only what not to do, or asks for itself
                 return clause, used
             said = parts[at : at + used]
             heads = self._composition.heads(clause.filled, said)
