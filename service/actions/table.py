@@ -117,6 +117,8 @@ class ActionTraits:
     """whether it is only manners, which say nothing beside a request"""
     idempotent: bool = False
     """whether saying it twice in a row for emphasis is saying it once"""
+    loses: bool = False
+    """whether something that is there may be gone afterwards: never suggested for something unrelated"""
     gathers: bool = False
     """whether several requests may say its parts: "run 200 episodes and compare A* with DWA" is one action"""
 
@@ -129,6 +131,7 @@ def _world(
     additive: bool = False,
     gathers: bool = False,
     what_if: WhatIf = WhatIf.IMAGINED,
+    loses: bool = False,
 ) -> ActionTraits:
     """An action that changes the world, which is always a step of undo."""
     return ActionTraits(
@@ -140,6 +143,7 @@ def _world(
         additive=additive,
         gathers=gathers,
         what_if=what_if,
+        loses=loses,
     )
 
 
@@ -151,14 +155,14 @@ def _view() -> ActionTraits:
 
 _TABLE: Final[Mapping[type, ActionTraits]] = {
     Add: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, additive=True),
-    Remove: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, additive=True),
-    SetCount: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True),
+    Remove: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, additive=True, loses=True),
+    SetCount: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, loses=True),
     MoveThings: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, additive=True),
     Swap: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, additive=True),
-    Replace: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True),
+    Replace: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, loses=True),
     Copy: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, additive=True),
-    Scenario: _world(ModelUse.CONFIRMED, gathers=True),
-    Reset: _world(ModelUse.CONFIRMED),
+    Scenario: _world(ModelUse.CONFIRMED, gathers=True, loses=True),
+    Reset: _world(ModelUse.CONFIRMED, loses=True),
     SetMode: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True),
     Drive: _world(ModelUse.UNCONFIRMED, amendable=True),
     Set: _world(ModelUse.UNCONFIRMED, amendable=True),
@@ -183,6 +187,7 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
         takes_decisions=True,
         model=ModelUse.UNCONFIRMED,
         what_if=WhatIf.REFUSED,
+        loses=True,
     ),
     Redo: ActionTraits(
         tried=True,
@@ -198,6 +203,7 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
         separates_settings=True,
         model=ModelUse.CONFIRMED,
         what_if=WhatIf.REFUSED,
+        loses=True,
     ),
     Show: _view(),
     Hide: _view(),
@@ -238,6 +244,7 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
         separates_settings=True,
         model=ModelUse.NEVER,
         what_if=WhatIf.REFUSED,
+        loses=True,
     ),
     Record: ActionTraits(offered=False, model=ModelUse.CONFIRMED, what_if=WhatIf.NO_EFFECT),
     Teach: ActionTraits(changes_aliases=True, model=ModelUse.NEVER, what_if=WhatIf.INVALID),

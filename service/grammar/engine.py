@@ -32,7 +32,7 @@ from service.grammar.references import add_known
 from service.grammar.repairs import ALWAYS, DROPPED, Repair
 from service.grammar.sentences import Sentences
 from service.grammar.span_patterns import REPAIR
-from service.grammar.suggestions import Suggestions
+from service.grammar.suggestions import Meanings, Saying, Suggestions, meanings_of
 from service.grammar.tokens import Token, normalise, restore_marks, tokenise, with_text
 from service.grammar.topic import ALONE, Phrases, Topic
 from service.grammar.typos import Typos
@@ -153,7 +153,7 @@ class Language:
         if asking and readings:
             return Ambiguous(text, self.data.messages["which"], tuple(readings))
         message = self.data.messages["not_understood"].format(phrases=f'"{phrase}"')
-        suggestions = self.suggestions.nearest(text, content_of(lattice)) if asking else ()
+        suggestions = self.suggestions.nearest(text, meanings_of(lattice)) if asking else ()
         return Refused(text, "not_understood", message, (phrase,), (), suggestions)
 
     def sentence(self, actions: Sequence[Action]) -> str:
@@ -247,18 +247,24 @@ class Language:
     @cached_property
     def suggestions(self) -> Suggestions:
         """The example sayings of all frames, ready to be ranked; made at the first refusal."""
-        sayings = [say for frame in self.data.frames for say in frame.says if self._suggests(say)]
-        return Suggestions((say, self.concepts(say)) for say in sayings)
+        said = ((say, frame) for frame in self.data.frames for say in frame.says)
+        sayings = (
+            Saying(say, frame, actions, self.meanings(say))
+            for say, frame in said
+            if (actions := self._offered_actions(say))
+        )
+        return Suggestions(sayings, self.data.nouns, self._offered)
 
-    def _suggests(self, say: str) -> bool:
-        if self._offered is None:
-            return True
+    def _offered_actions(self, say: str) -> tuple[Action, ...]:
+        """What a saying does; nothing where it cannot be offered."""
         try:
             # Not `parse`: a refusal there names suggestions, which are what is being made here.
             parse = self.read(say, ALONE, WorkBudget(), asking=False)
         except BudgetExceededError:
-            return False
-        return isinstance(parse, Understood) and all(map(self._offered, parse.actions))
+            return ()
+        if not isinstance(parse, Understood):
+            return ()
+        return parse.actions if self._offered is None or all(map(self._offered, parse.actions)) else ()
 
     def scan(self, tokens: Sequence[Token]) -> Lattice:
         """All that any stretch of some tokens can mean."""
@@ -269,3 +275,8 @@ class Language:
         plain = normalise(text)
         tokens = tokenise(plain, self.data.contractions)
         return content_of(self._scanner.scan(tokens, {}))
+
+    def meanings(self, text: str) -> tuple[Meanings, ...]:
+        """What each stretch of a text may mean."""
+        tokens = tokenise(normalise(text), self.data.contractions)
+        return meanings_of(self._scanner.scan(tokens, {}))

@@ -32,13 +32,15 @@ from service.grammar.parse_types import (
     Span,
     Understood,
 )
-from service.grammar.paths import ALLOWS, SEPARATOR
+from service.grammar.paths import ALLOWS, NEGATION, SEPARATOR
+from service.grammar.pointing import add_pointing
 from service.grammar.references import Unclear, add_referents
 from service.grammar.sentences import Sentences, Unsayable
 from service.grammar.subordinate import read_all
-from service.grammar.suggestions import Suggestions
+from service.grammar.suggestions import Suggestions, meanings_of
 from service.grammar.tokens import Token
 from service.grammar.topic import Topic
+from service.grammar.unparsed_span import Gap, GapFinder
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
 from sim.actions import Add, Remove
 
@@ -133,9 +135,10 @@ class Reading:
         self._suggests = asking
         unknown = self._lattice.uncovered()
         if unknown:
-            return self._refuse(self._stretches(unknown), ())
+            return self._refuse(self._stretches(unknown), (), unknown=unknown)
         add_noun_phrases(self._lattice, self._language.data.vague)
         self._unclear = add_referents(self._lattice, self._topic)
+        add_pointing(self._lattice)
         divided = read_all(self._lattice, 0, self._lattice.size, self._divide)
         if isinstance(divided, Fragment):
             return self._refuse([self._written(divided.start, divided.end)], (), asking=asking)
@@ -200,7 +203,7 @@ class Reading:
         together = [replace(clause, instead=()) for clause in clauses]
         apart = [*together[:at], *unsure.instead, *together[at + 1 :]]
         try:
-            choices = [self._choice(_once(each)) for each in (together, apart)]
+            choices = [self._choice(_once(each, self._tokens)[0]) for each in (together, apart)]
         except (Unsayable, ValidationError):  # nothing to choose from
             choices = []
         if asking and len(choices) > 1:
@@ -295,7 +298,20 @@ class Reading:
         failed = self._written(part.start, part.end)
         if any(_impossible_number(edge.sense.value) for edge in self._lattice.between(part.start, part.end)):
             return self._refusal("impossible", self._messages["impossible"].format(phrase=failed), (failed,))
-        return self._refuse([failed], understood, asking=asking)
+        return self._refuse([failed], understood, asking=asking, failed=part)
+
+    def _gap(self, unknown: Sequence[int], failed: Fragment | None) -> Gap | None:
+        """The smallest stretches that hold what is unknown, or make a part fail, and what is left without."""
+        if not self._suggests:
+            return None
+        finder = GapFinder(
+            self._plain,
+            self._tokens,
+            self._lattice,
+            lambda text, work: self._language.read(text, self._topic, work, asking=False),
+            self._language.data.lexicon.leads_on,
+        )
+        return finder.find(unknown, failed)
 
     def _lost(self, part: Fragment) -> list[str]:
         """The markers of a part with what they stand with, where the part would be read without them."""
@@ -310,13 +326,24 @@ class Reading:
                 return [self._written(each.start, min(each.end, part.end)) for each in tried]
         return []
 
-    def _refuse(self, unparsed: list[str], understood: tuple[str, ...], *, asking: bool = False) -> Parse:
+    def _refuse(
+        self,
+        unparsed: list[str],
+        understood: tuple[str, ...],
+        *,
+        asking: bool = False,
+        unknown: Sequence[int] = (),
+        failed: Fragment | None = None,
+    ) -> Parse:
         if asking and (which := self._which()) is not None:
             return which
+        gap = self._gap(unknown, failed) if unknown or failed else None
+        if gap is not None:
+            unparsed = [self._written(*span) for span in gap.spans]
         shown = unparsed[:MAX_UNPARSED]
         quoted = self._messages["and"].join(f'"{_shorten(phrase)}"' for phrase in shown)
         message = self._messages["not_understood"].format(phrases=quoted)
-        return self._refusal("not_understood", message, tuple(shown), understood)
+        return self._refusal("not_understood", message, tuple(shown), understood, gap)
 
     def _refusal(
         self,
@@ -324,10 +351,12 @@ class Reading:
         message: str,
         unparsed: tuple[str, ...] = (),
         understood: tuple[str, ...] = (),
+        gap: Gap | None = None,
     ) -> Refused:
         suggestions: tuple[str, ...] = ()
-        if self._suggests:
-            suggestions = self._language.suggestions.nearest(self._plain, content_of(self._lattice))
+        if self._suggests and reason != "negation":
+            meanings, negated = meanings_of(self._lattice), NEGATION in self._lattice.concepts
+            suggestions = self._language.suggestions.nearest(self._plain, meanings, harmless=negated, gap=gap)
         return Refused(self._text, reason, message, unparsed, understood, suggestions)
 
     def _stretches(self, unknown: list[int]) -> list[str]:

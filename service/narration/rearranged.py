@@ -3,49 +3,57 @@
 from __future__ import annotations
 
 from service.narration.naming import Naming
+from service.narration.placing import how_many_now, place_of, spot_of
 from service.narration.sayings import Sayings
 from sim.actions import Copy, MoveThings, Rearranging, Replace, Swap
 from sim.session.edits import Applied
 from sim.state import SimState
+from sim.world import Thing
 
 
-def told_rearranged(sayings: Sayings, applied: Applied, action: Rearranging, diff: str) -> str:
-    """What was done, and where things are now. `diff`: the counts that changed."""
+def told_rearranged(sayings: Sayings, applied: Applied, action: Rearranging) -> str:
+    """What was done, where things are now, and how many there are."""
+    run = applied.state
 
     def say(key: str, **parts: object) -> str:
         return sayings.say("replies", key, **parts)
+
+    def spot(thing: Thing) -> str:
+        return spot_of(sayings, run, thing.cell)
 
     match action:
         case MoveThings() if not applied.moved:
             return say("move_none")
         case MoveThings() if len(applied.moved) == 1:
             (moved,) = applied.moved
-            places = {"before": sayings.where(moved.before), "after": sayings.where(moved.thing.cell)}
-            return say("move_one", id=moved.thing.id, **places)
+            before, after = moved.before, moved.thing.cell
+            told = say("lane", lane=before[0] + 1) if before[1] == after[1] else spot_of(sayings, run, before)
+            a = sayings.say("words", "a", moved.thing.kind)
+            return say("move_one", a=a, before=told, after=spot(moved.thing))
         case MoveThings(kind=kind):
-            count = len(applied.moved)
-            return say("move_many", count=count, things=sayings.things(kind, count))
+            things = [each.thing for each in applied.moved]
+            where = place_of(sayings, run, things, "move")
+            return say("move_many", count=len(things), things=sayings.things(kind, len(things)), where=where)
         case Swap() if not applied.moved:
             return say("move_none")
         case Swap():
             one, other = (each.thing for each in applied.moved)
-            return say(
-                "swap",
-                one=one.id,
-                where=sayings.where(one.cell),
-                other=other.id,
-                other_where=sayings.where(other.cell),
-            )
+            named = {"one": one, "other": other}
+            parts = {name: sayings.say("naming", "the", thing.kind) for name, thing in named.items()}
+            return say("swap", **parts, where=spot(one), other_where=spot(other))
         case Replace(kind=kind, by=by):
             count = len(applied.added)
             things, others = sayings.things(kind, count), sayings.things(by, count)
-            return say("replace", count=count, things=things, others=others, diff=diff)
-        case Copy() if len(applied.added) == 1:
-            (new,) = applied.added
-            return say("copy_one", id=new.id, where=sayings.where(new.cell), diff=diff)
+            now = how_many_now(sayings, run, [by], left=False)
+            return say("replace", count=count, things=things, others=others, now=now)
         case Copy(kind=kind):
-            count = len(applied.added)
-            return say("copy_many", count=count, things=sayings.things(kind, count), diff=diff)
+            count, key = len(applied.added), "copy_one" if len(applied.added) == 1 else "copy_many"
+            where, now = (
+                place_of(sayings, run, applied.added, "add"),
+                how_many_now(sayings, run, [kind], left=False),
+            )
+            a = sayings.say("words", "a", kind)
+            return say(key, a=a, count=count, things=sayings.things(kind, count), where=where, now=now)
 
 
 def supposed_rearranged(sayings: Sayings, applied: Applied, action: Rearranging, before: SimState) -> str:

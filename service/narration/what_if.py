@@ -8,8 +8,8 @@ from service.contract.encode.forecast import what_if_json
 from service.narration.answerer import Json, not_so, plain
 from service.narration.naming import Naming
 from service.narration.rearranged import supposed_rearranged
-from service.narration.replies import value_of
 from service.narration.sayings import Sayings
+from service.narration.values import value_of
 from service.refusals import refusals
 from service.sessions.facts import Asked
 from sim.actions import (
@@ -181,7 +181,11 @@ class WhatIfs:
 
     def _parts(self, story: EpisodeRollout, run: SimState) -> dict[str, object]:
         a = "" if story.cause is None else self._sayings.say("words", "a", story.cause.kind)
-        return {"a": a, "ticks": self._ticks(story.driven), "planner": run.config.planner}
+        return {
+            "a": a,
+            "ticks": self._ticks(story.driven),
+            "planner": self._sayings.planner(run.config.planner, "id"),
+        }
 
     def _ticks(self, count: int) -> str:
         return self._say("ticks", "one" if count == 1 else "many", count=count)
