@@ -75,7 +75,8 @@ def _after_question(language: Language, leaning: _Leaning, found: Parse | None, 
         found = None if meant is None else Understood(alone.text, meant)
     asks = alone.text.rstrip().endswith("?")
     if found is None:
-        return leaning.refusal(alone.text) if asks and leaning.short else alone
+        counted = any(isinstance(action, Add) and action.count > 1 for action in alone.actions)
+        return leaning.refusal(alone.text) if asks and leaning.short and not counted else alone
     return found if asks else _which(language, alone.text, found, alone)
 
 
@@ -89,7 +90,7 @@ def asked_anew(done: Actions, alone: Actions) -> Actions | None:
             return (replace(question, move=move),)
         case Advise(), Add(kind=kind, count=1, where=None):
             return (replace(question, hazard=kind),)
-        case Ask(about="scene"), Add(kind=kind, where=None):
+        case Ask(about="scene"), Add(kind=kind, count=1, where=None):
             return (replace(question, kind=kind),)
     return None
 
@@ -126,8 +127,7 @@ class _Leaning:
 
     def refusal(self, text: str) -> Refused:
         """The refusal of all of it."""
-        messages = self._language.data.messages
-        said = text.strip()
+        said, messages = text.strip(), self._language.data.messages
         return Refused(
             text, "not_understood", messages["not_understood"].format(phrases=f'"{said}"'), (said,)
         )
