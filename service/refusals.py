@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from contextlib import suppress
 from functools import lru_cache
 from types import MappingProxyType
 from typing import Any, Final, Literal
@@ -134,7 +135,8 @@ class Refusals:
             slots["things"] = slots["kind"]["one" if facts.get("count") == 1 else "many"]
         for name, form in self._data["forms"].items():
             if form["of"] in facts:
-                slots[name] = _form(form, facts[form["of"]]).format(**slots)
+                with suppress(KeyError):  # a form that takes other facts too, of another refusal
+                    slots[name] = _form(form, facts[form["of"]]).format(**slots)
         return slots
 
     def _told(self, name: str, value: object) -> object:
