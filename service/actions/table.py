@@ -110,7 +110,7 @@ class ActionTraits:
     separates_settings: bool = False
     """whether a setting may be one thing before it and another after it: time passes, or something is told"""
     amendable: bool = False
-    """whether a correction ("no, three") can take it back and do it anew"""
+    """whether a correction ("no, three") can do it anew, after an undo where it is a step of undo"""
     additive: bool = False
     """whether saying it again comes on top of what was done before"""
     small_talk: bool = False
@@ -148,7 +148,9 @@ def _world(
 
 
 def _view() -> ActionTraits:
-    return ActionTraits(changes_session=False, model=ModelUse.ALWAYS, what_if=WhatIf.NO_EFFECT)
+    return ActionTraits(
+        changes_session=False, model=ModelUse.ALWAYS, what_if=WhatIf.NO_EFFECT, amendable=True
+    )
 
 
 _TABLE: Final[Mapping[type, ActionTraits]] = {
@@ -161,8 +163,8 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
     Copy: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, additive=True),
     Scenario: _world(ModelUse.CONFIRMED, gathers=True, loses=True),
     Reset: _world(ModelUse.CONFIRMED, loses=True),
-    SetMode: _world(ModelUse.UNCONFIRMED, tried=True),
-    Drive: _world(ModelUse.UNCONFIRMED),
+    SetMode: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True),
+    Drive: _world(ModelUse.UNCONFIRMED, amendable=True),
     Set: _world(ModelUse.UNCONFIRMED, amendable=True),
     Adjust: _world(ModelUse.UNCONFIRMED, amendable=True, additive=True),
     Prefer: _world(ModelUse.UNCONFIRMED, amendable=True),
@@ -174,8 +176,8 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
         what_if=WhatIf.REFUSED,
     ),
     Style: ActionTraits(undo_step=True, stands_for_others=True, tried=True, model=ModelUse.UNCONFIRMED),
-    Pause: ActionTraits(tried=True, model=ModelUse.UNCONFIRMED, idempotent=True),
-    Resume: ActionTraits(tried=True, model=ModelUse.UNCONFIRMED, idempotent=True),
+    Pause: ActionTraits(tried=True, model=ModelUse.UNCONFIRMED, idempotent=True, amendable=True),
+    Resume: ActionTraits(tried=True, model=ModelUse.UNCONFIRMED, idempotent=True, amendable=True),
     Step: ActionTraits(
         runs_ticks=True, takes_decisions=True, separates_settings=True, model=ModelUse.UNCONFIRMED
     ),
@@ -208,13 +210,18 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
     Ask: ActionTraits(
         changes_session=False,
         is_question=True,
+        amendable=True,
         separates_settings=True,
         model=ModelUse.ALWAYS,
         what_if=WhatIf.INVALID,
     ),
     Chat: ActionTraits(changes_session=False, small_talk=True, model=ModelUse.ALWAYS, what_if=WhatIf.INVALID),
     Advise: ActionTraits(
-        changes_session=False, is_question=True, model=ModelUse.ALWAYS, what_if=WhatIf.NO_EFFECT
+        changes_session=False,
+        is_question=True,
+        amendable=True,
+        model=ModelUse.ALWAYS,
+        what_if=WhatIf.NO_EFFECT,
     ),
     Evaluate: ActionTraits(
         offered=False,

@@ -51,7 +51,7 @@ class PendingQuestion(Model):
     """What was said."""
     question: str
     choices: tuple[ChoiceModel, ...]
-    """To answer, send the number of one, some of its words, or all of them; "never mind" drops the question."""
+    """To answer, say the number of one or some of its words; "never mind" drops the question."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -102,7 +102,9 @@ def _operand(lattice: Lattice, marker: Edge) -> int | None:
     here = lattice.edges[at]
     match marker.concept:
         case role if role == DEGREE:
-            if any(edge.concept in (SEPARATOR, TAG) or edge.concept.startswith(VERB) for edge in here):
+            if any(edge.concept in (SEPARATOR, TAG) for edge in here):
+                return None
+            if here and all(edge.concept.startswith(VERB) for edge in here):
                 return None
             return max([edge.end for edge in here if edge.concept != GLUE], default=at + 1)
         case role if role == THING:
@@ -154,10 +156,10 @@ def _loose(lattice: Lattice, marker: Edge, free: Set[str]) -> list[Edge]:
         passed = free | {GLUE}
         return [e for e in inside if e.concept in passed and not e.concept.startswith(SERVES)]
     loose = free | {GLUE, SECOND}
-    governed = marker.concept == PHRASE
-    return [
-        edge for edge in inside if edge.concept in loose or (governed and edge.concept.startswith(SERVES))
-    ]
+    if marker.concept == PHRASE:  # its first word decides: "in the rain", but "bring in the rain"
+        here = [edge for edge in lattice.edges[marker.start] if edge.end <= marker.end]
+        return [edge for edge in here if edge.concept in loose or edge.concept.startswith(SERVES)]
+    return [edge for edge in inside if edge.concept in loose]
 
 
 def alignment(

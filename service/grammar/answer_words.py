@@ -26,6 +26,12 @@ AFTER = "after"
 FOLLOWS = "follows"
 """Concept of the beginnings of a sentence that leans on the one before: "and", "what about"."""
 
+CORRECTS = "corrects"
+"""Concept of the beginnings of a sentence that corrects the one before: "I said", "make it"."""
+
+TOO = "too"
+"""Concept of what may end a sentence that leans on the one before: "as well"."""
+
 INSTEAD = "instead"
 """Concept of what makes the last request another one: "in lane 5 instead"."""
 

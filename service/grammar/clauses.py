@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from service.grammar.composition import Composition, Matcher, asks, within
-from service.grammar.fragments import BUT, EXCEPT, INTERJECTION, OR, STOP, Fragment
+from service.grammar.fragments import BUT, EXCEPT, INTERJECTION, OR, PAUSE, STOP, Fragment
 from service.grammar.frames import Filled
 from service.grammar.lattice import NUMBER, Edge, Lattice
 from service.grammar.lexicon import Sense
@@ -32,7 +32,6 @@ _WHOLE = (".all", ".the_many", ".bare_many", ".those")
 
 _FURTHER = ("more", "another")
 _PLACED = ("place", "side", "length")
-_PAUSE = "pause"
 
 CONTRAST = "contrast"
 EVERYTHING = "everything"
@@ -115,9 +114,14 @@ class Divider:
                 swallowed = self._composition.swallows((clause.filled, clause.actions), said)
                 return (self._or_apart(clause, said, context) if swallowed else clause), used
             apart = self._requests(said, heads, context)
-            if apart is None or _same(apart, clause) or not _optional(clause, apart):
+            if apart is None or _same(apart, clause):
                 return clause, used
-            if said[heads[0]].after == STOP or self._composition.verb_of_its_own(said[0]) is not None:
+            own = self._composition.verb_of_its_own(said[0]) is not None
+            optional = _optional(clause, apart)
+            leans = bool(context.verb) and self._composition.alone(said[0]) is None
+            if not (own or optional or context.verb):
+                return clause, used
+            if own or said[heads[0]].after == STOP or (optional and leans):
                 end = at + heads[0]
                 continue
             return replace(clause, instead=tuple(apart)), used
@@ -143,6 +147,7 @@ class Divider:
     def _or_apart(self, clause: Clause, parts: Sequence[Fragment], context: Context) -> Clause:
         """A listing, with what its parts are as clauses of their own; without, where they are none."""
         apart = self._requests(parts, range(1, len(parts)), context)
+        apart = apart and [one for each in apart for one in each.instead or (each,)]
         if apart is None or _same(apart, clause) or not _optional(clause, apart):
             return clause
         return replace(clause, instead=tuple(apart))
@@ -151,6 +156,8 @@ class Divider:
         """The longest listing clause that starts here, of two fragments or more."""
         last = at + 1
         while last < min(len(parts), at + MAX_JOINED) and parts[last].after in _TOGETHER:
+            if parts[last].after != PAUSE and self._begins_request(parts, last):
+                break
             last += 1
         if parts[at].after == OR:
             return None, 0
@@ -167,6 +174,15 @@ class Divider:
                 if leaning is not None:
                     return Clause(start, stop, *leaning), end - at
         return None, 0
+
+    def _begins_request(self, parts: Sequence[Fragment], at: int) -> bool:
+        """Whether a part only begins the sentence that it stands in: "10 metres ahead, add a cone"."""
+        if at + 1 == len(parts) or parts[at + 1].after != PAUSE:
+            return False
+        if self._composition.alone(parts[at]) or not self._composition.verb_of_its_own(parts[at + 1]):
+            return False
+        both = self._stretches.make(parts[at].start, parts[at + 1].end, joined=True)
+        return self._matcher.match(both, verbless=False) is not None
 
     def _each_whole(self, parts: Sequence[Fragment]) -> bool:
         """Whether each sentence in it is a request by itself: then they are several."""
@@ -231,7 +247,7 @@ class Divider:
 
     def _says_again(self, part: Fragment) -> bool:
         """Whether a part only says how many were meant: "a cone, just one" is not two."""
-        if part.after != _PAUSE or not self._contrasts(part):
+        if part.after != PAUSE or not self._contrasts(part):
             return False
         return not any(
             isinstance(edge.sense.value, Amount) or edge.concept in _PLACED
@@ -244,7 +260,7 @@ class Divider:
 
     def _may_lean(self, part: Fragment, context: Context) -> bool:
         """Whether an amount without a noun may be of what was spoken of: not in "a pothole, just one"."""
-        if context.distant or part.after == _PAUSE:
+        if context.distant or part.after == PAUSE:
             return self._says_more(part.start, part.end) or (
                 not context.distant and self._says_where(part.start, part.end)
             )
@@ -327,4 +343,5 @@ def _optional(joint: Clause, apart: Sequence[Clause]) -> bool:
 
     "Pothole 2 m ahead, speed 40 km/h" is one question, which neither part is alone.
     """
-    return any(clause.filled.frame.name == joint.filled.frame.name for clause in apart)
+    verbs = {action["do"] for clause in apart for action in clause.actions}
+    return all(action["do"] in verbs for action in joint.actions)

@@ -12,8 +12,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Protocol
 
 from service.actions.table import verbs_where
-from service.grammar.fragments import STOP, Fragment
+from service.grammar.fragments import BUT, PAUSE, STOP, Fragment
 from service.grammar.frames import Filled
+from service.grammar.noun_phrases import Amount
 from service.grammar.paths import Stretch
 from service.grammar.stretches import Context, Stretches
 
@@ -23,7 +24,12 @@ Reading = tuple[Filled, list[dict[str, Any]]]
 _MARKED = (".more", ".exact", ".post", ".fewer")
 """Ends of the concepts of amounts that say what to do with them: "two more cars", "cars: 7"."""
 
+_DOING = frozenset(("dir_bare",))
+"""Concepts that are a request without a verb, and a part of many others."""
+
 _QUESTIONS = verbs_where(lambda traits: traits.is_question)
+
+_SCENARIO = "scenario"
 
 _GATHERING = verbs_where(lambda traits: traits.gathers)
 """Actions that one sentence may say in several requests: "run 200 episodes and compare A* with DWA"."""
@@ -62,7 +68,7 @@ class Composition:
 
     def heads(self, joint: Filled, parts: Sequence[Fragment]) -> list[int]:
         """Which parts of a listing after the first are requests of their own."""
-        kept = [_kept(joint, part) for part in parts]
+        kept = [_kept(joint, parts, at) for at in range(len(parts))]
         return [
             at
             for at, part in enumerate(parts)
@@ -70,12 +76,17 @@ class Composition:
         ]
 
     def swallows(self, joint: Reading, parts: Sequence[Fragment]) -> bool:
-        """Whether a listing gives a part without a verb another meaning than it has alone."""
-        for part in (each for each in parts if not _kept(joint[0], each)):
-            own = self.alone(part)
-            if own is not None and (
-                asks(own[1]) != asks(joint[1]) or (_is_marked(own[0]) and not within(own[1], joint[1]))
-            ):
+        """Whether a listing gives one of its parts another meaning than it has alone."""
+        verbs = {action["do"] for action in joint[1]}
+        for at, part in enumerate(parts):
+            own = None if _kept(joint[0], parts, at) else self.alone(part)
+            if own is None:
+                continue
+            if asks(own[1]) != asks(joint[1]):
+                return True
+            apart = at > 0 and part.after in (BUT, STOP)
+            says = self.verb_of_its_own(part) is not None and verbs.isdisjoint(a["do"] for a in own[1])
+            if (apart or says or _says_what_to_do(own[0])) and not _done_by(own[1], joint[1]):
                 return True
         return False
 
@@ -88,7 +99,7 @@ class Composition:
         own = self._alone(part, verbless=True)
         if own is None or own[1] == leaning[1]:
             return None
-        apart = part.after == STOP or _is_marked(own[0]) or asks(own[1]) != asks(leaning[1])
+        apart = part.after == STOP or _says_what_to_do(own[0]) or asks(own[1]) != asks(leaning[1])
         return own if apart else None
 
     def also_leans(self, part: Fragment, own: Reading, context: Context) -> Reading | None:
@@ -112,25 +123,48 @@ def asks(actions: Sequence[Mapping[str, Any]]) -> bool:
     return asks(actions)
 
 
-def _kept(joint: Filled, part: Fragment) -> bool:
-    """Whether the frame declares that words which are a request elsewhere belong to it."""
-    inside = [edge for edge in joint.slots if part.start <= edge.start and edge.end <= part.end]
-    return bool(inside) and all(edge.concept in joint.frame.keeps for edge in inside)
+def _kept(joint: Filled, parts: Sequence[Fragment], at: int) -> bool:
+    """Whether the frame declares that words which are a request elsewhere belong to it: "at tick 12, why …"."""
+    part = parts[at]
+    if parts[max(at, 1)].after != PAUSE:
+        return False
+    inside = {edge.concept for edge in joint.slots if part.start <= edge.start and edge.end <= part.end}
+    fillers = joint.frame.many.difference(*joint.frame.needs)
+    return not inside.isdisjoint(joint.frame.keeps) and inside <= joint.frame.keeps | fillers
 
 
-def _is_marked(filled: Filled) -> bool:
-    return any(edge.concept.startswith("thing") and edge.concept.endswith(_MARKED) for edge in filled.slots)
+def _says_what_to_do(filled: Filled) -> bool:
+    """Whether something in a part without a verb says what to do: "two more cars", "straight ahead"."""
+    amounts = [edge.concept for edge in filled.slots if isinstance(edge.sense.value, Amount)]
+    if not amounts:
+        return any(edge.concept in _DOING for edge in filled.slots)
+    return any(concept.startswith("thing") and concept.endswith(_MARKED) for concept in amounts)
 
 
 def within(own: Sequence[Mapping[str, Any]], joint: Sequence[Mapping[str, Any]]) -> bool:
-    """Whether a listing does all that several requests do: "a highway, heavy traffic, exactly 12 cars"."""
-    if not any(action["do"] in _GATHERING for action in joint):
+    """Whether a listing does what several requests do: "a highway, heavy traffic, exactly 12 cars".
+
+    The first of them must be such an action itself: to ask for two cars is not to ask for another road.
+    """
+    verbs = [action["do"] for action in own]
+    roads = verbs.count(_SCENARIO)
+    if not verbs or verbs[0] not in _GATHERING or roads > 1:
         return False
-    left = [fact for action in joint for fact in _facts(action)]
-    for fact in (fact for action in own for fact in _facts(action)):
-        if fact not in left:
-            return False
-        left.remove(fact)
+    if roads and all(action["do"] != _SCENARIO for action in joint):
+        return False
+    return _done_by(own, joint)
+
+
+def _done_by(own: Sequence[Mapping[str, Any]], joint: Sequence[Mapping[str, Any]]) -> bool:
+    """Whether all that some actions set is set by others."""
+    left = [fact for action in joint if action["do"] in _GATHERING for fact in _facts(action)]
+    for action in own:
+        if action in joint:
+            continue
+        for fact in _facts(action):
+            if fact not in left:
+                return False
+            left.remove(fact)
     return True
 
 
@@ -138,10 +172,9 @@ def _facts(action: Mapping[str, Any]) -> list[tuple[str, object]]:
     """What an action sets, as keys and values; an action that sets nothing as it is."""
     match action["do"]:
         case do if do in _GATHERING:
-            listed = ((key, each) for key, each in action.items() if key != "do")
-            return [
-                (key, one) for key, each in listed for one in (each if isinstance(each, list) else [each])
-            ]
+            listed = [*action.items(), *action.get("scenario", {}).items()]
+            said = [(key, each) for key, each in listed if key not in ("do", "scenario")]
+            return [(key, one) for key, each in said for one in (each if isinstance(each, list) else [each])]
         case "set" | "set_count" | "add" if "where" not in action:
             key = action.get("parameter") or f"{action['kind']}s"
             return [(str(key), action.get("value", action.get("count")))]

@@ -18,12 +18,14 @@ from service.grammar.lexicon import SECOND
 from service.grammar.noun_phrases import COLON, NOUN, QUANTITY
 from service.grammar.parse_types import Ambiguous, Parse, Understood
 from service.grammar.paths import ALLOWS, NEGATION, SEPARATOR, SPEAKER
+from service.grammar.pointing import POINTING
 
 ENGINE_CONCEPTS = frozenset(
     {GLUE, NAME, NUMBER, UNIT, SECOND, COLON, QUANTITY, ALLOWS, NEGATION, SEPARATOR, SPEAKER}
     | {"interjection", "tag", "name_end", "name_tail", "quotes", "unsupported", "captures"}
     | {"what_if", "if", "then_what", "what_if_tail", "teach", "means"}
     | {"refers", "taught", "repeated", "repair", "contrast"}
+    | POINTING
     | MARKERS
 )
 """Concepts the engine itself gives a use."""
@@ -45,7 +47,7 @@ AMOUNT_FORMS = frozenset(
         "the_many",
     }
     | {"the_counted", "bare_one", "bare_many", "more_bare", "more_bare_one", "fewer_bare", "post"}
-    | {"those_counted", "asked", "too_many", "too_few"}
+    | {"those_counted", "asked", "half", "too_many", "too_few"}
     | {"id", "last", "last_counted"}
 )
 DIMENSIONS = frozenset({"number", "length", "speed", "seconds", "fraction", "times", "rate", "real_times"})

@@ -154,8 +154,16 @@ def _joined(gathered: _Gathered, noun: Edge, vague: int) -> Edge:
 def _form(gathered: _Gathered, many: bool, vague: int) -> tuple[str, int | float | None]:
     """The kind of amount and the count, from the words before the noun."""
     said, number = gathered.said - {"filler"}, gathered.number
+    if "other" in said:  # "the other two cars" are no two more
+        if said & {"the", "those", OF_THE, "all"}:
+            return (ODD, None)
+        said = said - {"other"} | {"more"}
     if ODD in said:
         return (ODD, None)
+    if "half" in said or "both" in said:
+        if number is not None or len(said) > 1:
+            return (ODD, None)
+        return ("half", None) if "half" in said else ("the_counted", 2)
     if said & {"too_many", "too_few"}:
         (excess,) = said & {"too_many", "too_few"} if len(said) == 1 and number is None else (ODD,)
         return (excess, None)

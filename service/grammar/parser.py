@@ -33,6 +33,7 @@ from service.grammar.parse_types import (
     Understood,
 )
 from service.grammar.paths import ALLOWS, NEGATION, SEPARATOR
+from service.grammar.pointing import add_pointing
 from service.grammar.references import Unclear, add_referents
 from service.grammar.sentences import Sentences, Unsayable
 from service.grammar.subordinate import read_all
@@ -137,6 +138,7 @@ class Reading:
             return self._refuse(self._stretches(unknown), (), unknown=unknown)
         add_noun_phrases(self._lattice, self._language.data.vague)
         self._unclear = add_referents(self._lattice, self._topic)
+        add_pointing(self._lattice)
         divided = read_all(self._lattice, 0, self._lattice.size, self._divide)
         if isinstance(divided, Fragment):
             return self._refuse([self._written(divided.start, divided.end)], (), asking=asking)
@@ -201,7 +203,7 @@ class Reading:
         together = [replace(clause, instead=()) for clause in clauses]
         apart = [*together[:at], *unsure.instead, *together[at + 1 :]]
         try:
-            choices = [self._choice(_once(each)) for each in (together, apart)]
+            choices = [self._choice(_once(each, self._tokens)[0]) for each in (together, apart)]
         except (Unsayable, ValidationError):  # nothing to choose from
             choices = []
         if asking and len(choices) > 1:

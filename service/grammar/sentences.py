@@ -127,7 +127,9 @@ class Sentences:
                 return self._say("swap", first=self._one(first), second=self._one(second))
             case Replace(by=by):
                 things = self._meant(action.kind, action.count, action.where)
-                return self._say("replace", things=things, others=self._entry("things", by)[1])
+                others = self._entry("things", by)
+                one = action.count == 1
+                return self._say("replace", things=things, others=f"1 {others[0]}" if one else others[1])
             case Copy(to=to):
                 things = self._meant(action.kind, action.count, action.where)
                 return self._say("copy_to" if to else "copy", things=things, to=self._destination(to))
@@ -234,8 +236,10 @@ class Sentences:
         if action.except_ is not None:
             if count != "all" or where is not None:
                 raise Unsayable("an exception is one of all")
-            things = self._say("everything") if kind == "everything" else self._entry("things", kind)[1]
-            return self._say("remove_except", things=things, stay=self._staying(action.except_))
+            stay = self._staying(action.except_)
+            if kind == "everything":
+                return self._say("remove_except_everything", stay=stay)
+            return self._say("remove_except", things=self._entry("things", kind)[1], stay=stay)
         if count == "half":
             if kind == "everything":
                 raise Unsayable("half of everything is said of no kind")
@@ -281,7 +285,9 @@ class Sentences:
             key = f"cell{'s' if where.cells != 1 else ''}_{'side' if where.side else 'away'}"
             said += words.get(key, words["cells"]).format(cells=where.cells)
         if where.of is not None:
-            key = where.side or ("from" if where.distance_m or where.cells else "near")
+            if where.side is None and (where.distance_m or where.cells):
+                raise Unsayable("a distance from a thing has a side")
+            key = where.side or "near"
             said += words["seen_from"][key].format(thing=self._landmark(where.of))
         elif where.side is not None:
             said += words[where.side]

@@ -25,7 +25,7 @@ TEACHING = verbs_where(lambda traits: traits.changes_aliases)
 NO_CHANGE = verbs_where(lambda traits: traits.what_if is WhatIf.INVALID)
 """Actions that cannot stand in a condition."""
 
-CONDITIONAL = frozenset({"cond", "past"})
+CONDITIONAL = frozenset({"cond", "past", "at"})
 """Forms in place inside a condition."""
 
 Divide = Callable[[int, int, frozenset[str]], Divided]

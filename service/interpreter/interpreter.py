@@ -14,6 +14,8 @@ from anyio import to_thread
 
 from service.actions import Action, Ask, Drop, Forget, Teach
 from service.actions.table import ModelUse, traits_of
+from service.grammar import Language as Grammar
+from service.grammar.follow_up import read_in_conversation
 from service.grammar.parse_types import Ambiguous as AmbiguousParse
 from service.grammar.parse_types import Correction, Parse, Refused, Understood
 from service.grammar.references import parse_in_topic
@@ -114,6 +116,8 @@ class Interpreter:
             parsed = parse_in_topic(language.parse, text, topic)
         else:
             parsed = await to_thread.run_sync(parse_in_topic, language.parse, text, topic)
+        if isinstance(language, Grammar):
+            parsed = read_in_conversation(language, text, topic, parsed)
         return answered(language, code, text, parsed, None if session is None else session.pending)
 
     async def interpret(

@@ -1,4 +1,4 @@
-"""Questions of ours: how one becomes the pending question of a session, and how the next sentence answers it."""
+"""Questions of ours: how one becomes a session's pending question, and how the next sentence answers it."""
 
 from __future__ import annotations
 

@@ -381,9 +381,10 @@ class Session:
         before, began = self.run, self.timeline.tick
         if transaction.playback_speed != self.playback_speed:
             self.services.clock.remove(self)  # the turn it waits for is at the old speed
+        step = transaction.undo_stack.is_step_after(self.undo_stack)
         self.adopt(transaction, outcome.sequence, performed_actions(outcome.utterance.actions, outcome.facts))
         self.set_paused(transaction.paused)
-        self.conversation.record(outcome)
+        self.conversation.record(outcome, step=step)
         lines = [self.feed.log_line(began, CHANGED, outcome.done, transient=False)]
         playing = outcome.only_steps and len(outcome.ticks) <= MAX_STREAMED_TICKS
         for run, part in parts_with_events(outcome.facts):

@@ -72,7 +72,7 @@ def _count(transaction: Transaction, action: Undo | Redo, position: int) -> int:
     do = "undo" if undoing else "redo"
     if not there:
         raise _refused(words.session(f"nothing_to_{do}"), f"actions.{position}")
-    sentence = words.session(f"too_few_to_{do}", count=there, steps=wanted)
+    sentence = words.session(f"too_few_to_{do}", there=there, steps=wanted)
     raise _refused(sentence, f"actions.{position}.steps")
 
 

@@ -87,6 +87,10 @@ class UndoStack:
         """The number of steps that can be undone."""
         return len(self.done) + self.base_steps
 
+    def is_step_after(self, before: UndoStack) -> bool:
+        """Whether the latest step is a new one, compared with the stack as it was before."""
+        return bool(self.done) and (not before.done or self.done[-1] is not before.done[-1])
+
     def copy(self) -> UndoStack:
         """An independent copy."""
         # By name: `replace` takes five times as long, for every change.

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from typing import Final, TypeVar, get_args
 
 from sim.actions import GoalName, Layout, RoadType, Scenario, Set, Traffic, WorldAction
+from sim.config import Problem
 from sim.goals.budget import Budget
 from sim.goals.finding import Finding
 from sim.goals.measure import Difficulty, Drive, drive, measure
@@ -88,6 +89,10 @@ def find_separating_road(state: SimState, can: str, cannot: str, budget: Budget)
     """A new road that one planner drives to the goal, and another does not. Raises `EditError`."""
     if can == cannot:
         raise EditError("goal_same_planner", "planners")
+    for name in (can, cannot):
+        if name in PROMISED:
+            problem = Problem("planner", "planner_not_available", value=name)
+            raise EditError("scenario_not_available", "planners", problem=problem)
     stream = _stream(state, "separates")
     # The quicker of the two first: it rules out most roads.
     order = sorted((can, cannot), key=lambda name: (traits_of(name).work, name != cannot))
