@@ -58,7 +58,9 @@ def drives(count: int, seed: int, planner: str) -> Iterator[Timeline]:
             planner=planner,
         )
         if planner in ("dijkstra", "astar") and draw.random() < 0.4:
-            config = config.with_parts(preferences=draw.choice([("cautious",), ("fastest",), ("smooth_ride",)]))
+            config = config.with_parts(
+                preferences=draw.choice([("cautious",), ("fastest",), ("smooth_ride",)])
+            )
         timeline = Timeline(config)
         for _ in range(draw.randrange(1, rows)):
             timeline.advance()
@@ -105,7 +107,9 @@ def checked(job: tuple[str, int, int]) -> tuple[Counter[str], Counter[str], list
     draw = random.Random(seed)
     for at, timeline in enumerate(drives(count, seed, planner)):
         looked["decisions"] += 1
-        for kind, found in _of_decision(timeline, draw, thorough=traits_of(planner).quick and (BATCH * seed + at) % THOROUGH == 0):
+        for kind, found in _of_decision(
+            timeline, draw, thorough=traits_of(planner).quick and (BATCH * seed + at) % THOROUGH == 0
+        ):
             looked[kind] += 1
             if found is not None:
                 false[kind] += 1

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from service.contract.encode.explanation import crash_json
 from service.narration.answerer import Json, not_so, plain
-from service.narration.proofs import called
 from service.narration.inflection import capital
 from service.narration.naming import Naming
 from service.narration.options import Options
+from service.narration.proofs import called
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.explain import QuestionError
@@ -142,7 +142,11 @@ class Crashes:
         """That no way led to the goal, as far back as it is known."""
         if crash.whole:
             return self._say("never")
-        return self._say("not_since", seconds=self._seconds(crash.looked_back, crash)) if crash.looked_back > 1 else ""
+        return (
+            self._say("not_since", seconds=self._seconds(crash.looked_back, crash))
+            if crash.looked_back > 1
+            else ""
+        )
 
     def _avoiding(self, crash: Crash) -> str:
         """Whether the crash could have been avoided all the same, and how."""

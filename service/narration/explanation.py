@@ -57,7 +57,10 @@ class _Telling:
         """Why the move was made."""
         decision = self._decision
         if decision.fault is not None:
-            planner, fault = self._sayings.planner(decision.planner, "id"), self._sayings.fault(decision.fault)
+            planner, fault = (
+                self._sayings.planner(decision.planner, "id"),
+                self._sayings.fault(decision.fault),
+            )
             return [Part(0, self._say("fact_fault", tick=decision.tick, planner=planner, fault=fault))]
         if decision.asked is not None and not decision.held_back:
             return [Part(0, self._say("fact_asked", tick=decision.tick, did=self._did(decision.move)))]
@@ -100,7 +103,9 @@ class _Telling:
         """The reasons; where they are very many words, those of the first moves."""
         if self._detailed or len(reasons.split()) <= MOST_WORDS // 2:
             return reasons
-        met = hindered or [option for option in self._decision.preferred if option.reason.blocks and option.cell]
+        met = hindered or [
+            option for option in self._decision.preferred if option.reason.blocks and option.cell
+        ]
         if len(met) <= MOST_REASONS:
             return reasons
         first = self._sayings.all_met(met[:MOST_REASONS], "then", self._naming)

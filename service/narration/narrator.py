@@ -223,9 +223,7 @@ class Narrator:
         """The answer to a question, as JSON values."""
         return self._answers.answer(asked)
 
-    def _weighed(
-        self, decision: Decision, run: SimState, naming: Naming, forecast: Forecast | None
-    ) -> str:
+    def _weighed(self, decision: Decision, run: SimState, naming: Naming, forecast: Forecast | None) -> str:
         """The move of a planner that knows what each costs in all, against going straight on."""
         name = self._named(decision.move)
         straight, chosen = decision.option(Move.FORWARD), decision.chosen

@@ -108,7 +108,9 @@ class Proofs:
     def _even(self, flip: Counterfactual) -> str:
         who = self._seeing(flip.removed, self._names(flip.removed))
         weighed = self._explanation.decision.measure is not Measure.RANK
-        return self._say("not_flips_weighed" if weighed else "not_flips_other", who=who, do=self._do(flip.move))
+        return self._say(
+            "not_flips_weighed" if weighed else "not_flips_other", who=who, do=self._do(flip.move)
+        )
 
     def _flip(self, flip: Counterfactual, foil: Move) -> str:
         who = self._seeing(flip.removed, self._names(flip.removed)) if flip.removed else ""

@@ -122,7 +122,10 @@ class WhatIfs:
         """Whether the first move that a person would ask for leads to a cell of the road."""
         asked = next((each.action.move for each in found.done if isinstance(each.action, Drive)), None)
         state = found.state
-        return asked is None or state.config.ego_dynamics(state.world.road).target(state.world.av, asked) is not None
+        return (
+            asked is None
+            or state.config.ego_dynamics(state.world.road).target(state.world.av, asked) is not None
+        )
 
     def _as_it_is(self, found: WhatIf) -> str:
         if found.by_chance:
@@ -170,7 +173,9 @@ class WhatIfs:
     def _why_nothing(self, found: WhatIf) -> list[str]:
         """Wishes are nothing to a planner that does not weigh."""
         planner = found.done[-1].state.config.planner
-        wished = found.first_difference is None and any(isinstance(each.action, Prefer) for each in found.done)
+        wished = found.first_difference is None and any(
+            isinstance(each.action, Prefer) for each in found.done
+        )
         if not wished or traits_of(planner).weighs_costs or found.real.by_hand:
             return []
         return [self._sayings.say("replies", "weighs_nothing", planner=self._sayings.planner(planner, "id"))]
@@ -202,7 +207,9 @@ class WhatIfs:
         same = real.cause is None or changed.cause is None or real.cause.kind is changed.cause.kind
         if real.outcome is changed.outcome is not Outcome.RUNNING and same:
             return self._say("both", changed.outcome, **parts)
-        return self._say("rather", changed=self._end(changed, found.done[-1].state), real=self._end(real, run))
+        return self._say(
+            "rather", changed=self._end(changed, found.done[-1].state), real=self._end(real, run)
+        )
 
     def _end(self, story: EpisodeRollout, run: SimState) -> str:
         return self._say("ends", _ending(story), **self._parts(story, run))

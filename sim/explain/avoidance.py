@@ -57,7 +57,9 @@ def find_avoidance(driven: Iterable[tuple[SimState, Decision]], *, whole: bool) 
         if len(state.world.avs) > 1 or not config.free_ways_hold:
             return UNKNOWN
         exact = exact and not config.reacting
-        if (found := _kept_clear(state, decision, standing=config.reacting and back < STANDING_TICKS)) is not None:
+        if (
+            found := _kept_clear(state, decision, standing=config.reacting and back < STANDING_TICKS)
+        ) is not None:
             return Avoidable(found, proved=True)
     return Avoidable(None, proved=exact and whole)
 

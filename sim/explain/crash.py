@@ -154,7 +154,17 @@ def why_crashed(timeline: Timeline, tick: int | None = None, *, ego: str | None 
     if certain and saving is None:
         avoidable = find_avoidance(_driven(timeline, state, ego, looked_back), whole=whole)
     return Crash(
-        explanation, after.cause, after.tick, free, certain, looked_back, whole, saving, avoidable, met, missed
+        explanation,
+        after.cause,
+        after.tick,
+        free,
+        certain,
+        looked_back,
+        whole,
+        saving,
+        avoidable,
+        met,
+        missed,
     )
 
 

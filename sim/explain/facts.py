@@ -13,7 +13,6 @@ from sim.plan import Decision
 from sim.state import SimState
 from sim.types import Cell, Kind, Move
 
-
 __all__ = ["Cause", "Counterfactual", "Explanation", "Link", "QuestionError", "Role", "Verified", "check_ego"]
 
 

@@ -118,9 +118,7 @@ def what_if(
     likely: tuple[Chances | None, Chances | None] = (None, None)
     if state.world.outcome is changed.world.outcome is Outcome.RUNNING and first is None:
         likely = chances(state, ego, seen=True), chances(changed, ego, seen=True)
-    return WhatIf(
-        state, tuple(done), real, other, same_road, difference, lost, certain, said_since, *likely
-    )
+    return WhatIf(state, tuple(done), real, other, same_road, difference, lost, certain, said_since, *likely)
 
 
 def _new_road(done: Sequence[Applied]) -> bool:

@@ -23,8 +23,8 @@ from typing import Protocol
 
 from sim.explain.factors import is_factor
 from sim.explain.facts import Cause, Counterfactual, Explanation, Role, Verified
-from sim.explain.rest import Rest
 from sim.explain.intervention import Intervention, wall
+from sim.explain.rest import Rest
 from sim.oracle.ddmin import ddmin
 from sim.perceive import Percept
 from sim.plan import Decision, Option

@@ -115,9 +115,7 @@ def judge_groups(explanation: Explanation, *, thorough: bool = False) -> Judged:
     state, fact = explanation.moment, explanation.decision.move
     for group in {cause.group for cause in explanation.causes if len(cause.group) > 1}:
         spare = any(
-            flips(state, part, fact)
-            for size in range(1, len(group))
-            for part in combinations(group, size)
+            flips(state, part, fact) for size in range(1, len(group)) for part in combinations(group, size)
         )
         yield "3 spare member of a group", f"{group}" if spare else None
         if thorough and len(group) == 3:
@@ -162,12 +160,16 @@ def edits_of(change: Sequence[WorldAction]) -> list[tuple[WorldAction, ...]]:
 
 def changes_reaching(state: SimState, foil: Move, size: int) -> Iterator[tuple[WorldAction, ...]]:
     """Changes of up to so many edits that lead to a move: things taken away, and cells beside it blocked."""
-    edits = [(action,) for name in names_of(state) if ":" not in name for action in taking([name], state.config)]
+    edits = [
+        (action,) for name in names_of(state) if ":" not in name for action in taking([name], state.config)
+    ]
     made = decide(state)
     assert made is not None
     from sim.explain.intervention import wall  # only where a wall of which kind can stand
 
-    cells = [option.cell for option in made.options if option.cell is not None and option.move is not Move.STAY]
+    cells = [
+        option.cell for option in made.options if option.cell is not None and option.move is not Move.STAY
+    ]
     edits += [(wall(state.world, cell),) for cell in cells]
     if made.measure is Measure.COST:
         edits += [(Prefer(preference=wish),) for wish in ("fastest", "cautious", "balanced")]  # type: ignore[arg-type]

@@ -6,7 +6,7 @@ No mover is taken to brake, so what is found possible is possible all the same.
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import lru_cache
+from functools import cache
 
 from sim.types import Cell
 from tests.support.twin import EGO, STEPS, Body, Position, Size, moved_bodies, together
@@ -83,6 +83,6 @@ def _touch(begin: Cell, end: Cell, body: Cell, later: Cell, size: Size) -> bool:
     return _touching(seen(end), seen(body), seen(later), size)
 
 
-@lru_cache(maxsize=None)
+@cache
 def _touching(end: Cell, body: Cell, later: Cell, size: Size) -> bool:
     return together(((0, 0), end), EGO, (body, later), size)

@@ -91,7 +91,8 @@ def _leans(one: Saying, other: Saying, got: Actions) -> bool:
     rest = got[len(one.actions) :]
     verbs = {action["do"] for action in one.actions}
     return len(rest) == len(other.actions) and all(
-        said["do"] in verbs and _about(said) == _about(own) for said, own in zip(rest, other.actions, strict=True)
+        said["do"] in verbs and _about(said) == _about(own)
+        for said, own in zip(rest, other.actions, strict=True)
     )
 
 
