@@ -54,7 +54,7 @@ class Crashes:
                 Part(0, self._happened(crash, decision, naming)),
                 *(Part(1, each) for each in self._not_as_seen(crash, naming)),
                 Part(1, self._by_whom(decision)),
-                Part(4, self._otherwise(crash, decision, naming)),
+                Part(2 if crash.free else 4, self._otherwise(crash, decision, naming)),
                 Part(3, flips),
                 Part(2, self._saving(crash)),
             ]

@@ -70,8 +70,8 @@ class Flipping:
     """What flips a decision by itself, among many things and in few runs.
 
     Of a planner that weighs costs, things are taken away in groups. With less in the way no way gets dearer,
-    so where even without the whole group no other move is as good as the one taken, none of it flips it alone.
-    That leaves out what a mover does to others: those are looked for among the nearest, one by one.
+    so where even without the whole group no other move is as good as the one taken, none of it flips it
+    alone. That leaves out what a mover does to others: those are looked for among the nearest, one by one.
     """
 
     def __init__(self, rerun: Intervention) -> None:
