@@ -149,7 +149,7 @@ class Crashes:
         if saving.tick == crash.explanation.decision.tick:
             return self._say("saved_last", doing=doing, seconds=seconds)
         did = self._sayings.move(saving.made, "did")
-        return self._say("saved", tick=saving.tick, did=did, doing=doing, seconds=seconds)
+        return self._say("saved", tick=saving.tick, did=did, doing=doing)
 
     def _no_way(self, crash: Crash) -> str:
         """That no way led to the goal, as far back as it is known."""
