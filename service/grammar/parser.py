@@ -24,6 +24,7 @@ from service.grammar.parse_types import Ambiguous, Choice, Correction, Parse, Re
 from service.grammar.paths import ALLOWS, SEPARATOR
 from service.grammar.references import Unclear, add_referents
 from service.grammar.sentences import Sentences, Unsayable
+from service.grammar.small_talk import small_talk
 from service.grammar.subordinate import read_all
 from service.grammar.suggestions import Suggestions
 from service.grammar.tokens import Token
@@ -116,6 +117,8 @@ class Reading:
         unknown = self._lattice.uncovered()
         if unknown:
             return self._refuse(self._stretches(unknown), ())
+        if manners := small_talk(self._lattice):
+            return Understood(self._text, load(manners), self._corrections)
         add_noun_phrases(self._lattice, self._language.data.vague)
         self._unclear = add_referents(self._lattice, self._topic)
         divided = read_all(self._lattice, 0, self._lattice.size, self._divide)
