@@ -117,7 +117,7 @@ class Reading:
         unknown = self._lattice.uncovered()
         if unknown:
             return self._refuse(self._stretches(unknown), ())
-        if manners := small_talk(self._lattice):
+        if asking and (manners := small_talk(self._lattice)):
             return Understood(self._text, load(manners), self._corrections)
         add_noun_phrases(self._lattice, self._language.data.vague)
         self._unclear = add_referents(self._lattice, self._topic)
